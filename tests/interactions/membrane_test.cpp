@@ -1,5 +1,6 @@
 // Hands on a fold, in the small scene: it cannot be passed from either side, it can be held, and scissors part it.
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,8 @@ using namespace trocar::interactions;
 
 namespace {
 
-/// A square sheet in the plane z = 0, held all round, and a rod that goes where a test says.
+/// A square sheet in the plane z = 0, held all round or all but where x is greatest, and a rod that goes where a test
+/// says.
 struct Drum {
   tissue::MembraneModel sheet;
   tissue::MembraneState state;
@@ -28,13 +30,13 @@ struct Drum {
   bool moved = false;
   SheetBond bond = SheetBond::none;
 
-  Drum() {
+  explicit Drum(bool open = false) {
     tissue::MembraneDescription d;
     d.columns = d.rows = 13;
     for (int r = 0; r < 13; ++r)
       for (int c = 0; c < 13; ++c) {
         d.positions.push_back({0.0028 * (c - 6), 0.0028 * (r - 6), 0});
-        d.held.push_back(r == 0 || c == 0 || r == 12 || c == 12);
+        d.held.push_back(r == 0 || c == 0 || r == 12 || (c == 12 && !open));
       }
     d.thickness = 0.0005;
     d.youngs_modulus = 17e3;
@@ -164,6 +166,34 @@ TEST(Fold, AShaftThatIsThroughComesOutWithItsHeadAndTakesNothingAlong) {
   // From now on it is an instrument like any other.
   for (int i = 0; i < 60; ++i) ASSERT_TRUE(drum.step_with(with_head({0.0003, 0.0004, 0.0136 - 0.0004 * i})));
   EXPECT_LT(drum.height(6, 6), -0.007);
+}
+
+/// A hook that points down, its foot to where x grows or to the other side.
+ToolShape hook(Vec3d tip, bool turned) {
+  ToolModel model;
+  model.kind = ToolKind::hook;
+  model.jaw_length = 0.012;
+  model.jaw_thickness = 0.0012;
+  model.foot = 0.0026;
+  model.port = tip + Vec3d{0, 0, 0.1};
+  return shape_of(model, {0, 0, turned ? std::numbers::pi : 0.0, 0.1}, 0);
+}
+
+TEST(Fold, AHooksFootLiftsItsEdgeUnlessItLooksAway) {
+  for (const bool below : {true, false}) {
+    Drum drum(true);
+    const double edge = 0.0168, beside = edge + 0.0006 + 0.00025 + 0.0002;
+    for (int i = 0; i <= 100; ++i) ASSERT_TRUE(drum.step_with(hook({beside + 5e-5 * (100 - i), 0, -0.003}, below)));
+    EXPECT_LT(std::fabs(drum.height(12, 6)), 2e-4) << "nothing has been touched so far";
+    for (int i = 0; i <= 200; ++i) ASSERT_TRUE(drum.step_with(hook({beside, 0, -0.003 + 2.5e-5 * i}, below)));
+    const double lying_on_it = 0.002 + 0.0012 + 0.00025;
+    if (below) {
+      EXPECT_NEAR(drum.height(12, 6), lying_on_it, 3e-4);
+      EXPECT_LT(drum.felt.z, -2e-4) << "it holds the hook back";
+    } else {
+      EXPECT_LT(std::fabs(drum.height(12, 6)), 2e-4);
+    }
+  }
 }
 
 /// An instrument of the small scene through a port of the test's own.

@@ -26,6 +26,16 @@ ToolModel parallel() {
   return m;
 }
 
+ToolModel hook() {
+  ToolModel m = hinged();
+  m.kind = ToolKind::hook;
+  m.jaw_length = 0.012;
+  m.jaw_thickness = 0.0012;
+  m.opening = 0;
+  m.foot = 0.0026;
+  return m;
+}
+
 const kinematics::FulcrumPose kPose{0.3, -0.4, 0.7, 0.15};
 
 TEST(ToolShape, ShaftAndJawsLieOnTheLineThroughThePort) {
@@ -71,6 +81,19 @@ TEST(ToolShape, ParallelJawsStayParallelAndLeaveTheirGap) {
         dot(s.part[kJawA].a - s.part[kJawB].a, s.frame.opening()) - s.part[kJawA].radius - s.part[kJawB].radius;
     EXPECT_NEAR(between, aperture * m.parallel_gap, 1e-12);
     EXPECT_NEAR(2 * s.half_opening(0.01), aperture * m.parallel_gap, 1e-12);
+  }
+}
+
+TEST(ToolShape, AHooksFootGoesFromItsWiresEndToWhereJawsWouldOpenAndNothingReachesBeyondTheTip) {
+  const ToolModel m = hook();
+  for (double aperture : {0.0, 1.0}) {
+    const ToolShape s = shape_of(m, kPose, aperture);
+    const Capsule &wire = s.part[kJawA], &foot = s.part[kJawB];
+    EXPECT_LT(length(wire.a - s.pivot), 1e-12);
+    EXPECT_EQ(length(wire.b - foot.a), 0) << "one bent wire";
+    EXPECT_NEAR(to_jaw(s, wire.b).z + wire.radius, m.jaw_length, 1e-12);
+    EXPECT_LT(length(to_jaw(s, foot.b) - Vec3d{m.foot - foot.radius, 0, m.jaw_length - foot.radius}), 1e-12);
+    EXPECT_EQ(s.half_opening(0.01), 0) << "it does not open";
   }
 }
 

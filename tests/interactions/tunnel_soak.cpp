@@ -10,11 +10,11 @@ using namespace trocar;
 namespace {
 
 /// @return how many were passed
-int passages(trials::Kind kind, int count) {
-  trials::Trials trials(kind, 2026);
+int passages(trials::Kind kind, int count, trials::With with = trials::With::grasper, double fastest = 2.0) {
+  trials::Trials trials(kind, 2026, with);
   int stabs = 0, passed_stabs = 0, passed_sweeps = 0, sank = 0, touched = 0;
   for (int i = 0; i < count; ++i) {
-    const trials::Trials::Result r = trials.trial(i);
+    const trials::Trials::Result r = trials.trial(i, 0.3, fastest);
     stabs += r.stab;
     (r.stab ? passed_stabs : passed_sweeps) += r.passed;
     sank += r.sank;
@@ -32,5 +32,9 @@ TEST(TunnelSoak, OrgansOfALatticeAreNotPassed) { EXPECT_EQ(passages(trials::Kind
 TEST(TunnelSoak, OrgansOfTetrahedraAreNotPassed) { EXPECT_EQ(passages(trials::Kind::cells, 20'000), 0); }
 TEST(TunnelSoak, StrandsAreNotPassed) { EXPECT_EQ(passages(trials::Kind::strand, 40'000), 0); }
 TEST(TunnelSoak, FoldsAreNotPassed) { EXPECT_EQ(passages(trials::Kind::fold, 20'000), 0); }
+TEST(TunnelSoak, NothingIsPassedByAHookWithAFootAtHandSpeed) {
+  for (const trials::Kind kind : {trials::Kind::organ, trials::Kind::cells, trials::Kind::strand, trials::Kind::fold})
+    EXPECT_EQ(passages(kind, 2'000, trials::With::hook, 0.6), 0);
+}
 
 }  // namespace

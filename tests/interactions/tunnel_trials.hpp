@@ -29,8 +29,19 @@ inline scene::Solid floating(scene::Solid s) {
   return s;
 }
 
-/// One body of that kind and the grasper; a fold comes with the tube it hangs on and the organ it grows from.
-inline scene::Description description(Kind kind) {
+/// A hook with a foot instead of the grasper.
+inline void take_hook(scene::Instrument& i) {
+  i.kind = interactions::ToolKind::hook;
+  i.jaw_length = 0.012;
+  i.jaw_thickness = 0.0012;
+  i.opening = 0;
+  i.foot = 0.0026;
+}
+
+enum class With { grasper, hook };
+
+/// One body of that kind and the instrument; a fold comes with the tube it hangs on and the organ it grows from.
+inline scene::Description description(Kind kind, With with) {
   scene::Description d = small::description();
   d.walls.clear();
   d.solids.clear();
@@ -59,6 +70,7 @@ inline scene::Description description(Kind kind) {
   }
   d.placements.resize(1);
   d.instruments.resize(1);
+  if (with == With::hook) take_hook(d.instruments[0]);
   d.ports = {d.ports.front(), d.ports.back()};
   return d;
 }
@@ -116,9 +128,9 @@ inline int passage(const Segment& p0, const Segment& p1, const Segment& q0, cons
 
 class Trials {
  public:
-  explicit Trials(Kind kind, std::uint64_t seed = 1)
+  explicit Trials(Kind kind, std::uint64_t seed = 1, With with = With::grasper)
       : m_kind(kind),
-        m_model(scene::compile(description(kind))),
+        m_model(scene::compile(description(kind, with))),
         m_initial(sim::initial_state(m_model)),
         m_work(sim::make_work(m_model)),
         m_seed(seed),
@@ -217,10 +229,14 @@ class Trials {
     return m;
   }
 
+  /// A hook's ends a radius before its tip.
+  static Segment axis_of(const interactions::ToolShape& s) {
+    return {s.part[interactions::kShaft].a, s.has_foot ? s.part[interactions::kJawA].b : s.frame.tip};
+  }
   Segment axis_at(const Motion& m, double left) const {
     const kinematics::FulcrumPose pose = kinematics::inverse(m.port, m.end - left * m.way, m.roll);
     const interactions::ToolShape s = interactions::shape_of(m_model.placed(0), pose, 0);
-    return {s.part[interactions::kShaft].a, s.frame.tip};
+    return axis_of(s);
   }
 
   /// Is the instrument clear of everything at the start?
@@ -302,7 +318,7 @@ class Trials {
       const double* f = s.tools[0].contact_force;
       r.touched = r.touched || std::fabs(f[0]) + std::fabs(f[1]) + std::fabs(f[2]) > 0;
       const std::vector<Vec3d> now = points(s);
-      const Segment axis{m_work.shapes[0].part[interactions::kShaft].a, m_work.shapes[0].frame.tip};
+      const Segment axis = axis_of(m_work.shapes[0]);
       follow_edges(axis_before, axis, before, now, r);
       before = now;
       axis_before = axis;

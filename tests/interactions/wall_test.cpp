@@ -53,6 +53,29 @@ TEST(Walls, StopAnInstrumentAndPressBackWithABoundedForce) {
   EXPECT_LE(length(force_on(t)), 15);
 }
 
+/// A leaning hook is held above the floor and turned all around.
+TEST(Walls, StopAHooksFootAsItsWire) {
+  scene::Description d = small::description();
+  scene::Instrument& i = d.instruments[kGrasper];
+  i.kind = ToolKind::hook;
+  i.jaw_length = 0.012, i.jaw_thickness = 0.0012, i.opening = 0, i.foot = 0.004;
+  const sim::Model model = scene::compile(d);
+  small::Table t(model);
+  t.carry(kGrasper, {0.055, 0, 0.04}, {0.090, -0.040, 0}, 0.2);
+  t.carry(kGrasper, {0.090, -0.040, 0}, {0.090, -0.040, kFloor - 0.003}, 0.1);
+  double lowest = 1, highest = -1;
+  for (int turn = 0; turn < 600; ++turn) {
+    t.input.tools[kGrasper].roll += 0.0105f;
+    t.step();
+    const ToolShape& s = t.work.shapes[kGrasper];
+    double z = 1;
+    for (const int part : {kJawA, kJawB}) z = std::min(z, s.part[part].b.z - s.part[part].radius);
+    lowest = std::min(lowest, z), highest = std::max(highest, z);
+  }
+  EXPECT_GT(lowest, kFloor - 2e-4);
+  EXPECT_LT(highest, kFloor + 2e-4) << "whichever is lower rests on it";
+}
+
 TEST(Walls, LetGoOfAnInstrumentAsSoonAsTheHandWithdraws) {
   Pressed t;
   t.point(kGrasper, {0.085, -0.030, kFloor + 0.010});

@@ -331,6 +331,14 @@ TEST(Reader, InstrumentsMustBeOfOneMind) {
             one("expected 0 or nothing beside parallel_gap_mm (jaws turn or stay parallel), got an angle"));
 }
 
+TEST(Reader, FeetBelongToHooks) {
+  EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "bipolar", "foot_mm": @2.6}],)"}}),
+            one("expected a foot only in a hook, got one in a bipolar"));
+  EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "hook", "jaw_thickness_mm": 1.2, )"
+                            R"("foot_mm": @0.6}],)"}}),
+            one("expected 0 or more than half of jaw_thickness_mm (the wire's radius), got no more than that"));
+}
+
 TEST(Reader, ElectrodesBelongToHooksAndForceps) {
   EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "probe", "electrode": @{}}],)"}}),
             one("expected an electrode only in a hook or bipolar, got one in a probe"));

@@ -129,12 +129,13 @@ void push(const Surface& surface, const std::array<int, 3>& triangle, const Meet
   }
 }
 
-/// Closed jaws as one rod; of no radius while a fold may lie between them.
+/// Closed jaws as one rod; of no radius while a fold may lie between them, as it always may between wire and foot.
 Capsule both_jaws(const ToolShape& shape, double half_thickness) noexcept {
   const Capsule &a = shape.part[kJawA], &b = shape.part[kJawB];
   const double apart = length(a.b - b.b) - a.radius - b.radius, radius = 0.85 * (a.radius + b.radius);
   const Vec3d axis = shape.frame.axis();
-  return {shape.pivot, shape.frame.tip + (a.radius - radius) * axis, apart < 2 * half_thickness ? radius : 0};
+  const bool one = !shape.has_foot && apart < 2 * half_thickness;
+  return {shape.pivot, shape.frame.tip + (a.radius - radius) * axis, one ? radius : 0};
 }
 
 /// Does the rod reach through the fold, much farther than a contact lets it? It may then leave as it likes.

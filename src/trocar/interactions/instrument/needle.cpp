@@ -282,6 +282,7 @@ bool goes_through(const Needle& n, Vec3d p0, Vec3d q0, Vec3d p1, Vec3d q1) noexc
 }
 
 double gap_of(const ToolShape& s) noexcept {
+  if (s.has_foot) return 0;
   const Capsule &a = s.part[kJawA], &b = s.part[kJawB];
   return length(a.b - b.b) - a.radius - b.radius;
 }
@@ -291,14 +292,19 @@ Needles needles_of(const ToolShape& before, const ToolShape& now, bool blunt, do
   const Capsule &s0 = before.part[kShaft], &s1 = now.part[kShaft];
   if (!(length(s0.b - s0.a) > 0) || !(length(s1.b - s1.a) > 0)) return r;
   r.needle[r.count++] = needle_of(s0.a, before.pivot, s1.a, now.pivot);
+  const auto add = [&](int part) {
+    const Capsule &j0 = before.part[part], &j1 = now.part[part];
+    r.needle[r.count++] = needle_of(j0.a, j0.b, j1.a, j1.b);
+  };
+  if (now.has_foot) {
+    add(kJawA);
+    return r;
+  }
   const double gap = std::max(gap_of(before), gap_of(now));
   if (!blunt) return r;
   if (gap < thin) r.needle[r.count++] = needle_of(before.pivot, before.frame.tip, now.pivot, now.frame.tip);
   if (gap < thin || gap > kWide) return r;
-  for (const int jaw : {kJawA, kJawB}) {
-    const Capsule &j0 = before.part[jaw], &j1 = now.part[jaw];
-    r.needle[r.count++] = needle_of(j0.a, j0.b, j1.a, j1.b);
-  }
+  add(kJawA), add(kJawB);
   return r;
 }
 

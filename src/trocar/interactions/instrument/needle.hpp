@@ -23,7 +23,7 @@ namespace trocar::interactions {
 
 inline constexpr double kImpaled = 0.003;  ///< [m]
 
-/// Between the tips of the jaws [m]; beyond kWide they are wide open.
+/// Between the tips of the jaws [m]; beyond kWide they are wide open. 0 of a hook with a foot, which has none.
 inline constexpr double kWide = 0.004;
 double gap_of(const ToolShape& shape) noexcept;
 
@@ -36,8 +36,8 @@ struct Needle {
   Vec3d carried(Vec3d p) const noexcept { return p + (end1 - end0) - dot(end0 - p, dir0) * (dir1 - dir0); }
 };
 
-/// An instrument's axes: of the shaft, and of closed jaws in one line or of each jaw that is hardly open. Jaws that are
-/// wide open have none: what they hook could never come off.
+/// An instrument's axes: of the shaft, and of closed jaws in one line or of each jaw that is hardly open, or of a
+/// hook's wire. Jaws that are wide open have none, nor has a hook's foot: what they hook could never come off.
 struct Needles {
   Needle needle[3];
   int count = 0;

@@ -12,6 +12,15 @@ constexpr double kMaxTipSpeed = 0.6;      // [m/s] along the shaft and across it
 constexpr double kMaxHandleSpeed = 8.0;   // [1/s]
 constexpr double kShaftInside = 0.14;     // [m] of the shaft behind the jaws that can meet tissue
 
+/// The wire and its foot end where closed jaws would: nothing of them reaches beyond the tip.
+void bend_wire(const ToolModel& model, ToolShape& s) noexcept {
+  const double radius = 0.5 * model.jaw_thickness;
+  const Vec3d bend = s.frame.tip - radius * s.frame.axis();
+  s.has_foot = true;
+  s.part[kJawA] = {s.pivot, bend, radius};
+  s.part[kJawB] = {bend, bend + std::max(0.0, model.foot - radius) * s.frame.opening(), radius};
+}
+
 double stepped(double from, double to, double most) noexcept { return from + std::clamp(to - from, -most, most); }
 
 }  // namespace
@@ -21,12 +30,16 @@ ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, 
   s.frame = kinematics::forward(model.port, pose);
   const Vec3d axis = s.frame.axis(), open = s.frame.opening();
   s.pivot = s.frame.tip - model.jaw_length * axis;
+  const double behind = std::max(0.0, std::min(kShaftInside, pose.depth - model.jaw_length));
+  s.part[kShaft] = {s.pivot - behind * axis, s.pivot, model.shaft_radius};
+  if (model.foot > 0) {
+    bend_wire(model, s);
+    return s;
+  }
   s.half_gap = 0.5 * model.parallel_gap * aperture;
   s.half_angle = 0.5 * model.opening * aperture;
   const double c = portable::cos(s.half_angle), sn = portable::sin(s.half_angle);
   s.tangent = sn / c;
-  const double behind = std::max(0.0, std::min(kShaftInside, pose.depth - model.jaw_length));
-  s.part[kShaft] = {s.pivot - behind * axis, s.pivot, model.shaft_radius};
   const double half_thick = 0.5 * model.jaw_thickness;
   for (int jaw = 0; jaw < 2; ++jaw) {
     const double side = jaw == 0 ? 1.0 : -1.0;

@@ -1,5 +1,6 @@
 // An instrument in the body: its shape (shaft and two jaws as capsules), its pose through the trocar, and the space
-// between its jaws, in which it grips, clips or cuts.
+// between its jaws, in which it grips, clips or cuts. A hook with a foot has no jaws: in their place stand its wire and
+// the foot that this ends in, which do not open.
 #pragma once
 
 #include <cstdint>
@@ -36,6 +37,7 @@ struct ToolModel {
   double jaw_length = 0.020, jaw_width = 0.003, jaw_thickness = 0.0015;  ///< [m]
   double opening = 1.0;                                                  ///< full angle between the open jaws [rad]
   double parallel_gap = 0;  ///< > 0: parallel jaws with this gap when open [m]
+  double foot = 0;          ///< > 0: of a hook, how far it reaches from the wire's axis, to where jaws would open [m]
   double pinch_max = 15;    ///< force between the jaws, handle closed on tissue [N]
   double friction = 1.67;   ///< pull borne per pinch
   /// Coulomb's coefficient of shaft and jaws on tissue. Polished steel on wet tissue: 0.05 to 0.2 in the literature;
@@ -53,7 +55,7 @@ struct ToolModel {
         v("shaft_length", s.shaft_length), v("jaw_length", s.jaw_length), v("jaw_width", s.jaw_width),
         v("jaw_thickness", s.jaw_thickness), v("opening", s.opening), v("parallel_gap", s.parallel_gap),
         v("pinch_max", s.pinch_max), v("friction", s.friction), v("rubbing", s.rubbing),
-        v("clip_length", s.clip_length), v("clips", s.clips),
+        v("clip_length", s.clip_length), v("clips", s.clips), v("foot", s.foot, core::only_if(s.foot > 0)),
         v("electrode", s.electrode, core::only_if(s.electrode.there)), v("name", s.name, core::kNotHashed);
   }
 };
@@ -109,8 +111,9 @@ static_assert(sizeof(ToolState) == 14 * 8 + 6 * 4 + kMaxHolds * sizeof(Hold), "n
 
 using collision::Capsule;
 
+/// Of a hook with a foot kJawA is the wire and kJawB the foot, from the wire's end on.
 inline constexpr int kShaft = 0, kJawA = 1, kJawB = 2, kToolParts = 3;
-/// For folds, too, both jaws together: closed ones are a blunt rod, and nothing gets between them.
+/// For folds, too, both jaws together: closed ones are a blunt rod, and nothing gets between them. Not wire and foot.
 inline constexpr int kBothJaws = kToolParts, kSheetParts = kToolParts + 1;
 
 /// Where an instrument is in space this tick.
@@ -121,6 +124,7 @@ struct ToolShape {
   Vec3d velocity[kToolParts];  ///< of each part's far end [m/s]
   double half_angle = 0;       ///< of each jaw from the axis [rad]
   double half_gap = 0;         ///< at the pivot (parallel jaws) [m]
+  bool has_foot = false;       ///< it is a hook's, and has no jaws
 
   /// Half the clear distance between the jaws at `along` [m] from the pivot.
   double half_opening(double along) const { return half_gap + along * tangent; }

@@ -164,11 +164,11 @@ void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part,
   }
 }
 
-/// Number `ball` of the balls along closed jaws presses the skin in, whatever lies between the skin's vertices.
-void press(Touching& c, BodyId body, const Surface& surface, int ball, Vec3d p, Vec3d before, double radius,
+/// Number `ball` of the balls along a part presses the skin in, whatever lies between the skin's vertices.
+void press(Touching& c, BodyId body, const Surface& surface, int part, int ball, Vec3d p, Vec3d before, double radius,
            NetworkLoads& loads) noexcept {
   const std::int32_t element = -1 - ball;
-  const Touch* was = c.last.find(body, element, kJawA);
+  const Touch* was = c.last.find(body, element, part);
   const bool known =
       was && was->vertex >= 0 && was->vertex < surface.skin->size() && surface.skin->at_surface(was->vertex);
   int vertex = nearest_vertex_near(surface, p, radius + kBehindSkin);
@@ -178,11 +178,11 @@ void press(Touching& c, BodyId body, const Surface& surface, int ball, Vec3d p, 
   const double above = dot(p - at.point, at.normal), far = length(p - at.point);
   if (above >= 0 ? far > radius + kNoted : far > kDeepestTool) return;
   if (above < 0 && !known && !was_near(c, body, surface, vertex) && dot(before - at.point, at.normal) < 0) return;
-  const std::int32_t number = c.note(body, element, kJawA, vertex);
+  const std::int32_t number = c.note(body, element, part, vertex);
   const double deep = radius - above;
   if (deep <= -kGrazes) return;
   const Vec3d n = -at.normal;
-  const double depth = std::clamp(deep, 0.0, kQuickestPush + c.way(kJawA));
+  const double depth = std::clamp(deep, 0.0, kQuickestPush + c.way(part));
   rub_vertex(c, number, surface, vertex, depth, n, loads);
   if (deep <= 0) return;
   for (size_t k = 0; k < 3; ++k) {
@@ -195,14 +195,24 @@ void press(Touching& c, BodyId body, const Surface& surface, int ball, Vec3d p, 
 /// Open jaws are not, so that a fold can rise between them.
 void closed_jaws_on_surface(Touching& c, BodyId body, const Surface& surface, NetworkLoads& loads) noexcept {
   const Capsule &a = c.shape.part[kJawA], &b = c.shape.part[kJawB];
-  if (length(a.b - b.b) > 2.5 * (a.radius + b.radius)) return;
+  if (c.shape.has_foot || length(a.b - b.b) > 2.5 * (a.radius + b.radius)) return;
   constexpr double kSpacing = 0.002;
   const double far = length(c.shape.frame.tip - c.shape.pivot);
   if (!meets_box(surface.pose->bounds, c.shape.pivot, c.shape.frame.tip, kDeepestTool)) return;
   int ball = 0;
   for (double back = 0; back < far; back += kSpacing, ++ball)
-    press(c, body, surface, ball, c.shape.frame.tip - back * c.shape.frame.axis(),
+    press(c, body, surface, kJawA, ball, c.shape.frame.tip - back * c.shape.frame.axis(),
           c.before.frame.tip - back * c.before.frame.axis(), a.radius + b.radius, loads);
+}
+
+/// A hook's wire, or its foot, is thinner still: the same from its end back, as close as it is thick.
+void wire_on_surface(Touching& c, BodyId body, const Surface& surface, int part, NetworkLoads& loads) noexcept {
+  const Capsule &now = c.shape.part[part], &before = c.before.part[part];
+  if (!c.shape.has_foot || !meets_box(surface.pose->bounds, now.a, now.b, kDeepestTool)) return;
+  const double share = 2 * now.radius / std::max(length(now.b - now.a), now.radius);
+  for (int ball = 0; ball * share < 1; ++ball)
+    press(c, body, surface, part, ball, now.b + ball * share * (now.a - now.b),
+          before.b + ball * share * (before.a - before.b), now.radius, loads);
 }
 
 }  // namespace
@@ -210,6 +220,7 @@ void closed_jaws_on_surface(Touching& c, BodyId body, const Surface& surface, Ne
 void tool_on_surface(Touching& touching, BodyId body, const Surface& surface, NetworkLoads& loads) noexcept {
   for (int part = 0; part < kToolParts; ++part) part_on_surface(touching, body, surface, part, loads);
   closed_jaws_on_surface(touching, body, surface, loads);
+  for (const int part : {kJawA, kJawB}) wire_on_surface(touching, body, surface, part, loads);
 }
 
 BetweenJaws between_jaws(const ToolModel& model, const ToolShape& shape, Vec3d from, Vec3d to, double radius) noexcept {

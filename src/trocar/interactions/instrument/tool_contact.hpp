@@ -6,7 +6,7 @@
 // State remembers from which side it came. A strand's element has a side of each rod. A vertex of an organ's skin that
 // finds itself behind the instrument's axis is pushed inwards along its own normal, down to 25 mm, if it or a neighbour
 // was near the instrument in the last tick, or the axis was outside then; so the far side of a thin organ is left
-// alone. Closed jaws, thinner than the skin's triangles, are also pressed against those.
+// alone. Closed jaws and a hook's wire, thinner than the skin's triangles, are also pressed against those.
 #pragma once
 
 #include <span>
@@ -24,7 +24,8 @@ void tool_on_surface(Touching& touching, BodyId body, const Surface& surface, Ne
 /// @param side  (elements x kToolParts) State: on which side of each of this tool's rods an element lies
 ///              (collision::touch)
 void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState& tool_state, const StrandBody& body,
-                    BodyId strand, const tissue::StrandState& state, std::span<Vec3f> side, StrandLoads& loads) noexcept;
+                    BodyId strand, const tissue::StrandState& state, std::span<Vec3f> side,
+                    StrandLoads& loads) noexcept;
 
 /// How a strand element lies between the jaws.
 struct BetweenJaws {

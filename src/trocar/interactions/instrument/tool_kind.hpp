@@ -33,6 +33,7 @@ struct Abilities {
   bool irrigate = false;   ///< the end is a bore with two valves, for water and suction
   bool coagulate = false;  ///< an electrode is at the tip ...
   bool bipolar = false;    ///< ... and current goes from jaw to jaw
+  bool hook = false;       ///< its end is a wire that may be bent to a foot, which catches bands
 
   /// Legs of clips and blades come astride of what they close on.
   constexpr bool blunt() const noexcept { return !set_clips && !cut; }
@@ -49,7 +50,7 @@ inline constexpr KindOfTool kToolKinds[] = {
     {ToolKind::scissors, "scissors", {.cut = true}},
     {ToolKind::probe, "probe", {}},
     {ToolKind::suction_irrigator, "suction_irrigator", {.irrigate = true}},
-    {ToolKind::hook, "hook", {.coagulate = true}},
+    {ToolKind::hook, "hook", {.coagulate = true, .hook = true}},
     {ToolKind::bipolar, "bipolar", {.grip = true, .coagulate = true, .bipolar = true}},
     {ToolKind::dissector, "dissector", {.grip = true}},
 };

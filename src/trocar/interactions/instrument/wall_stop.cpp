@@ -19,10 +19,19 @@ constexpr double kQuickestTip = 0.0006;  // [m] that the tip moves in a tick: wh
 constexpr double kWithdraws = 0.0005;    // [m] farther out than it is: the hand draws back, and nothing holds it
 constexpr int kRounds = 4;
 
-struct Deepest {
-  double depth = 0, along = 0;  ///< [m]; along: of the point, from the trocar
+/// A ball of an instrument that a wall may stop.
+struct Probe {
+  Vec3d at;
+  double radius = 0;
+  Vec3d on_axis;     ///< the point of the instrument's axis that goes where the wall wants the ball
+  double along = 0;  ///< of that, from the trocar [m]
   bool tip = false;
-  Vec3d point, normal;
+};
+
+struct Deepest {
+  double depth = 0;  ///< [m]
+  Probe probe;
+  Vec3d normal;
 };
 
 /// The parts of a wall that an instrument can reach: blocks of its vertices.
@@ -32,10 +41,10 @@ struct Blocks {
   int count = 0;
   bool all = false;  ///< more than there is room for
 };
-Blocks blocks_near(const Surface& wall, Vec3d start, Vec3d tip) noexcept {
+Blocks blocks_near(const Surface& wall, Vec3d start, Vec3d tip, double reach) noexcept {
   Blocks r;
   for (size_t b = 0; b < wall.pose->block.size() && !r.all; ++b) {
-    if (!meets_box(wall.pose->block[b], start, tip, kWallReach)) continue;
+    if (!meets_box(wall.pose->block[b], start, tip, reach)) continue;
     r.all = r.count == Blocks::kMost;
     if (!r.all) r.block[size_t(r.count++)] = int(b);
   }
@@ -61,33 +70,50 @@ int nearest_of(const Surface& wall, const Blocks& blocks, Vec3d p) noexcept {
   return best;
 }
 
-void look_at(const Surface& wall, const Blocks& blocks, Vec3d p, double radius, double along, bool tip,
-             Deepest& deepest) noexcept {
+void look_at(const Surface& wall, const Blocks& blocks, const Probe& probe, Deepest& deepest) noexcept {
+  const Vec3d p = probe.at;
   const int vertex = nearest_of(wall, blocks, p);
   if (vertex < 0) return;
   const SkinPoint at = nearest_skin_point(wall, vertex, p);
-  const double above = dot(p - at.point, at.normal), depth = radius - above;
+  const double above = dot(p - at.point, at.normal), depth = probe.radius - above;
   if (above < -kBehindWall || depth <= deepest.depth) return;
   if (length((p - at.point) - above * at.normal) > kBesideFoot) return;
-  deepest = {depth, along, tip, p, at.normal};
+  deepest = {depth, probe, at.normal};
 }
 
-Deepest deepest_of(const ToolModel& model, std::span<const Surface> walls, Vec3d axis, double depth) noexcept {
-  Deepest deepest;
-  const Vec3d tip = model.port + depth * axis, start = model.port + std::min(kFromTrocar, depth) * axis;
-  for (const Surface& wall : walls) {
-    if (!wall.pose->bounds.near_segment(start, tip, kWallReach)) continue;
-    const Blocks blocks = blocks_near(wall, start, tip);
-    if (!blocks.all && blocks.count == 0) continue;
-    look_at(wall, blocks, tip, model.jaw_thickness, depth, true, deepest);
-    for (double s = depth - model.jaw_length; s > kFromTrocar; s -= kShaftSpacing)
-      look_at(wall, blocks, model.port + s * axis, model.shaft_radius, s, false, deepest);
-  }
-  return deepest;
+/// What the instrument ends in.
+struct Ends {
+  Probe probe[2];
+  int count = 1;
+};
+Ends ends_of(const ToolModel& model, const kinematics::FulcrumPose& pose) noexcept {
+  const Vec3d tip = kinematics::forward(model.port, pose).tip;
+  if (!(model.foot > 0)) return {{{tip, model.jaw_thickness, tip, pose.depth, true}, {}}, 1};
+  const ToolShape s = shape_of(model, pose, 0);
+  const Capsule &wire = s.part[kJawA], &foot = s.part[kJawB];
+  return {{{wire.b, wire.radius, tip, pose.depth, true}, {foot.b, foot.radius, tip, pose.depth, true}}, 2};
 }
 
 Vec3d axis_of(const ToolModel& model, const kinematics::FulcrumPose& pose) noexcept {
   return kinematics::forward(model.port, pose).axis();
+}
+
+Deepest deepest_of(const ToolModel& model, std::span<const Surface> walls,
+                   const kinematics::FulcrumPose& pose) noexcept {
+  Deepest deepest;
+  const Vec3d axis = axis_of(model, pose);
+  const double depth = pose.depth, reach = kWallReach + model.foot;
+  const Vec3d tip = model.port + depth * axis, start = model.port + std::min(kFromTrocar, depth) * axis;
+  const Ends ends = ends_of(model, pose);
+  for (const Surface& wall : walls) {
+    if (!wall.pose->bounds.near_segment(start, tip, reach)) continue;
+    const Blocks blocks = blocks_near(wall, start, tip, reach);
+    if (!blocks.all && blocks.count == 0) continue;
+    for (int i = 0; i < ends.count; ++i) look_at(wall, blocks, ends.probe[i], deepest);
+    for (double s = depth - model.jaw_length; s > kFromTrocar; s -= kShaftSpacing)
+      look_at(wall, blocks, {model.port + s * axis, model.shaft_radius, model.port + s * axis, s, false}, deepest);
+  }
+  return deepest;
 }
 
 /// No farther from `before` than the tip may go in a tick: a little that the shaft moves near the trocar is a lot
@@ -111,24 +137,25 @@ WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wa
   if (tool.depth <= kFromTrocar || wanted.depth < tool.depth - kWithdraws) return stop;
   Deepest last;
   for (int round = 0; round < kRounds; ++round) {
-    const Deepest d = deepest_of(model, walls, axis_of(model, tool.pose()), tool.depth);
+    const Deepest d = deepest_of(model, walls, tool.pose());
     if (d.depth <= 1e-9) break;
     last = d;
-    const Vec3d to = d.point + d.depth * d.normal;
+    const Vec3d to = d.probe.on_axis + d.depth * d.normal;
     kinematics::FulcrumPose pose = kinematics::inverse(model.port, to, tool.roll);
-    if (!d.tip) pose.depth = tool.depth;
+    if (!d.probe.tip) pose.depth = tool.depth;
     pose = kinematics::clamped(pose, model.limits);
     tool.yaw = pose.yaw;
     tool.pitch = pose.pitch;
     tool.depth = pose.depth;
     stop.stopped = true;
-    stop.part = d.tip ? kJawA : kShaft;
+    stop.part = d.probe.tip ? kJawA : kShaft;
     stop.normal = d.normal;
   }
   if (!stop.stopped) return stop;
   slow_down(model, before, tool);
   const kinematics::FulcrumPose goal = kinematics::clamped(wanted, model.limits);
-  const double along = last.tip ? tool.depth : last.along, goal_along = last.tip ? goal.depth : last.along;
+  const Probe& at = last.probe;
+  const double along = at.tip ? tool.depth : at.along, goal_along = at.tip ? goal.depth : at.along;
   stop.at = model.port + along * axis_of(model, tool.pose());
   const Vec3d there = model.port + goal_along * axis_of(model, goal);
   stop.force = std::clamp(kPress * dot(stop.at - there, stop.normal), 0.0, kMostStop);

@@ -32,6 +32,21 @@ int nearest_corner(const std::array<int, 3>& corner, Vec3d weights) noexcept {
   return corner[most];
 }
 
+/// Places along the bare metal to look from: the foot is all bare.
+struct BarePlaces {
+  Vec3d at[5];
+  int count = 0;
+};
+BarePlaces bare_places(const ToolShape& s) noexcept {
+  BarePlaces r;
+  const Vec3d end = s.has_foot ? s.part[kJawA].b : s.frame.tip;
+  for (const double back : {0.0, 0.5 * kBareWire, kBareWire}) r.at[r.count++] = end - back * s.frame.axis();
+  if (!s.has_foot) return r;
+  const Capsule& foot = s.part[kJawB];
+  for (const double share : {0.5, 1.0}) r.at[r.count++] = foot.a + share * (foot.b - foot.a);
+  return r;
+}
+
 /// Looks at bodies one after the other and keeps the nearest.
 class WireSearch {
  public:
@@ -94,13 +109,11 @@ class WireSearch {
 
  private:
   bool take(BodyId body, Vec3d place, bool inside) noexcept {
-    // As thick as closed jaws are that tissue meets (tool_contact.hpp).
-    const Vec3d along = m_shape.frame.tip - m_shape.pivot;
-    const Vec3d axis = m_shape.pivot + geometry::closest_on_segment(place, m_shape.pivot, m_shape.frame.tip) * along;
-    const double apart = length(place - axis) - m_shape.part[kJawA].radius - m_shape.part[kJawB].radius;
+    const double apart = off_wire(m_shape, place);
     const double gap = inside || apart <= kTouches ? 0.0 : apart;
     const double away = length(m_from - place);
-    if (best.contact.body.exists() && (gap > best.contact.gap || (gap == best.contact.gap && away >= m_away))) return false;
+    if (best.contact.body.exists() && (gap > best.contact.gap || (gap == best.contact.gap && away >= m_away)))
+      return false;
     m_away = away;
     best.contact.body = body;
     best.contact.gap = gap;
@@ -129,13 +142,13 @@ class WireSearch {
 
 ElectrodeTouch wire_touch(const ToolShape& shape, const ToolState& tool, const TissueView& view) noexcept {
   ElectrodeTouch best;
-  for (const double back : {0.0, 0.5 * kBareWire, kBareWire}) {
-    WireSearch search(shape, shape.frame.tip - back * shape.frame.axis());
+  const BarePlaces bare = bare_places(shape);
+  for (int k = 0; k < bare.count; ++k) {
+    WireSearch search(shape, bare.at[k]);
     for (std::size_t i = 0; i < view.organs.size(); ++i) search.organ(view.organs[i], BodyId::organ(i));
     for (std::size_t i = 0; i < view.strands.size(); ++i)
       search.strand(view.strands[i], view.strand_states[i], BodyId::strand(i));
-    for (std::size_t i = 0; i < view.membranes.size(); ++i)
-      search.sheet(view.membranes[i], BodyId::membrane(i));
+    for (std::size_t i = 0; i < view.membranes.size(); ++i) search.sheet(view.membranes[i], BodyId::membrane(i));
     const tissue::ElectrodeContact& c = search.best.contact;
     if (c.body.exists() && (!best.contact.body.exists() || c.gap < best.contact.gap)) best = search.best;
   }
@@ -178,6 +191,14 @@ ElectrodeTouch pads_touch(const ToolShape& shape, const ToolState& tool, const T
 }
 
 }  // namespace
+
+double off_wire(const ToolShape& s, Vec3d place) noexcept {
+  const Capsule &a = s.part[kJawA], &b = s.part[kJawB];
+  const auto off = [place](const Capsule& rod) {
+    return length(place - collision::nearest_on_axis(rod, place)) - rod.radius;
+  };
+  return s.has_foot ? std::min(off(a), off(b)) : off({s.pivot, s.frame.tip, a.radius + b.radius});
+}
 
 ElectrodeTouch electrode_touch(const ToolModel& model, const ToolShape& shape, const ToolState& tool,
                                const TissueView& view) noexcept {

@@ -21,10 +21,13 @@ struct ElectrodeTouch {
   Vec3d inwards{0, 0, 0};            ///< from there into the tissue, in the contact's frame; zero between jaws
 };
 
-/// The last millimetres of a hook's wire that are bare at its tip.                                   [m]  Our choice
+/// The last millimetres of a hook's wire that are bare at its tip; all of its foot is.               [m]  Our choice
 inline constexpr double kBareWire = 0.004;
 /// Between skin and wire this counts as touching: skins' triangles are flat, tissue is not.          [m]  Our choice
 inline constexpr double kTouches = 0.0003;
+
+/// How far a place is off a hook's metal [m], as thick as tissue meets that (tool_contact.hpp): closed jaws are one rod.
+double off_wire(const ToolShape& shape, Vec3d place) noexcept;
 
 /// A hook: what is nearest to its bare end. Bipolar jaws: what they hold, from pad to pad.
 ElectrodeTouch electrode_touch(const ToolModel& model, const ToolShape& shape, const ToolState& tool,

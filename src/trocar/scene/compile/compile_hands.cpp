@@ -28,6 +28,7 @@ interactions::ToolModel tool_of(const Instrument& i, Vec3d port) {
   tool.jaw_thickness = i.jaw_thickness;
   tool.opening = i.opening;
   tool.parallel_gap = i.parallel_gap;
+  tool.foot = i.foot;
   tool.pinch_max = i.pinch_max;
   tool.friction = i.friction;
   tool.clip_length = i.clip_length;

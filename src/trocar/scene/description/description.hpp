@@ -355,6 +355,7 @@ struct Instrument {
   double jaw_length = 0.020, jaw_width = 0.003, jaw_thickness = 0.0015;
   double opening = 1.0;     ///< full opening between the jaws [rad], or for parallel jaws
   double parallel_gap = 0;  ///< clip applier: gap between parallel jaws when open [m] (then opening = 0)
+  double foot = 0;          ///< hook: how far its foot reaches from the wire's axis [m]; 0: it has none
   double pinch_max = 15;    ///< force between the jaws when the handle is fully closed on tissue [N]
   double friction = 1.67;   ///< pull the grip bears per pinch force: profiled jaws hold 5 N with 3 N [Heijnsdijk 04]
   double clip_length = 0.0085;  ///< clip applier: length of a closed clip [m]

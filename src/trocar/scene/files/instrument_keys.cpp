@@ -42,6 +42,8 @@ std::vector<Row<Instrument>> instrument_rows() {
           .only([](const I& i) { return !(i.parallel_gap > 0); }),
       R::number("parallel_gap_mm", units::mm, &I::parallel_gap, 0, 50,
                 "between parallel jaws when open, default {}: they turn"),
+      R::number("foot_mm", units::mm, &I::foot, 0, 20,
+                "of a hook: from its wire's axis to the foot's end, to where jaws would open, default {}: it has none"),
       R::number("pinch_max_N", units::one, &I::pinch_max, 0, 200,
                 "between the jaws with the handle closed, default {}"),
       R::number("friction", units::one, &I::friction, 0, 10, "pull that the grip bears per pinch force, default {}"),
@@ -61,6 +63,11 @@ void check_instrument(const JsonObject& o, Instrument& i, Context&) {
                                      kinds_that(&Abilities::coagulate), kind));
   if (i.parallel_gap > 0 && i.opening > 0)
     o.fault("opening_deg", "expected 0 or nothing beside parallel_gap_mm (jaws turn or stay parallel), got an angle");
+  if (i.foot > 0 && o.has("kind") && !i.can().hook)
+    o.fault("foot_mm",
+            fmt::format("expected a foot only in a {}, got one in a {}", kinds_that(&Abilities::hook), kind));
+  if (i.foot > 0 && i.foot <= 0.5 * i.jaw_thickness)
+    o.fault("foot_mm", "expected 0 or more than half of jaw_thickness_mm (the wire's radius), got no more than that");
   if (i.clips > 0 && o.has("kind") && !i.can().set_clips)
     o.fault("clips", fmt::format("expected clips only in a {}, got {} in a {}", kinds_that(&Abilities::set_clips),
                                  i.clips, kind));

@@ -56,7 +56,7 @@ FatTouch fat_at(const StepContext& c, std::size_t hand) noexcept {
       const int lobule = interactions::lobule_at(bodies[i], states[i], wire);
       if (lobule < 0) return;
       const Vec3d place = tissue::position(bodies[i].fat, states[i].fat, lobule);
-      const double apart = length(place - collision::nearest_on_axis(wire, place)) - bodies[i].fat.radius;
+      const double apart = length(place - collision::nearest_on_axis(wire, place)) - wire.radius - bodies[i].fat.radius;
       if (!best.there() || apart < best.apart) best = {int(i), lobule, place, apart};
     };
     interactions::Capsule wire = shape.part[interactions::kJawA];

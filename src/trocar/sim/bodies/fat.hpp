@@ -18,7 +18,7 @@ int sever_fat(StepContext& context, const geometry::Blade& blade) noexcept;
 struct FatTouch {
   int body = -1, lobule = -1;
   Vec3d place;       ///< its middle [m]
-  double apart = 0;  ///< of its surface from the wire's axis; below 0: the wire is in it [m]
+  double apart = 0;  ///< of its surface from the metal's; below 0: that is in it [m]
   bool there() const noexcept { return lobule >= 0; }
 };
 FatTouch fat_at(const StepContext& context, std::size_t hand) noexcept;

@@ -56,9 +56,7 @@ FatTouch fat_of(const StepContext& c, size_t t, const ElectrodeTouch& touch, tis
   if (!has_fat(c.model) || electrode.current.bipolar || !at_work(c.state.electrodes[t], mode)) return {};
   const FatTouch fat = fat_at(c, t);
   if (!touch.contact.body.exists() || touch.contact.gap > 0) return fat;
-  const interactions::ToolShape& shape = c.work.shapes[t];
-  const Vec3d off = touch.place - collision::nearest_on_axis({shape.pivot, shape.frame.tip, 0}, touch.place);
-  return length(off) < fat.apart ? FatTouch{} : fat;
+  return interactions::off_wire(c.work.shapes[t], touch.place) < fat.apart ? FatTouch{} : fat;
 }
 
 /// Fat keeps its heat by itself; loose tissue at the wire shrivels with it.

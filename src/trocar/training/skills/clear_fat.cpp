@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/interactions/verbs/electrode_contact.hpp>
+#include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/training/observe/fat.hpp>
 #include <trocar/training/observe/hands.hpp>
@@ -59,7 +61,7 @@ class ClearFat final : public Skill {
 
   /// The outermost of those that have not been tried, near to where the hook is.
   int next(Operator& op) {
-    constexpr double kNear = 0.5;     // what the way there counts beside the depth
+    constexpr double kNear = 1.5;     // what the way there counts beside the depth
     constexpr double kAstray = 0.03;  // [m] from where it was drawn: it has come off
     const Arms::Arm& arm = op.arm(m_hand);
     int best = -1;
@@ -75,28 +77,52 @@ class ClearFat final : public Skill {
     return best;
   }
 
-  interactions::Capsule wire(Operator& op) const {
-    const Arms::Arm& arm = op.arm(m_hand);
-    const Vec3d back = interactions::kBareWire * normalised(arm.port - arm.tip);
-    return {arm.tip + back, arm.tip, 0.5 * op.tool(m_hand).jaw_thickness};
+  /// Its bare metal: the wire's last millimetres, and the foot.
+  std::array<interactions::Capsule, 2> metal(const Operator& op) const {
+    const interactions::ToolState& tool = op.tool_state(m_hand);
+    const interactions::ToolShape shape = interactions::shape_of(op.tool(m_hand), tool.pose(), tool.aperture);
+    interactions::Capsule wire = shape.part[interactions::kJawA];
+    wire.a = wire.b - interactions::kBareWire * shape.frame.axis();
+    return {wire, shape.part[interactions::kJawB]};
   }
-  /// What the wire is at, if that is to go.
-  int at_wire(Operator& op) const {
-    const int n = interactions::lobule_at(body(op), state(op), wire(op));
-    return n >= 0 && !spared(op, place(op, n)) ? n : -1;
-  }
-  /// Is the wire off every tube? Sparks jump to what is nearer.
-  bool off_tubes(Operator& op) const {
-    constexpr double kApart = 0.0017;  // [m] of the wire's axis
-    const interactions::Capsule w = wire(op);
-    for (size_t i = 0; i < op.model().strand_bodies.size(); ++i) {
-      const std::vector<Vec3d>& x = op.state().strands[i].x;
-      for (size_t e = 0; e + 1 < x.size(); ++e) {
-        const auto near = geometry::closest_segments(w.a, w.b, x[e], x[e + 1]);
-        if (length(near.on_second - near.on_first) < op.model().strand_bodies[i].model.radius[e] + kApart) return false;
-      }
+  /// What the metal is at, if that is to go.
+  int at_metal(const Operator& op) const {
+    for (const interactions::Capsule& rod : metal(op)) {
+      const int n = interactions::lobule_at(body(op), state(op), rod);
+      if (n >= 0 && !spared(op, place(op, n))) return n;
     }
+    return -1;
+  }
+  /// Is it off every tube? Sparks jump to what is nearer.
+  bool off_tubes(const Operator& op) const {
+    constexpr double kApart = 0.0007;  // [m]
+    for (const interactions::Capsule& rod : metal(op))
+      for (size_t i = 0; i < op.model().strand_bodies.size(); ++i) {
+        const std::vector<Vec3d>& x = op.state().strands[i].x;
+        const std::vector<double>& radius = op.model().strand_bodies[i].model.radius;
+        for (size_t e = 0; e + 1 < x.size(); ++e) {
+          const auto near = geometry::closest_segments(rod.a, rod.b, x[e], x[e + 1]);
+          if (length(near.on_second - near.on_first) < radius[e] + rod.radius + kApart) return false;
+        }
+      }
     return true;
+  }
+  /// From the nearest tube to the lobule: the foot lies across that, so that it is no nearer to the tube.
+  Vec3d off_nearest(const Operator& op) const {
+    Vec3d best{0, 0, 1};
+    double nearest = 1;
+    for (const tissue::StrandState& strand : op.state().strands)
+      for (size_t e = 0; e + 1 < strand.x.size(); ++e) {
+        const Vec3d a = strand.x[e], b = strand.x[e + 1];
+        const Vec3d off = m_last - (a + geometry::closest_on_segment(m_last, a, b) * (b - a));
+        if (length(off) < nearest) nearest = length(off), best = off;
+      }
+    return best;
+  }
+  /// Where the tip has to be for what is bare of it to lie there: half of the foot reaches beyond it.
+  Vec3d tip_for(const Operator& op, const Arms::Arm& arm, Vec3d place) const {
+    const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, place, arm.roll);
+    return place - 0.5 * op.tool(m_hand).foot * kinematics::forward(arm.port, pose).opening();
   }
 
   Progress work(Operator& op) override {
@@ -121,23 +147,24 @@ class ClearFat final : public Skill {
   void work_at(Operator& op, Arms::Arm& arm) {
     constexpr double kTouches = 0.004;                    // [N]
     constexpr double kBefore = 0.006, kDeeper = 0.001;    // [m]
-    constexpr double kFar = 2, kLongest = 3, kOff = 0.5;  // [s]
-    const Vec3d along = normalised(m_last - arm.port);
+    constexpr double kFar = 2, kLongest = 3, kOff = 0.3;  // [s]
+    const Vec3d along = normalised(m_last - arm.port), goal = tip_for(op, arm, m_last);
     const double force = norm(op.tool_state(m_hand).contact_force);
+    const bool turned = !(op.tool(m_hand).foot > 0) || op.arms().turn_across(m_hand, off_nearest(op));
     switch (m_phase) {
       case kAbove:
-        if (length(arm.tip - m_last) < 2 * kBefore ||
-            op.arms().move(m_hand, m_last - kBefore * along, pace::kCareful) || m_in_phase > kFar)
+        if (length(arm.tip - goal) < 2 * kBefore ||
+            (op.arms().move(m_hand, goal - kBefore * along, pace::kTravel) && turned) || m_in_phase > kFar)
           go(kReach);
         break;
       case kReach:
-        if (op.arms().move(m_hand, m_last + kDeeper * along, pace::kCareful) || force > kTouches || m_in_phase > kFar)
+        if (op.arms().move(m_hand, goal + kDeeper * along, pace::kCareful) || force > kTouches || m_in_phase > kFar)
           press(op);
         break;
       default:
-        arm.coagulating = at_wire(op) >= 0 && off_tubes(op);
+        arm.coagulating = at_metal(op) >= 0 && off_tubes(op);
         m_steady = arm.coagulating ? 0 : m_steady + sim::kTick;
-        if (force < kTouches) op.arms().move(m_hand, m_last + kDeeper * along, pace::kCareful);
+        if (force < kTouches) op.arms().move(m_hand, goal + kDeeper * along, pace::kCareful);
         if (!gone(op, m_lobule) && m_in_phase < kLongest && m_steady < kOff) break;
         m_done += gone(op, m_lobule);
         press(op);
@@ -146,7 +173,7 @@ class ClearFat final : public Skill {
   /// Goes on with what the wire is at; lifts it where there is no more.
   void press(Operator& op) {
     const int was = m_lobule;
-    m_lobule = at_wire(op);
+    m_lobule = at_metal(op);
     if (m_lobule == was && m_phase == kPress) m_lobule = -1;  // it does not go
     m_steady = 0;
     if (m_lobule < 0) op.arm(m_hand).coagulating = false;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -10,7 +11,19 @@
 namespace trocar::training {
 namespace {
 
-/// An electrode from bond to bond of those that are drawn open most, each until it has parted; then back.
+/// Out of a skin around a vertex, as long as it likes.
+Vec3d out_of_skin(const tissue::NodeView& nodes, const tissue::Skin& skin, int vertex) {
+  Vec3d sum;
+  for (int k = skin.face_first[size_t(vertex)]; k < skin.face_first[size_t(vertex) + 1]; ++k) {
+    const std::array<int, 3>& t = skin.triangles[size_t(skin.face[size_t(k)])];
+    const Vec3d a = tissue::skin_point(nodes, skin, t[0]);
+    sum += cross(tissue::skin_point(nodes, skin, t[1]) - a, tissue::skin_point(nodes, skin, t[2]) - a);
+  }
+  return sum;
+}
+
+/// An electrode from bond to bond of those that are drawn open most, each until it has parted; then back. A hook's foot
+/// lies along what the bonds are rooted in: it neither digs into that nor catches what is drawn off it.
 class PartBonds final : public Skill {
  public:
   PartBonds(const sim::Model& model, const Given& given)
@@ -24,18 +37,21 @@ class PartBonds final : public Skill {
 
   struct Spot {
     Vec3d foot, node;
+    Vec3d up;  ///< off what it is rooted in
   };
   Spot spot(const Operator& op, const interactions::Bond& bond) const {
     const sim::Model& m = op.model();
     const sim::MembraneBody& wall = m.membranes[size_t(m.bonds[size_t(m_set)].membrane)];
     const Vec3d node = tissue::position(
         wall.sheet.network, op.state().membranes[size_t(m.bonds[size_t(m_set)].membrane)].network, bond.node);
-    if (bond.hold.kind == interactions::BorderHold::strand)
-      return {point_at(m.strand_bodies[size_t(bond.hold.index)], op.state().strands[size_t(bond.hold.index)],
-                       bond.hold.place),
-              node};
-    return {tissue::skin_point(nodes_of(m, op.state(), bond.hold.index), m.skin(bond.hold.index), bond.hold.vertex),
-            node};
+    if (bond.hold.kind == interactions::BorderHold::strand) {
+      const Vec3d foot = point_at(m.strand_bodies[size_t(bond.hold.index)], op.state().strands[size_t(bond.hold.index)],
+                                  bond.hold.place);
+      return {foot, node, node - foot};
+    }
+    const tissue::NodeView nodes = nodes_of(m, op.state(), bond.hold.index);
+    const tissue::Skin& skin = m.skin(bond.hold.index);
+    return {tissue::skin_point(nodes, skin, bond.hold.vertex), node, out_of_skin(nodes, skin, bond.hold.vertex)};
   }
   /// Is there work for the electrode?
   bool wanted(const interactions::BondState& s) const { return s.holds() || (m_raw && s.raw()); }
@@ -81,19 +97,25 @@ class PartBonds final : public Skill {
     work_at(op, arm, spot(op, op.model().bonds[size_t(m_set)].bonds[size_t(m_bond)]));
     return Progress::working;
   }
+  /// Where the tip has to be for what is bare of it to lie on a place: half of the foot reaches beyond it.
+  Vec3d tip_for(Operator& op, const Arms::Arm& arm, Vec3d place) const {
+    const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, place, arm.roll);
+    return place - 0.5 * op.tool(m_hand).foot * kinematics::forward(arm.port, pose).opening();
+  }
   void work_at(Operator& op, Arms::Arm& arm, const Spot& at) {
     constexpr double kTouches = 0.25;                    // [N] tissue that is pushed gives way
     constexpr double kBefore = 0.010, kDeeper = 0.0015;  // [m]
     constexpr double kFar = 4, kTouch = 0.15, kLongest = 1.2, kEvery = 0.4, kOffIt = 0.1;  // [s]
     const interactions::BondState& state = op.state().bonds[size_t(m_set)][size_t(m_bond)];
-    const Vec3d along = normalised(at.foot - arm.port);
+    const Vec3d along = normalised(at.foot - arm.port), goal = tip_for(op, arm, at.foot);
+    const bool turned = !(op.tool(m_hand).foot > 0) || op.arms().turn_across(m_hand, at.up);
     op.want(at.foot);
     switch (m_phase) {
       case kAbove:
-        if (op.arms().move(m_hand, at.foot - kBefore * along, pace::kCareful) || m_in_phase > kFar) go(kReach);
+        if ((op.arms().move(m_hand, goal - kBefore * along, pace::kCareful) && turned) || m_in_phase > kFar) go(kReach);
         break;
       case kReach:
-        if (op.arms().move(m_hand, at.foot + kDeeper * along, pace::kCareful) || m_in_phase > kFar ||
+        if (op.arms().move(m_hand, goal + kDeeper * along, pace::kCareful) || m_in_phase > kFar ||
             norm(op.tool_state(m_hand).contact_force) > kTouches)
           go(kPress);
         break;
@@ -103,7 +125,7 @@ class PartBonds final : public Skill {
         if (m_in_phase > kLongest || (m_in_phase > kEvery && !wanted(state))) go(kAway);
         break;
       default:
-        if (!op.arms().move(m_hand, at.foot - kBefore * along, pace::kCareful) && m_in_phase < kFar) break;
+        if (!op.arms().move(m_hand, goal - kBefore * along, pace::kCareful) && m_in_phase < kFar) break;
         m_bond = -1;
         go(kAbove);
     }

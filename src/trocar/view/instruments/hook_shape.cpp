@@ -15,7 +15,8 @@ constexpr double kCollarFrom = -0.0072;  // [m] where the white collar begins
 /// used with is brown and black.
 MeshBuffer hook_wire(const ToolModel& tool) {
   constexpr double turn = 0.0011, thin = 0.72;
-  const double r = 0.5 * thin * tool.jaw_width, tip = tool.jaw_length - r, foot = 1.03 * tool.shaft_radius;
+  const double r = 0.5 * thin * tool.jaw_width, tip = tool.jaw_length - r, drawn = 1.03 * tool.shaft_radius,
+               foot = tool.foot > 0 ? tool.foot : drawn;
   const Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   const auto used = [](double share) { return Paint{to_byte(1 - 0.1 * share), 0, to_byte(0.75 * share), 0}; };
   std::vector<BarSection> sections{{-0.003 * z, r * x, r * y, kShaded}};
