@@ -28,7 +28,10 @@ class ClearFat final : public Skill {
         m_most(int(given.number("most", 1000))) {}
 
  private:
-  enum Phase { kAbove, kReach, kPress, kAway };
+  enum Phase { kAbove, kReach, kPress, kLift, kAway };
+
+  // Of the metal from tubes [m]: farther than sparks jump when the pedal is down; a hot tip touches none.
+  static constexpr double kSpark = 0.0017, kHot = 0.0005;
 
   const interactions::FatBody& body(const Operator& op) const {
     return interactions::part_of<Fat>(op.model().objects).list[m_fat.index()];
@@ -93,16 +96,15 @@ class ClearFat final : public Skill {
     }
     return -1;
   }
-  /// Is it off every tube? Sparks jump to what is nearer.
-  bool off_tubes(const Operator& op) const {
-    constexpr double kApart = 0.0007;  // [m]
+  /// Is it at least so far off every tube?
+  bool off_tubes(const Operator& op, double apart) const {
     for (const interactions::Capsule& rod : metal(op))
       for (size_t i = 0; i < op.model().strand_bodies.size(); ++i) {
         const std::vector<Vec3d>& x = op.state().strands[i].x;
         const std::vector<double>& radius = op.model().strand_bodies[i].model.radius;
         for (size_t e = 0; e + 1 < x.size(); ++e) {
           const auto near = geometry::closest_segments(rod.a, rod.b, x[e], x[e + 1]);
-          if (length(near.on_second - near.on_first) < radius[e] + rod.radius + kApart) return false;
+          if (length(near.on_second - near.on_first) < radius[e] + rod.radius + apart) return false;
         }
       }
     return true;
@@ -151,24 +153,36 @@ class ClearFat final : public Skill {
     const Vec3d along = normalised(m_last - arm.port), goal = tip_for(op, arm, m_last);
     const double force = norm(op.tool_state(m_hand).contact_force);
     const bool turned = !(op.tool(m_hand).foot > 0) || op.arms().turn_across(m_hand, off_nearest(op));
+    if ((m_phase == kReach || m_phase == kPress) && !off_tubes(op, kHot)) lift(op);
     switch (m_phase) {
       case kAbove:
         if (length(arm.tip - goal) < 2 * kBefore ||
             (op.arms().move(m_hand, goal - kBefore * along, pace::kTravel) && turned) || m_in_phase > kFar)
           go(kReach);
         break;
+      case kLift:
+        if (op.arms().move(m_hand, m_lifted, pace::kTravel) || m_in_phase > kFar) m_lobule = -1, go(kAbove);
+        break;
       case kReach:
         if (op.arms().move(m_hand, goal + kDeeper * along, pace::kCareful) || force > kTouches || m_in_phase > kFar)
           press(op);
         break;
       default:
-        arm.coagulating = at_metal(op) >= 0 && off_tubes(op);
+        arm.coagulating = at_metal(op) >= 0 && off_tubes(op, kSpark);
         m_steady = arm.coagulating ? 0 : m_steady + sim::kTick;
         if (force < kTouches) op.arms().move(m_hand, goal + kDeeper * along, pace::kCareful);
         if (!gone(op, m_lobule) && m_in_phase < kLongest && m_steady < kOff) break;
         m_done += gone(op, m_lobule);
         press(op);
     }
+  }
+  /// Back from a tube, the way it came.
+  void lift(Operator& op) {
+    constexpr double kBy = 0.005;  // [m]
+    Arms::Arm& arm = op.arm(m_hand);
+    arm.coagulating = false;
+    m_lifted = arm.tip + kBy * normalised(arm.port - arm.tip);
+    go(kLift);
   }
   /// Goes on with what the wire is at; lifts it where there is no more.
   void press(Operator& op) {
@@ -185,7 +199,7 @@ class ClearFat final : public Skill {
   std::vector<BodyId> m_bared;
   double m_left;
   int m_most, m_lobule = -1, m_done = 0;
-  Vec3d m_last;
+  Vec3d m_last, m_lifted;
   std::vector<std::uint8_t> m_tried;  ///< (lobules)
 };
 
