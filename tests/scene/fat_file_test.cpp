@@ -41,7 +41,8 @@ TEST(FatFile, NoLobuleLiesInWhatItSurrounds) {
   for (const Vec3d& p : body_of(m).fat.network.rest)
     for (const interactions::StrandBody& strand : m.strand_bodies)
       for (int e = 0; e < strand.nodes(); ++e)
-        EXPECT_GT(length(p - strand.model.rest[size_t(e)]), strand.model.radius[size_t(std::min(e, strand.nodes() - 2))]);
+        EXPECT_GT(length(p - strand.model.rest[size_t(e)]),
+                  strand.model.radius[size_t(std::min(e, strand.nodes() - 2))]);
 }
 
 TEST(FatFile, ItHoldsOnCordsLiverAndGallbladder) {

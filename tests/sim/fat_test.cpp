@@ -1,5 +1,5 @@
-// Fat about ducts in its scene: it hangs as drawn, is torn out by jaws, boils away at a hook, hides what lies in it, and
-// obeys the laws of the step.
+// Fat about ducts in its scene: it hangs as drawn, is torn out by jaws, boils away at a hook, hides what lies in it,
+// and obeys the laws of the step.
 #include <algorithm>
 #include <cmath>
 

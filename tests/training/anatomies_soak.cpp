@@ -52,6 +52,12 @@ TEST_P(GallbladderAnatomy, TheSurgeonClipsAndDividesBothCords) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, GallbladderAnatomy, testing::Range(0, 6));
 
+class CalotAnatomy : public testing::TestWithParam<int> {};
+TEST_P(CalotAnatomy, TheSurgeonDissectsTheTriangle) {
+  expect_passes("cholecystectomy/calot.json", std::uint64_t(GetParam()));
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, CalotAnatomy, testing::Range(0, 6));
+
 class BedAnatomy : public testing::TestWithParam<int> {};
 TEST_P(BedAnatomy, TheSurgeonPeelsTheGallbladderOffTheLiver) {
   expect_passes("cholecystectomy/bed.json", std::uint64_t(GetParam()));

@@ -7,6 +7,9 @@
 
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/stages/step.hpp>
+#include <trocar/training/exercise/exercise.hpp>
+#include <trocar/training/expert/expert.hpp>
 #include <trocar/training/observe/fat.hpp>
 #include <trocar/training/observe/marks.hpp>
 
@@ -144,6 +147,28 @@ TEST(CriticalView, TheFactsNeverHoldWhileALobuleIsLeftInTheWindowsMiddle) {
   const Vec3d middle = (w[0] + w[1] + w[2]) / 3.0;
   t.clear_but([&](Vec3d p) { return length(p - middle) < 0.006; });
   EXPECT_LT(t.open(), 0.9);
+}
+
+// The demonstration up to where its hook begins: the gallbladder is held at its neck and drawn with about 1 N.
+TEST(CriticalView, TractionAloneOpensNothing) {
+  const Exercise exercise = read_exercise(TROCAR_SOURCE_DIR "/scenes/cholecystectomy/calot.json");
+  Triangle t;
+  const std::unique_ptr<Expert> surgeon = make_expert(exercise, t.model, {}, 0);
+  sim::Work work = sim::make_work(t.model);
+  double pulled = 0;
+  for (int tick = 0; tick < 9500; ++tick) {
+    const sim::StepReport report = step(t.model, surgeon->next(t.model, t.state), t.state, work);
+    ASSERT_TRUE(report.fine());
+    surgeon->after(t.model, t.state, report);
+    const double* pull = t.state.tools[0].pull;
+    pulled = std::max(pulled, length(Vec3d{pull[0], pull[1], pull[2]}));
+  }
+  EXPECT_GT(pulled, 0.8) << "it was drawn";
+  double holds = 0;
+  for (int i = 0; i < t.body().fat.septa(); ++i) holds += holding(t.body().fat, t.fat().fat, i) / t.body().fat.septa();
+  EXPECT_GT(holds, 0.98);
+  EXPECT_LT(t.open(), 0.1);
+  EXPECT_FALSE(t.bridged().empty());
 }
 
 }  // namespace trocar::training

@@ -8,7 +8,7 @@ namespace {
 constexpr double kBody = 37, kCoagulates = 60, kBoils = 100;  // [C]
 constexpr double kFatCapacity = 2700;                         // of fat with its water [J/kg K]
 constexpr double kFatWaterBoils = 2.26e6;                     // of water [J/kg]
-constexpr double kCools = 3;                                  // [s] to its neighbours and blood.  Our choice
+constexpr double kCools = 6;                                  // [s] of a lobule by conduction, l^2 / pi^2 a
 constexpr std::uint64_t kTurns = 8;                           // ticks until a septum is looked at again
 
 double warms_to(const FatModel& m, const Lobule& l) noexcept {

@@ -62,9 +62,20 @@ class ClearFat final : public Skill {
     return false;
   }
 
+  /// How far it is from what is to be bared [m]; 0: from nothing in particular.
+  double off_bared(const Operator& op, Vec3d p) const {
+    double nearest = 1;
+    for (const BodyId body : m_bared) {
+      if (!body.is(BodyKind::strand)) continue;
+      for (const Vec3d& x : op.state().strands[body.index()].x) nearest = std::min(nearest, length(p - x));
+    }
+    return nearest < 1 ? nearest : 0;
+  }
+
   /// The outermost of those that have not been tried, near to where the hook is.
   int next(Operator& op) {
-    constexpr double kNear = 1.5;     // what the way there counts beside the depth
+    constexpr double kNear = 1.5,
+                     kBared = 1.5;    // what the way there, and from what is to be bared, count beside the depth
     constexpr double kAstray = 0.03;  // [m] from where it was drawn: it has come off
     const Arms::Arm& arm = op.arm(m_hand);
     int best = -1;
@@ -73,7 +84,7 @@ class ClearFat final : public Skill {
       if (gone(op, n) || m_tried[size_t(n)]) continue;
       const Vec3d p = place(op, n);
       if (length(p - body(op).fat.network.rest[size_t(n)]) > kAstray || spared(op, p)) continue;
-      const double cost = length(p - arm.port) + kNear * length(p - arm.tip);
+      const double cost = length(p - arm.port) + kNear * length(p - arm.tip) + kBared * off_bared(op, p);
       if (best < 0 || cost < least) least = cost, best = n;
     }
     if (best >= 0) m_tried[size_t(best)] = 1;

@@ -5,6 +5,7 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/bodies/bond_drawing.hpp>
+#include <trocar/view/bodies/drawn_holders.hpp>
 
 namespace trocar::view {
 namespace {
@@ -16,15 +17,6 @@ constexpr double kSpread = 0.0016;                  // [m] how far from its bond
 constexpr double kBow = 0.18;                       // of its length, to the side
 constexpr double kShred = 0.0012;                   // [m] what is left of one on either side
 constexpr std::uint32_t kEach = kRings * kSides;
-
-interactions::Holders holders_of(const sim::Model& model, const sim::State& state, std::vector<tissue::NodeView>& nodes,
-                                 std::vector<const tissue::Skin*>& skins) {
-  for (int i = 0; i < model.organs(); ++i) {
-    nodes.push_back(sim::nodes_of(model, state, i));
-    skins.push_back(&model.skin(i));
-  }
-  return {model.strand_bodies, state.strands, nodes, skins};
-}
 
 /// Across `along`, as far as `reach`, another way for every number.
 Vec3d scatter(Vec3d along, double reach, int i, int k) {
@@ -70,13 +62,11 @@ void BondDrawing::lay_thread(std::uint32_t first, Vec3d from, Vec3d to, Vec3d as
 }
 
 void BondDrawing::place(const sim::State& state) {
-  std::vector<tissue::NodeView> nodes;
-  std::vector<const tissue::Skin*> skins;
-  const interactions::Holders holders = holders_of(*m_model, state, nodes, skins);
+  const DrawnHolders holders(*m_model, state);
   const tissue::NetworkModel& wall = m_model->membranes[membrane()].sheet.network;
   for (std::size_t i = 0; i < m_set->bonds.size(); ++i) {
     const interactions::Bond& bond = m_set->bonds[i];
-    const Vec3d foot = held_place(bond.hold, holders) - bond.hold.offset;
+    const Vec3d foot = holders.foot(bond.hold);
     const Vec3d node = tissue::position(wall, state.membranes[membrane()].network, bond.node);
     const Vec3d along = normalised(node - foot, Vec3d{0, 0, 1});
     for (int k = 0; k < kThreads; ++k) {

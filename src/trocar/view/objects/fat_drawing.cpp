@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/numerics/portable.hpp>
+#include <trocar/view/bodies/drawn_holders.hpp>
 #include <trocar/view/objects/fat_drawing.hpp>
 
 namespace trocar::view {
@@ -17,6 +18,8 @@ constexpr double kThreadFrom = 1.7, kThreadTo = 8;  // spacings between which a 
 constexpr double kThin = 0.00008, kThick = 0.0005;  // [m] a thread's radius in its middle and at its ends
 constexpr std::uint32_t kRings = 5, kSides = 4;     // of a thread
 constexpr std::size_t kMostThreads = 400;
+constexpr float kRag = 3;           // septa that hold a lobule: with fewer it is a rag
+constexpr double kSmallest = 0.72;  // of its size, without any
 
 std::uint8_t burn_of(const tissue::FatModel& m, const tissue::Lobule& l) {
   if (!l.coagulated()) return 0;
@@ -58,12 +61,14 @@ void add_threads(const tissue::FatModel& m, const tissue::FatState& s, MeshBuffe
 
 }  // namespace
 
-FatDrawing::FatDrawing(const sim::Model& model, render::Backend& backend) : m_surface(kCell) {
+FatDrawing::FatDrawing(const sim::Model& model, render::Backend& backend) : m_model(&model), m_surface(kCell) {
+  const sim::State drawn = sim::initial_state(model);
+  std::size_t i = 0;
   for (const interactions::FatBody& body : interactions::part_of<Fat>(model.objects).list) {
     Drawn& d = m_bodies.emplace_back();
     d.body = &body;
     d.look = &look(model, body.look);
-    draw(d, tissue::rest_state(body.fat));
+    draw(d, drawn, interactions::part_of<Fat>(drawn.objects)[i++]);
     d.mesh = OwnedMesh(backend, m_buffer.data());
   }
 }
@@ -76,21 +81,43 @@ bool FatDrawing::moved(const Drawn& d, const tissue::FatState& s) {
   return false;
 }
 
-void FatDrawing::draw(Drawn& d, const tissue::FatState& s) {
+void FatDrawing::add_lobules(Drawn& d, const tissue::FatState& s) {
   const tissue::FatModel& m = d.body->fat;
   d.shown.clear(), d.marks.clear(), m_lobules.clear();
+  m_held.assign(std::size_t(m.lobules()), 0);
+  for (int i = 0; i < m.septa(); ++i)
+    for (int end : {0, 1}) m_held[std::size_t(septum_end(m, i, end))] += float(holding(m, s, i));
   for (int i = 0; i < m.lobules(); ++i) {
     const tissue::Lobule& l = s.lobules[std::size_t(i)];
     const Vec3d p = position(m, s, i), rest = m.network.rest[std::size_t(i)];
     d.shown.push_back(vec_cast<float>(p));
     d.marks.push_back(l.marks);
     if (l.gone() || length(p - rest) > 0.08) continue;  // what has fallen so far is out of sight
-    const double size = 1 + 0.16 * (2 * varied(i, 5) - 1);
+    const double rag = std::min(1.0, double(m_held[std::size_t(i)]) / double(kRag));
+    const double size = (kSmallest + (1 - kSmallest) * rag) * (1 + 0.16 * (2 * varied(i, 5) - 1));
     m_lobules.push_back({vec_cast<float>(p), vec_cast<float>(rest), float(size * kReach * m.spacing), burn_of(m, l)});
   }
+}
+
+/// By what rags hang on ducts and organs.
+void FatDrawing::add_roots(const Drawn& d, const sim::State& state, const interactions::FatBodyState& fat) {
+  const tissue::FatModel& m = d.body->fat;
+  const DrawnHolders holders(*m_model, state);
+  for (std::size_t i = 0; i < d.body->roots.bonds.size(); ++i) {
+    const interactions::Bond& root = d.body->roots.bonds[i];
+    if (!fat.roots[i].holds() || m_held[std::size_t(root.node)] >= kRag) continue;
+    const Vec3d foot = holders.foot(root.hold), lobule = position(m, fat.fat, root.node);
+    add_thread(foot, lobule, m.network.rest[std::size_t(root.node)],
+               burn_of(m, fat.fat.lobules[std::size_t(root.node)]), m_buffer);
+  }
+}
+
+void FatDrawing::draw(Drawn& d, const sim::State& state, const interactions::FatBodyState& fat) {
   m_buffer = {};
+  add_lobules(d, fat.fat);
   m_surface.draw(m_lobules, m_buffer);
-  add_threads(m, s, m_buffer);
+  add_threads(d.body->fat, fat.fat, m_buffer);
+  add_roots(d, state, fat);
   d.any = !m_buffer.indices.empty();
   if (d.any) return;
   for (int k = 0; k < 3; ++k) {  // a mesh has at least a triangle
@@ -105,7 +132,7 @@ void FatDrawing::update(const sim::State& state) {
   const Fat::States& now = interactions::part_of<Fat>(state.objects);
   for (std::size_t i = 0; i < m_bodies.size(); ++i) {
     if (!moved(m_bodies[i], now[i].fat)) continue;
-    draw(m_bodies[i], now[i].fat);
+    draw(m_bodies[i], state, now[i]);
     m_bodies[i].mesh.replace(m_buffer.data());
   }
 }

@@ -1,4 +1,5 @@
 // Fat as it is drawn: one surface around its lobules, and threads of septa between those that have been drawn apart.
+// What is left of it on a duct is small, and hangs by threads.
 #pragma once
 
 #include <vector>
@@ -27,11 +28,15 @@ class FatDrawing {
     bool any = false;                 ///< is there anything to see?
   };
   static bool moved(const Drawn& drawn, const tissue::FatState& state);
-  void draw(Drawn& drawn, const tissue::FatState& state);
+  void draw(Drawn& drawn, const sim::State& state, const interactions::FatBodyState& fat);
+  void add_lobules(Drawn& drawn, const tissue::FatState& state);
+  void add_roots(const Drawn& drawn, const sim::State& state, const interactions::FatBodyState& fat);
 
+  const sim::Model* m_model;
   FatSurface m_surface;
   MeshBuffer m_buffer;
   std::vector<DrawnLobule> m_lobules;
+  std::vector<float> m_held;  ///< (lobules) how many septa hold it
   std::vector<Drawn> m_bodies;
 };
 
