@@ -62,20 +62,9 @@ class ClearFat final : public Skill {
     return false;
   }
 
-  /// How far it is from what is to be bared [m]; 0: from nothing in particular.
-  double off_bared(const Operator& op, Vec3d p) const {
-    double nearest = 1;
-    for (const BodyId body : m_bared) {
-      if (!body.is(BodyKind::strand)) continue;
-      for (const Vec3d& x : op.state().strands[body.index()].x) nearest = std::min(nearest, length(p - x));
-    }
-    return nearest < 1 ? nearest : 0;
-  }
-
   /// The outermost of those that have not been tried, near to where the hook is.
   int next(Operator& op) {
-    constexpr double kNear = 1.5,
-                     kBared = 1.5;    // what the way there, and from what is to be bared, count beside the depth
+    constexpr double kNear = 1.5;     // what the way there counts beside the depth
     constexpr double kAstray = 0.03;  // [m] from where it was drawn: it has come off
     const Arms::Arm& arm = op.arm(m_hand);
     int best = -1;
@@ -84,7 +73,7 @@ class ClearFat final : public Skill {
       if (gone(op, n) || m_tried[size_t(n)]) continue;
       const Vec3d p = place(op, n);
       if (length(p - body(op).fat.network.rest[size_t(n)]) > kAstray || spared(op, p)) continue;
-      const double cost = length(p - arm.port) + kNear * length(p - arm.tip) + kBared * off_bared(op, p);
+      const double cost = length(p - arm.port) + kNear * length(p - arm.tip);
       if (best < 0 || cost < least) least = cost, best = n;
     }
     if (best >= 0) m_tried[size_t(best)] = 1;
@@ -132,6 +121,11 @@ class ClearFat final : public Skill {
       }
     return best;
   }
+  /// From a lobule that lies on a tube to where the metal touches it on its far side.
+  Vec3d outside(const Operator& op, Vec3d off) const {
+    constexpr double kOnTube = 0.005;  // [m] of its middle from the tube's
+    return length(off) < kOnTube ? 1.3 * body(op).fat.radius * normalised(off) : Vec3d{};
+  }
   /// Where the tip has to be for what is bare of it to lie there: half of the foot reaches beyond it.
   Vec3d tip_for(const Operator& op, const Arms::Arm& arm, Vec3d place) const {
     const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, place, arm.roll);
@@ -161,9 +155,10 @@ class ClearFat final : public Skill {
     constexpr double kTouches = 0.004;                    // [N]
     constexpr double kBefore = 0.006, kDeeper = 0.001;    // [m]
     constexpr double kFar = 2, kLongest = 3, kOff = 0.3;  // [s]
-    const Vec3d along = normalised(m_last - arm.port), goal = tip_for(op, arm, m_last);
+    const Vec3d along = normalised(m_last - arm.port), off = off_nearest(op);
+    const Vec3d goal = tip_for(op, arm, m_last + outside(op, off));
     const double force = norm(op.tool_state(m_hand).contact_force);
-    const bool turned = !(op.tool(m_hand).foot > 0) || op.arms().turn_across(m_hand, off_nearest(op));
+    const bool turned = !(op.tool(m_hand).foot > 0) || op.arms().turn_across(m_hand, off);
     if ((m_phase == kReach || m_phase == kPress) && !off_tubes(op, kHot)) lift(op);
     switch (m_phase) {
       case kAbove:
