@@ -291,6 +291,7 @@ Lively lively_small(std::uint64_t ticks) {
 
 const Model& digestive_model() { return shipped("digestive"); }
 const Model& gallbladder_model() { return shipped("gallbladder"); }
+const Model& calot_model() { return shipped("calot"); }
 
 const Model& pegs_model() { return shipped("peg_transfer"); }
 
@@ -385,8 +386,8 @@ TEST(Fields, AListThatLeavesOneOutIsFound) {
 
 TEST(Fields, EveryFieldOfAStateThatIsListedCountsInItsHash) {
   Changes::Fields changed, listed;
-  State states[] = {lively_everything().state, lively_small(2600).state, initial_state(gallbladder_model()),
-                    initial_state(pegs_model()), initial_state(small::statics())};
+  State states[] = {lively_everything().state,   lively_small(2600).state,        initial_state(gallbladder_model()),
+                    initial_state(pegs_model()), initial_state(small::statics()), initial_state(calot_model())};
   states[2].bonds.emplace_back(1);
   for (State& state : states) {
     Changes changes([&] { return hash_of(state); }, changed);
@@ -400,7 +401,7 @@ TEST(Fields, EveryFieldOfAModelThatIsListedCountsInItsSeal) {
   Changes::Fields changed, listed;
   for (const bool grows : {false, true})
     for (const Model* m : {&everything_model(), &small::model(), &digestive_model(), &gallbladder_model(),
-                           &pegs_model(), &small::statics()}) {
+                           &pegs_model(), &small::statics(), &calot_model()}) {
       Model model = *m;
       model.vessels.bleeder.vessel = 0;  // what no scene has is hashed as well where it is there
       model.wet.pool_at_start.saline = 1;
@@ -429,7 +430,7 @@ TEST(Fields, PoisonReachesEveryArrayOfWork) {
   // One tick fills them; after poison() no byte of them may be left as it was, and each of them is there in a scene.
   Spoilt spoilt;
   for (const Model* m : {&everything_model(), &small::model(), &small::energy(), &digestive_model(),
-                         &gallbladder_model(), &pegs_model(), &small::statics()}) {
+                         &gallbladder_model(), &pegs_model(), &small::statics(), &calot_model()}) {
     Work w = used_work(*m, 2);
     poison(w);
     spoilt.through(w, "Work");
@@ -438,10 +439,11 @@ TEST(Fields, PoisonReachesEveryArrayOfWork) {
   poison(lively.work);
   spoilt.through(lively.work, "Work");
   EXPECT_GT(spoilt.arrays.size(), 150u);
-  const std::string sheets = "Work.membrane_work.network.";  // have no cells, and so neither guard nor volume force
-  for (const char* of_cells : {"open_tets", "below", "volume.places", "volume.answers", "volume.forces",
-                               "volume.bounds", "volume.node_answer"})
-    EXPECT_EQ(spoilt.arrays.erase(sheets + of_cells), 1u) << of_cells;
+  // these have no cells, and so neither guard nor volume force
+  for (const std::string without : {"Work.membrane_work.network.", "Work.objects.fat.list.fat.network."})
+    for (const char* of_cells : {"open_tets", "below", "volume.places", "volume.answers", "volume.forces",
+                                 "volume.bounds", "volume.node_answer"})
+      EXPECT_EQ(spoilt.arrays.erase(without + of_cells), 1u) << without << of_cells;
   EXPECT_EQ(spoilt.arrays.erase("Work.objects.rigid.holds"), 1u) << "as many as jaws hold points of a ring";
   for (const auto& [path, filled] : spoilt.arrays) EXPECT_TRUE(filled) << path << " was empty in all scenes";
 }

@@ -58,6 +58,12 @@ TEST_P(CalotAnatomy, TheSurgeonDissectsTheTriangle) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, CalotAnatomy, testing::Range(0, 6));
 
+class Haemorrhage : public testing::TestWithParam<int> {};
+TEST_P(Haemorrhage, TheSurgeonStopsIt) {
+  expect_passes("cholecystectomy/haemorrhage.json", std::uint64_t(GetParam()));
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, Haemorrhage, testing::Range(0, 8));
+
 class BedAnatomy : public testing::TestWithParam<int> {};
 TEST_P(BedAnatomy, TheSurgeonPeelsTheGallbladderOffTheLiver) {
   expect_passes("cholecystectomy/bed.json", std::uint64_t(GetParam()));
