@@ -188,6 +188,6 @@ TEST(FatInItsScene, HidesWhatLiesInIt) {
   const size_t duct = size_t(m.strand_index("cystic_duct"));
   const Vec3d eye{-0.012, 0.012, -0.029}, middle = s.strands[duct].x[s.strands[duct].x.size() / 2];
   EXPECT_TRUE(behind_fat(m, s, eye, middle));
-  for (tissue::Lobule& l : fat_of(s).fat.lobules) l.marks |= tissue::Lobule::kGone;
+  for (tissue::Lobule& l : fat_of(s).fat.lobules) l.marks |= tissue::Lobule::kBoiledAway;
   EXPECT_FALSE(behind_fat(m, s, eye, middle));
 }

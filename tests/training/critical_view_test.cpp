@@ -37,7 +37,7 @@ struct Triangle {
   void remove(int lobule) {
     Lobule& l = fat().fat.lobules[std::size_t(lobule)];
     if (l.gone()) return;
-    l.marks |= Lobule::kGone;
+    l.marks |= Lobule::kBoiledAway;
     ++fat().fat.gone;
     for (int i = 0; i < body().fat.septa(); ++i)
       if (septum_end(body().fat, i, 0) == lobule || septum_end(body().fat, i, 1) == lobule)

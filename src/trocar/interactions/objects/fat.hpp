@@ -199,7 +199,7 @@ void Fat::shown(const Models& models, States_& states, F&& f) {
         Vec3d off;
         for (int c = 0; c < 3; ++c) off[c] = kStep * double(at[size_t(3 * n + c)]);
         tissue::set_position(m.network, s.network, n, m.network.rest[size_t(n)] + off);
-        s.lobules[size_t(n)].marks = marks[size_t(n)] & (tissue::Lobule::kCoagulated | tissue::Lobule::kGone);
+        s.lobules[size_t(n)].marks = marks[size_t(n)] & (tissue::Lobule::kCoagulated | tissue::Lobule::kBoiledAway);
         s.gone += s.lobules[size_t(n)].gone();
       }
       for (int k = 0; k < m.septa(); ++k)

@@ -42,7 +42,7 @@ void cool(const FatModel& m, FatState& s) noexcept {
 }
 
 void vanish(const FatModel& m, int lobule, FatState& s) noexcept {
-  s.lobules[std::size_t(lobule)].marks |= Lobule::kGone;
+  s.lobules[std::size_t(lobule)].marks |= Lobule::kBoiledAway;
   ++s.gone;
   for (int i = 0; i < m.septa(); ++i)
     if (septum_end(m, i, 0) == lobule || septum_end(m, i, 1) == lobule) cut_spring(m.network, s.network, i);

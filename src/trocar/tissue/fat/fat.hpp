@@ -78,13 +78,13 @@ struct FatModel {
 
 /// What a lobule has been through. No padding.
 struct Lobule {
-  enum Mark : std::int32_t { kCoagulated = 1, kGone = 2 };
+  enum Mark : std::int32_t { kCoagulated = 1, kBoiledAway = 2 };
   double heat = 0;         ///< above body temperature, without what has boiled [J]
   double boiled = 0;       ///< of its water [kg]
   std::int32_t marks = 0;  ///< Mark
   std::int32_t unused = 0;
 
-  bool gone() const noexcept { return (marks & kGone) != 0; }
+  bool gone() const noexcept { return (marks & kBoiledAway) != 0; }
   bool coagulated() const noexcept { return (marks & kCoagulated) != 0; }
 
   static constexpr bool kAsBytes = true;
