@@ -182,7 +182,7 @@ class ClearFat final : public Skill {
         press(op);
     }
   }
-  /// Out of it, the way it came: else it would touch the same again on its way to the next.
+  /// Back from a tube, the way it came.
   void lift(Operator& op) {
     constexpr double kBy = 0.005;  // [m]
     Arms::Arm& arm = op.arm(m_hand);
@@ -196,9 +196,8 @@ class ClearFat final : public Skill {
     m_lobule = at_metal(op);
     if (m_lobule == was && m_phase == kPress) m_lobule = -1;  // it does not go
     m_steady = 0;
-    if (m_lobule >= 0) return go(kPress);
-    m_lobule = was;
-    lift(op);
+    if (m_lobule < 0) op.arm(m_hand).coagulating = false;
+    go(m_lobule < 0 ? kAbove : kPress);
   }
 
   int m_hand;
