@@ -24,12 +24,10 @@ PlanTask& clip(Plan& plan, const char* which) { return plan.task(which, "clip_at
 /// That clip once more before it, tried once.
 PlanTask& wrong_clip(Plan& plan, const char* which) { return flaws::first_wrongly(plan, which).todo[0]; }
 
-constexpr Vec3d kWall{-0.062, 0.106, -0.092}, kDuct{-0.0454, 0.1082, -0.1014};  // [m]
-
-/// The scissors into the gallbladder's wall, or across something else.
-void open_the_gallbladder(PlanGoal& goal, size_t before, int hand, Vec3d wall = kWall) {
-  flaws::insert(goal, before, [hand, wall](Operator& op, double now) {
-    const Vec3d along = normalised(wall - op.arm(hand).port);
+/// The scissors into the gallbladder's wall.
+void open_the_gallbladder(PlanGoal& goal, size_t before, int hand) {
+  flaws::insert(goal, before, [hand](Operator& op, double now) {
+    const Vec3d wall{-0.062, 0.106, -0.092}, along = normalised(wall - op.arm(hand).port);
     op.want(wall);
     if (now < 3) return op.arms().move(hand, wall - 0.02 * along, pace::kTravel), Progress::working;
     if (now < 6) return op.arms().move(hand, wall, pace::kCareful), Progress::working;
@@ -68,16 +66,16 @@ void spoil_clip_and_cut(Plan& plan, const sim::Model& model, const std::string& 
         .set("seen", "whatever");
 }
 
-/// Scissors are taken before a goal's work with the hook begins, and close where they should not.
-void cut_wrongly(Plan& plan, const char* where, const char* skill, Vec3d at) {
-  PlanGoal& goal = plan.goal(where);
-  const int hand = plan.task(where, skill).argument("hand").index;
+void spoil_bed(Plan& plan, const std::string& code) {
+  if (code != "A2.2" && code != "A2.13") return;
+  PlanGoal& goal = plan.goal("open and part");
+  const int hand = plan.task("open and part", "part_bonds").argument("hand").index;
   const int neck = plan.task("hold", "take_hold").argument("mark").index;
   PlanTask away = PlanTask::of(kPutDown), take = PlanTask::of(kTake), in = PlanTask::of(kBringIn);
   away.set_index("hand", hand);
   take.set_index("hand", hand).set("instrument", "scissors").set_index("mark", neck);
   in.set_index("hand", hand).set_index("mark", neck);
-  open_the_gallbladder(goal, 0, hand, at);
+  open_the_gallbladder(goal, 0, hand);
   for (PlanTask* task : {&in, &take, &away}) flaws::insert(goal, 0, *task);
 }
 
@@ -94,9 +92,7 @@ TEST_P(PartsFlaw, TriggersItsErrorAndOnlyWhatTheTableSaysItImplies) {
   Monitor monitor(exercise, model);
   Demonstration demonstration = read_demonstration(exercise, model);
   if (name == "bed")
-    cut_wrongly(demonstration.plan, "open and part", "part_bonds", kWall);
-  else if (name == "calot")
-    cut_wrongly(demonstration.plan, "clear", "clear_fat", code == "E11" ? kDuct : kWall);
+    spoil_bed(demonstration.plan, code);
   else
     spoil_clip_and_cut(demonstration.plan, model, code);
   Performer surgeon(model, std::move(demonstration), {{0.0002, 1}});
@@ -135,8 +131,7 @@ std::string word(const testing::TestParamInfo<Case>& info) {
 constexpr Case kCases[] = {{"clip-and-cut", "A2.2"},  {"clip-and-cut", "A2.13"}, {"clip-and-cut", "A2.3"},
                            {"clip-and-cut", "A2.4"},  {"clip-and-cut", "A2.7"},  {"clip-and-cut", "A2.9"},
                            {"clip-and-cut", "A2.10"}, {"clip-and-cut", "A2.11"}, {"clip-and-cut", "E4.2"},
-                           {"clip-and-cut", "E11"},   {"bed", "A2.2"},           {"bed", "A2.13"},
-                           {"calot", "A2.2"},         {"calot", "A2.13"},        {"calot", "E11"}};
+                           {"clip-and-cut", "E11"},   {"bed", "A2.2"},           {"bed", "A2.13"}};
 INSTANTIATE_TEST_SUITE_P(Codes, PartsFlaw, testing::ValuesIn(kCases), word);
 
 }  // namespace
