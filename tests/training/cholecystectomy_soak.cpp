@@ -67,6 +67,8 @@ void spoil_clip_and_cut(Plan& plan, const sim::Model& model, const std::string& 
 }
 
 void spoil_bed(Plan& plan, const std::string& code) {
+  if (code == "A2.14")  // what holds is torn off instead of coagulated
+    plan.task("open and part", "draw").set("pull_N", 7.5).set("by_mm", 0.04).at_most = 20;
   if (code != "A2.2" && code != "A2.13") return;
   PlanGoal& goal = plan.goal("open and part");
   const int hand = plan.task("open and part", "part_bonds").argument("hand").index;
@@ -77,6 +79,10 @@ void spoil_bed(Plan& plan, const std::string& code) {
   in.set_index("hand", hand).set_index("mark", neck);
   open_the_gallbladder(goal, 0, hand);
   for (PlanTask* task : {&in, &take, &away}) flaws::insert(goal, 0, *task);
+}
+
+void spoil_expose(Plan& plan, const std::string& code) {
+  if (code == "A2.15") plan.task("front", "draw").set("towards", "up").set("by_mm", 0.03).set("pull_N", 4);
 }
 
 struct Case {
@@ -91,7 +97,9 @@ TEST_P(PartsFlaw, TriggersItsErrorAndOnlyWhatTheTableSaysItImplies) {
   const Penalty& p = *exercise.penalty(code);
   Monitor monitor(exercise, model);
   Demonstration demonstration = read_demonstration(exercise, model);
-  if (name == "bed")
+  if (name == "expose")
+    spoil_expose(demonstration.plan, code);
+  else if (name.rfind("bed", 0) == 0)
     spoil_bed(demonstration.plan, code);
   else
     spoil_clip_and_cut(demonstration.plan, model, code);
@@ -131,7 +139,8 @@ std::string word(const testing::TestParamInfo<Case>& info) {
 constexpr Case kCases[] = {{"clip-and-cut", "A2.2"},  {"clip-and-cut", "A2.13"}, {"clip-and-cut", "A2.3"},
                            {"clip-and-cut", "A2.4"},  {"clip-and-cut", "A2.7"},  {"clip-and-cut", "A2.9"},
                            {"clip-and-cut", "A2.10"}, {"clip-and-cut", "A2.11"}, {"clip-and-cut", "E4.2"},
-                           {"clip-and-cut", "E11"},   {"bed", "A2.2"},           {"bed", "A2.13"}};
+                           {"clip-and-cut", "E11"},   {"bed", "A2.2"},           {"bed", "A2.13"},
+                           {"bed-scarred", "A2.14"},  {"expose", "A2.15"}};
 INSTANTIATE_TEST_SUITE_P(Codes, PartsFlaw, testing::ValuesIn(kCases), word);
 
 }  // namespace
