@@ -79,6 +79,11 @@ void spoil_bed(Plan& plan, const std::string& code) {
   for (PlanTask* task : {&in, &take, &away}) flaws::insert(goal, 0, *task);
 }
 
+/// Who declares with all of the fat still there.
+void spoil_dissection(Plan& plan, const std::string& code) {
+  if (code == "A2.14") flaws::insert(plan.goal("front"), 0, PlanTask::of(kDeclare));
+}
+
 struct Case {
   const char *exercise, *code;
 };
@@ -93,6 +98,8 @@ TEST_P(PartsFlaw, TriggersItsErrorAndOnlyWhatTheTableSaysItImplies) {
   Demonstration demonstration = read_demonstration(exercise, model);
   if (name == "bed")
     spoil_bed(demonstration.plan, code);
+  else if (name == "calot" || name == "operation")
+    spoil_dissection(demonstration.plan, code);
   else
     spoil_clip_and_cut(demonstration.plan, model, code);
   Performer surgeon(model, std::move(demonstration), {{0.0002, 1}});
@@ -131,7 +138,8 @@ std::string word(const testing::TestParamInfo<Case>& info) {
 constexpr Case kCases[] = {{"clip-and-cut", "A2.2"},  {"clip-and-cut", "A2.13"}, {"clip-and-cut", "A2.3"},
                            {"clip-and-cut", "A2.4"},  {"clip-and-cut", "A2.7"},  {"clip-and-cut", "A2.9"},
                            {"clip-and-cut", "A2.10"}, {"clip-and-cut", "A2.11"}, {"clip-and-cut", "E4.2"},
-                           {"clip-and-cut", "E11"},   {"bed", "A2.2"},           {"bed", "A2.13"}};
+                           {"clip-and-cut", "E11"},   {"bed", "A2.2"},           {"bed", "A2.13"},
+                           {"calot", "A2.14"},       {"operation", "A2.14"}};
 INSTANTIATE_TEST_SUITE_P(Codes, PartsFlaw, testing::ValuesIn(kCases), word);
 
 }  // namespace
