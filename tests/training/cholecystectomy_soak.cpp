@@ -67,7 +67,7 @@ void spoil_clip_and_cut(Plan& plan, const sim::Model& model, const std::string& 
 }
 
 void spoil_bed(Plan& plan, const std::string& code) {
-  if (code == "A2.14")  // what holds is torn off instead of coagulated
+  if (code == "A2.16")  // what holds is torn off instead of coagulated
     plan.task("open and part", "draw").set("pull_N", 7.5).set("by_mm", 0.04).at_most = 20;
   if (code != "A2.2" && code != "A2.13") return;
   PlanGoal& goal = plan.goal("open and part");
@@ -83,6 +83,11 @@ void spoil_bed(Plan& plan, const std::string& code) {
 
 void spoil_expose(Plan& plan, const std::string& code) {
   if (code == "A2.15") plan.task("front", "draw").set("towards", "up").set("by_mm", 0.03).set("pull_N", 4);
+}
+
+/// Who declares with all of the fat still there.
+void spoil_dissection(Plan& plan, const std::string& code) {
+  if (code == "A2.14") flaws::insert(plan.goal("front"), 0, PlanTask::of(kDeclare));
 }
 
 struct Case {
@@ -101,6 +106,8 @@ TEST_P(PartsFlaw, TriggersItsErrorAndOnlyWhatTheTableSaysItImplies) {
     spoil_expose(demonstration.plan, code);
   else if (name.rfind("bed", 0) == 0)
     spoil_bed(demonstration.plan, code);
+  else if (name == "calot" || name == "operation")
+    spoil_dissection(demonstration.plan, code);
   else
     spoil_clip_and_cut(demonstration.plan, model, code);
   Performer surgeon(model, std::move(demonstration), {{0.0002, 1}});
@@ -136,11 +143,11 @@ std::string word(const testing::TestParamInfo<Case>& info) {
       all.begin(), all.end(), [](char c) { return c == '.' || c == '-'; }, '_');
   return all;
 }
-constexpr Case kCases[] = {{"clip-and-cut", "A2.2"},  {"clip-and-cut", "A2.13"}, {"clip-and-cut", "A2.3"},
-                           {"clip-and-cut", "A2.4"},  {"clip-and-cut", "A2.7"},  {"clip-and-cut", "A2.9"},
-                           {"clip-and-cut", "A2.10"}, {"clip-and-cut", "A2.11"}, {"clip-and-cut", "E4.2"},
-                           {"clip-and-cut", "E11"},   {"bed", "A2.2"},           {"bed", "A2.13"},
-                           {"bed-scarred", "A2.14"},  {"expose", "A2.15"}};
+constexpr Case kCases[] = {
+    {"clip-and-cut", "A2.2"}, {"clip-and-cut", "A2.13"}, {"clip-and-cut", "A2.3"},  {"clip-and-cut", "A2.4"},
+    {"clip-and-cut", "A2.7"}, {"clip-and-cut", "A2.9"},  {"clip-and-cut", "A2.10"}, {"clip-and-cut", "A2.11"},
+    {"clip-and-cut", "E4.2"}, {"clip-and-cut", "E11"},   {"bed", "A2.2"},           {"bed", "A2.13"},
+    {"bed-scarred", "A2.16"}, {"expose", "A2.15"},       {"calot", "A2.14"},        {"operation", "A2.14"}};
 INSTANTIATE_TEST_SUITE_P(Codes, PartsFlaw, testing::ValuesIn(kCases), word);
 
 }  // namespace

@@ -506,9 +506,13 @@ TEST(Events, OfHandsAreWhatTheStepReports) {
   const struct {
     const EventKind& kind;
     sim::Event::Kind reported;
-  } all[] = {{*find_event("grasped"), sim::Event::grasped}, {*find_event("released"), sim::Event::released},
-             {*find_event("slipped"), sim::Event::slipped}, {*find_event("exchanged"), sim::Event::exchanged},
-             {*find_event("parted"), sim::Event::parted},   {kTorn, sim::Event::torn}};
+  } all[] = {{*find_event("grasped"), sim::Event::grasped},
+             {*find_event("released"), sim::Event::released},
+             {*find_event("slipped"), sim::Event::slipped},
+             {*find_event("exchanged"), sim::Event::exchanged},
+             {*find_event("parted"), sim::Event::parted},
+             {*find_event("declared"), sim::Event::declared},
+             {kTorn, sim::Event::torn}};
   for (const auto& one : all) {
     Noticed n;
     n.watch(one.kind);

@@ -38,6 +38,7 @@ class Operator {
   const sim::State& state() const { return *m_state; }
   Arms& arms() { return m_arms; }
   Arms::Arm& arm(int hand) { return m_arms[hand]; }
+  const Arms::Arm& arm(int hand) const { return m_arms[hand]; }
   CameraHand& camera() { return m_camera; }
 
   // Eyes and fingers
@@ -65,6 +66,9 @@ class Operator {
   /// what it works at; otherwise from above.
   void across(int hand) { m_facing = m_arms[hand].tip - m_arms[hand].port; }
   void want_nothing() { m_point_count = 0; }
+
+  /// In this tick, aloud: what was to be shown is shown.
+  void declare() { m_declares = true; }
 
   // What hands do
   /// Moves so that `at` would lie `inside` from the jaws' hinge, less `back` along the shaft, and turns the jaws across
@@ -106,6 +110,7 @@ class Operator {
   std::array<Vec3d, 8> m_points{};
   int m_point_count = 0;
   double m_distance = 0;
+  bool m_declares = false;
   std::optional<Vec3d> m_facing;
   sim::HostViews m_hosts;
   std::vector<Vec3d> m_line;  ///< of the vessel that was asked for last, as it lies in this tick
