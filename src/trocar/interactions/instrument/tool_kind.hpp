@@ -34,6 +34,7 @@ struct Abilities {
   bool coagulate = false;  ///< an electrode is at the tip ...
   bool bipolar = false;    ///< ... and current goes from jaw to jaw
   bool hook = false;       ///< its end is a wire that may be bent to a foot, which catches bands
+  bool spread = false;     ///< jaws that open push apart what lies on their outer sides
 
   /// Legs of clips and blades come astride of what they close on.
   constexpr bool blunt() const noexcept { return !set_clips && !cut; }
@@ -52,7 +53,7 @@ inline constexpr KindOfTool kToolKinds[] = {
     {ToolKind::suction_irrigator, "suction_irrigator", {.irrigate = true}},
     {ToolKind::hook, "hook", {.coagulate = true, .hook = true}},
     {ToolKind::bipolar, "bipolar", {.grip = true, .coagulate = true, .bipolar = true}},
-    {ToolKind::dissector, "dissector", {.grip = true}},
+    {ToolKind::dissector, "dissector", {.grip = true, .spread = true}},
 };
 
 constexpr const KindOfTool& about(ToolKind kind) noexcept { return kToolKinds[std::size_t(kind)]; }
