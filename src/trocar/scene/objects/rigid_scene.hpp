@@ -1,4 +1,4 @@
-// Rigid objects as scene files have them: rings, and chains of beads.
+// Rigid objects as scene files have them: rings, chains of beads, pebbles.
 #pragma once
 
 #include <functional>
@@ -18,11 +18,12 @@ struct RigidSetting {
   std::string name, look;
   double outer = 0;          ///< a ring's outer diameter [m]; 0: a chain
   std::vector<Vec3d> chain;  ///< middles of its thick line, in its own frame [m]
+  Vec3d pebble;              ///< diameters of a pebble along its own axes, the widest first [m]; zero: none
   double thick = 0;          ///< diameter of what it is made of [m]
   double mass = 0;           ///< [kg]
   double friction = 0.3;     ///< Coulomb's coefficient
   Vec3d place;               ///< of its middle [m]
-  Vec3d axis{0, 0, 1};       ///< of a ring; of a chain: where its z points
+  Vec3d axis{0, 0, 1};       ///< of a ring; of others: where its z points
   core::Location at;
   JsonValue text;  ///< as it was read
 };

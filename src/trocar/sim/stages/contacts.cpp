@@ -70,6 +70,7 @@ void touch_organs(StepContext& c) noexcept {
     });
     at += p.sample.size();
   }
+  rest_objects(c);
 }
 
 }  // namespace trocar::sim
