@@ -23,6 +23,7 @@ enum class ToolKind : std::int32_t {
   hook,
   bipolar,
   dissector,
+  bag,
 };
 
 /// Verbs that instruments do with what is at their tip. What jaws do is in sim/verbs.
@@ -34,6 +35,7 @@ struct Abilities {
   bool coagulate = false;  ///< an electrode is at the tip ...
   bool bipolar = false;    ///< ... and current goes from jaw to jaw
   bool hook = false;       ///< its end is a wire that may be bent to a foot, which catches bands
+  bool bag = false;        ///< a sleeve that the scene's bag comes out of (interactions/objects/bag.hpp)
 
   /// Legs of clips and blades come astride of what they close on.
   constexpr bool blunt() const noexcept { return !set_clips && !cut; }
@@ -53,6 +55,7 @@ inline constexpr KindOfTool kToolKinds[] = {
     {ToolKind::hook, "hook", {.coagulate = true, .hook = true}},
     {ToolKind::bipolar, "bipolar", {.grip = true, .coagulate = true, .bipolar = true}},
     {ToolKind::dissector, "dissector", {.grip = true}},
+    {ToolKind::bag, "bag", {.bag = true}},
 };
 
 constexpr const KindOfTool& about(ToolKind kind) noexcept { return kToolKinds[std::size_t(kind)]; }

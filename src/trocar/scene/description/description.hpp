@@ -236,6 +236,7 @@ struct FluidsSetting {
   std::vector<std::string> pool_on;  ///< solids whose tops are part of its floor, beside the walls
   int drops = 4096;                  ///< at a time
   double pool_at_start = 0;          ///< blood that lies there when it begins [m^3]
+  double bile_at_start = 0;          ///< bile, with it [m^3]
   core::Location at;
 };
 
