@@ -59,6 +59,7 @@ struct BagModel {
   std::int32_t around = 0, rows = 0;  ///< nodes in a row; rows, the first on the hoop; the bottom is one node more
   std::vector<Vec3d> drawn;  ///< nodes of the open bag: hoop's middle at 0, z out of the mouth, x along the axis
   std::vector<BagThread> threads, bends;
+  std::vector<BagThread> reins;  ///< from the hoop to each node: no farther than the cloth in between is long
   std::vector<std::array<std::int32_t, 3>> triangles;    ///< counter-clockwise seen from outside
   std::vector<std::int32_t> face_first, face;            ///< CSR: triangles at a node
   std::vector<std::int32_t> neighbour_first, neighbour;  ///< CSR: nodes that share a triangle
@@ -72,8 +73,8 @@ struct BagModel {
   static void fields(S& s, V&& v) {
     v("name", s.name, core::kNotHashed), v("look", s.look, core::kNotHashed), v("hoop", s.hoop), v("deep", s.deep),
         v("mass", s.mass), v("around", s.around), v("rows", s.rows), v("drawn", s.drawn), v("threads", s.threads),
-        v("bends", s.bends), v("triangles", s.triangles), v("face_first", s.face_first), v("face", s.face),
-        v("neighbour_first", s.neighbour_first), v("neighbour", s.neighbour), v("rigids", s.rigids),
+        v("bends", s.bends), v("reins", s.reins), v("triangles", s.triangles), v("face_first", s.face_first),
+        v("face", s.face), v("neighbour_first", s.neighbour_first), v("neighbour", s.neighbour), v("rigids", s.rigids),
         v("pouches", s.pouches), v("points", s.points);
   }
 };
@@ -145,12 +146,16 @@ struct BagState {
   }
 };
 
+/// What is heavier than a node is taken to be as light as one: a few sweeps would not carry it on cloth that gives
+/// nothing. So the bag sags no deeper for what is in it, and a hand would not feel that, either.
+inline constexpr double kLightest = 1;
+
 /// A point as it is in this tick: who fills in moves what has been moved.
 struct BagBody {
   Vec3d x, moved{0, 0, 0};  ///< where it is; what the cloth has moved it by [m]
   Vec3d speed;              ///< [m/s]
   double radius = 0;        ///< [m]
-  double light = 0;         ///< a node's mass over its own; 0: nothing moves it
+  double light = 0;         ///< a node's mass over its own, kLightest at least; 0: nothing moves it
   bool near = false;        ///< could the bag reach it?
 };
 /// A node in what yields, or in what does not.

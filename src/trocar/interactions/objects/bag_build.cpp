@@ -58,6 +58,12 @@ void tie(BagModel& m) {
     if (b >= m.around) m.threads.push_back(thread(m, a, b));
 }
 
+/// Straight down from the hoop.
+void rein(const Meridian& line, BagModel& m) {
+  for (std::int32_t n = m.around; n < m.nodes(); ++n)
+    m.reins.push_back({n % m.around, n, line.length() * (n / m.around) / m.rows});
+}
+
 /// Over two nodes, around and along.
 void stiffen(BagModel& m) {
   const auto node = [&m](int r, int c) { return std::int32_t(r * m.around + c % m.around); };
@@ -103,6 +109,7 @@ BagModel build(const BagDescription& d) {
   m.mass = d.weight / m.nodes();
   lay_triangles(m);
   tie(m);
+  rein(line, m);
   stiffen(m);
   index(m);
   return m;

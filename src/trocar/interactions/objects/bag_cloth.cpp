@@ -9,14 +9,17 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kOpens = 1.5, kCloses = 2.0;  // [s] all the way
-constexpr double kRoom = 0.060;                // [m] of the sleeve in the body before the hoop first comes out
-constexpr double kNeck = 0.016;                // [m] a sleeve no deeper than this has its end in the port
-constexpr double kRolled = 0.12;               // of its depth: how the cloth lies under the hoop as it comes out
-constexpr double kStill = 4;                   // [1/s] speed is lost to wet film and gas
-constexpr double kQuickestNode = 3;            // [m/s]
-constexpr double kStiff = 0.1;                 // [N/m] of a bend
-constexpr int kSweeps = 5;
+constexpr double kOpens = 1.5, kCloses = 2.0;   // [s] all the way
+constexpr double kRoom = 0.060;                 // [m] of the sleeve in the body before the hoop first comes out
+constexpr double kNeck = 0.016;                 // [m] a sleeve no deeper than this has its end in the port
+constexpr double kRolled = 0.12;                // of its depth: how the cloth lies under the hoop as it comes out
+constexpr double kStill = 4;                    // [1/s] speed is lost to wet film and gas
+constexpr double kQuickestNode = 3;             // [m/s]
+constexpr double kStiff = 0.1;                  // [N/m] of a bend
+constexpr double kTaut = 0.98, kStilled = 0.5;  // of its length, squared; share of a swing that is lost in a tick
+constexpr double kViscous = 0.05;               // of any other motion between two nodes
+constexpr int kSweeps = 4;
+constexpr double kThrownOut = 0.1;    // [m/s] at most
 constexpr double kThick = 0.0008;     // [m] half the cloth's thickness, with what clings to it
 constexpr double kRodClear = 0.0005;  // [m]
 constexpr double kSlides = 0.15;      // Coulomb's coefficient of cloth on tissue and of contents on cloth
@@ -37,6 +40,30 @@ void pull_together(const BagModel& m, BagState& s) noexcept {
     const Vec3d by = ((l - t.length) / l) * way;
     a += free * by;
     b -= (1 - free) * by;
+  }
+}
+
+/// The hoop gives nothing.
+void rein_in(const BagModel& m, BagState& s) noexcept {
+  for (const BagThread& t : m.reins) {
+    Vec3d& b = s.x[size_t(t.b)];
+    const Vec3d way = b - s.x[size_t(t.a)];
+    const double l2 = dot(way, way);
+    if (l2 > t.length * t.length) b -= (1 - t.length / std::sqrt(l2)) * way;
+  }
+}
+
+/// Cloth does not swing like a spring.
+void still_threads(const BagModel& m, BagState& s) noexcept {
+  for (const BagThread& t : m.threads) {
+    const Vec3d way = s.x[size_t(t.b)] - s.x[size_t(t.a)];
+    const double l2 = dot(way, way);
+    if (l2 < kTaut * t.length * t.length) continue;
+    Vec3d &a = s.v[size_t(t.a)], &b = s.v[size_t(t.b)];
+    const bool held = t.a < m.around;
+    const Vec3d apart = b - a, by = (kStilled * dot(apart, way) / l2) * way + kViscous * apart;
+    if (!held) a += 0.5 * by;
+    b -= (held ? 1.0 : 0.5) * by;
   }
 }
 
@@ -149,6 +176,14 @@ void follow_hand(const BagHand& hand, double h, const BagWork& w, BagState& s) n
   if (s.shut() && hand.depth < kNeck) s.out = 1;
 }
 
+Vec3d speed_after(const BagBody& body, double h) noexcept {
+  const double far = length(body.moved);
+  if (!(far > 0)) return body.speed;
+  const Vec3d way = body.moved / far;
+  const double was = dot(body.speed, way), now = std::min(was + far / h, std::max(was, kThrownOut));
+  return body.speed + (now - was) * way;
+}
+
 void lay_hoop(const BagModel& m, BagState& s) noexcept {
   const Vec3d middle = s.middle(m), side = s.frame.side();
   const size_t laid = s.unrolled < 1 ? s.x.size() : size_t(m.around);
@@ -222,6 +257,7 @@ bool advance_cloth(const BagModel& m, Vec3d gravity, double h, BagState& s, BagW
   keep_apart(m, h, s);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     pull_together(m, s);
+    rein_in(m, s);
     press_out(m, s, w);
     push_aside(m, s, w);
     hold_off(m, s, w);
@@ -234,6 +270,7 @@ bool advance_cloth(const BagModel& m, Vec3d gravity, double h, BagState& s, BagW
     s.v[n] = quick > kQuickestNode ? (kQuickestNode / quick) * v : v;
     sound = sound && quick < 1e6;
   }
+  still_threads(m, s);
   return sound;
 }
 

@@ -4,9 +4,11 @@
 //
 //   x* = x + h v + h^2 g
 //   a few times, one after the other:   threads   |b - a| <= l, half of what is too much from either end
+//                                       reins     the same from the hoop to every node, so that a load is borne at once
+//                                                 [Kim, Chentanez & Mueller 2012, Long range attachments]
 //                                       presses   (x - p) n >= 0, softly where p is tissue
 //                                       touches   (q - sum w x) n >= r, by how light both sides are
-//   v = (x - x before) / h
+//   v = (x - x before) / h, without most of what taut threads would swing with
 //
 // No energy comes of it: corrections only ever end what has come too near or too far.
 #pragma once
@@ -38,6 +40,9 @@ void find_skins(const BagModel& model, std::span<const Surface> surfaces, std::u
 
 /// One tick with what is noted of presses, rods and touches. @return false: a place is no number any more
 bool advance_cloth(const BagModel& model, Vec3d gravity, double tick, BagState& state, BagWork& work) noexcept;
+
+/// The speed of what the cloth has moved: it is stopped, and not thrown back.
+Vec3d speed_after(const BagBody& body, double tick) noexcept;
 
 /// Nodes of the hoop, and of all the cloth while it is rolled out.
 void lay_hoop(const BagModel& model, BagState& state) noexcept;

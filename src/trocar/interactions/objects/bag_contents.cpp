@@ -11,7 +11,8 @@ constexpr double kOverMouth = 0.050;    // [m] above the mouth, from where thing
 constexpr double kBandThick = 0.0012;   // [m] half the hoop's thickness
 constexpr double kClothThick = 0.0008;  // [m] half the cloth's
 constexpr double kTouchAhead = 0.0005;  // [m] touches are there before anything touches
-constexpr double kAnotherSide = 0.012;  // [m] deeper is another part of the cloth
+constexpr double kAnotherSide = 0.012;  // [m] deeper is another part of the cloth ...
+constexpr double kStillIn = 0.040;      // [m] ... but of what is inside, which has nowhere else to be
 constexpr double kInMouth = 0.006;      // [m] about the mouth's plane: what lies there keeps the hoop open
 constexpr double kLeaves = 0.002;       // [m] that what keeps it open is away from the hoop
 constexpr double kBack = 0.0005;        // [m] above the mouth before what was inside has left
@@ -101,6 +102,18 @@ void touch_hoop(const BagModel& m, const BagState& s, std::int32_t point, BagWor
   w.touches.push_back(t);
 }
 
+double lost_at(const BagPoint& p) noexcept { return p.where == BagPoint::inside ? kStillIn : kAnotherSide; }
+
+/// So far from the nearest node that none of its triangles is near, on its own side of it, or altogether lost.
+bool is_clear(const BagState& s, const BagWork& w, const BagPoint& p, const BagBody& body) noexcept {
+  constexpr double kTriangles = 0.014;  // [m]
+  const Vec3d off = body.x - s.x[size_t(p.node)];
+  const double away2 = dot(off, off), far = kTriangles + body.radius, lost = lost_at(p) + body.radius;
+  if (away2 > lost * lost) return true;
+  const bool outer_side = dot(off, w.normal[size_t(p.node)]) > 0;
+  return away2 > far * far && outer_side == (p.where != BagPoint::inside);
+}
+
 void touch_cloth(const BagModel& m, const BagState& s, std::int32_t point, BagWork& w) noexcept {
   const BagBody& body = w.bodies[size_t(point)];
   const size_t node = size_t(s.points[size_t(point)].node);
@@ -118,7 +131,7 @@ void touch_cloth(const BagModel& m, const BagState& s, std::int32_t point, BagWo
   const Vec3d off = body.x - best.point;
   const double away = std::sqrt(best.distance2), side = dot(off, own) < 0 ? -1.0 : 1.0;
   const double keep = body.radius + kClothThick;
-  if (side * away > keep + kTouchAhead || side * away < -kAnotherSide) return;
+  if (side * away > keep + kTouchAhead || side * away < -lost_at(s.points[size_t(point)])) return;
   if (w.touches.size() == w.touches.capacity()) return;
   BagTouch t;
   t.point = point;
@@ -148,7 +161,6 @@ void note_places(const BagModel& m, BagState& s, BagWork& w) noexcept {
 }
 
 void find_touches(const BagModel& m, std::uint64_t tick, BagState& s, BagWork& w) noexcept {
-  constexpr double kCellReach = 0.013;  // [m] from a node: beyond none of its triangles is near
   for (size_t i = 0; i < s.points.size(); ++i) {
     const BagBody& body = w.bodies[i];
     if (!body.near) continue;
@@ -156,8 +168,7 @@ void find_touches(const BagModel& m, std::uint64_t tick, BagState& s, BagWork& w
     touch_hoop(m, s, std::int32_t(i), w);
     const bool looks = (tick + i) % kLooks == 0;
     p.node = std::int16_t(looks ? nearest_of_all(s, body.x) : walk_over_cloth(m, s, p.node, body.x));
-    const double far = kCellReach + body.radius;
-    if (p.where == BagPoint::over_mouth || geometry::distance2(s.x[size_t(p.node)], body.x) > far * far) continue;
+    if (p.where == BagPoint::over_mouth || is_clear(s, w, p, body)) continue;
     touch_cloth(m, s, std::int32_t(i), w);
   }
 }

@@ -17,7 +17,6 @@ using interactions::BagWork;
 using interactions::Rigid;
 
 constexpr double kNearBag = 0.020;       // [m] of the cloth: farther away nothing is looked at
-constexpr double kThrownOut = 0.3;       // [m/s] that what has come into the cloth gains at most
 constexpr double kWallOfPouch = 0.0005;  // [m] beyond half its thickness, as its triangles bulge between nodes
 
 /// f(model, state, work) of every bag that has come out of its sleeve, or may.
@@ -52,7 +51,11 @@ void look_at_rigids(const StepContext& c, const BagModel& m, BagWork& w) noexcep
   const auto& states = interactions::part_of<Rigid>(c.state.objects);
   for (size_t i = 0; i < size_t(m.rigids); ++i) {
     BagBody& b = w.bodies[i];
-    b = {states[i].x, {0, 0, 0}, states[i].v, 0.5 * (models[i].radius + models[i].reach), m.mass / models[i].mass,
+    b = {states[i].x,
+         {0, 0, 0},
+         states[i].v,
+         0.5 * (models[i].radius + models[i].reach),
+         std::max(interactions::kLightest, m.mass / models[i].mass),
          false};
     b.near = w.bounds.reaches(b.x, kNearBag);
     if (is_held(c, BodyId(BodyKind::rigid, i))) b.light = 0;
@@ -74,25 +77,20 @@ void look_at_pouches(const StepContext& c, const BagModel& m, BagWork& w) noexce
       b.x = nodes.position(n);
       b.speed = nodes.velocity(n);
       b.radius = radius;
-      b.light = sheet.network.fixed[size_t(n)] != 0 ? 0 : m.mass / (sheet.network.mass[size_t(n)] + inside);
+      const double own = sheet.network.mass[size_t(n)] + inside;
+      b.light = sheet.network.fixed[size_t(n)] != 0 ? 0 : std::max(interactions::kLightest, m.mass / own);
       b.near = w.bounds.reaches(b.x, kNearBag);
     }
   }
 }
 
-Vec3d gained(Vec3d moved) noexcept {
-  const Vec3d v = moved / kTick;
-  const double quick = length(v);
-  return quick > kThrownOut ? (kThrownOut / quick) * v : v;
-}
-
-/// What the cloth has moved goes on as it has been moved, and a stone in it does not sleep.
+/// A stone in it does not sleep.
 void move_contents(StepContext& c, const BagModel& m, const BagState& s, const BagWork& w) noexcept {
   auto& states = interactions::part_of<Rigid>(c.state.objects);
   for (size_t i = 0; i < size_t(m.rigids); ++i) {
     const Vec3d moved = w.bodies[i].moved;
     const bool touched = !(moved == Vec3d{});
-    if (touched) states[i].x += moved, states[i].v += gained(moved);
+    if (touched) states[i].x += moved, states[i].v = speed_after(w.bodies[i], kTick);
     if (touched || s.points[i].where == interactions::BagPoint::inside) states[i].still = 0;
   }
   for (const interactions::BagPouch& p : m.pouches)
@@ -102,7 +100,7 @@ void move_contents(StepContext& c, const BagModel& m, const BagState& s, const B
       const tissue::NetworkModel& network = c.model.membranes[size_t(p.membrane)].sheet.network;
       tissue::NetworkState& state = c.state.membranes[size_t(p.membrane)].network;
       tissue::set_position(network, state, n, b.x + b.moved);
-      tissue::set_velocity(network, state, n, b.speed + gained(b.moved));
+      tissue::set_velocity(network, state, n, speed_after(b, kTick));
     }
 }
 
@@ -152,11 +150,6 @@ void hold_in_bags(StepContext& c) noexcept {
     }
     move_contents(c, m, s, w);
   });
-}
-
-const BagState* bag_of(const State& state) noexcept {
-  const auto& bags = interactions::part_of<Bag>(state.objects);
-  return bags.empty() ? nullptr : &bags.front();
 }
 
 }  // namespace trocar::sim

@@ -11,7 +11,4 @@ void rest_bags(StepContext& context) noexcept;
 /// Stage: the hoop goes with its hand, the cloth hangs from it, and holds what is in it.
 void hold_in_bags(StepContext& context) noexcept;
 
-/// The scene's bag that hands bring in; null: there is none.
-const interactions::BagState* bag_of(const State& state) noexcept;
-
 }  // namespace trocar::sim
