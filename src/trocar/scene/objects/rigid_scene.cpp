@@ -146,6 +146,11 @@ RigidSetting RigidScene::read(const JsonObject& o) {
   return s;
 }
 
+void RigidScene::bend(std::vector<Setting>& settings, const std::function<Vec3d(Vec3d)>& warp) {
+  for (RigidSetting& s : settings)
+    if (s.pebble.x > 0) s.place = warp(s.place);
+}
+
 void RigidScene::compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>&) {
   if (settings.empty()) return;
   interactions::RigidModels& out = interactions::part_of<interactions::Rigid>(model.objects);

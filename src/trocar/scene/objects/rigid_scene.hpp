@@ -36,7 +36,8 @@ struct RigidScene {
   static Key row();  ///< of scene files
   static Setting read(const JsonObject& o);
   static JsonValue written(const Setting& setting) { return setting.text; }
-  static void bend(std::vector<Setting>&, const std::function<Vec3d(Vec3d)>&) {}  ///< no part of the anatomy
+  /// Pebbles lie where the anatomy leaves room for them; the rest is no part of it.
+  static void bend(std::vector<Setting>& settings, const std::function<Vec3d(Vec3d)>& warp);
   static void compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>& faults);
 };
 
