@@ -134,7 +134,7 @@ struct BagState {
   std::vector<BagSkin> skins;    ///< (nodes)
 
   bool there() const noexcept { return hoop > 0 || unrolled > 0; }
-  bool open() const noexcept { return hoop >= 0.999; }
+  bool open() const noexcept { return hoop >= 0.9; }
   bool shut() const noexcept { return unrolled >= 1 && hoop <= kShut; }
   Vec3d middle(const BagModel& m) const noexcept { return frame.tip + hoop * m.hoop * frame.axis; }
 

@@ -12,6 +12,7 @@ namespace {
 constexpr double kOpens = 1.5, kCloses = 2.0;   // [s] all the way
 constexpr double kRoom = 0.060;                 // [m] of the sleeve in the body before the hoop first comes out
 constexpr double kNeck = 0.016;                 // [m] a sleeve no deeper than this has its end in the port
+constexpr double kUnrolled = 0.9;               // share of the hoop that is out when all of the cloth is
 constexpr double kRolled = 0.12;                // of its depth: how the cloth lies under the hoop as it comes out
 constexpr double kStill = 4;                    // [1/s] speed is lost to wet film and gas
 constexpr double kQuickestNode = 3;             // [m/s]
@@ -172,7 +173,7 @@ void follow_hand(const BagHand& hand, double h, const BagWork& w, BagState& s) n
   if (wanted < s.hoop) wanted = std::max(wanted, std::min(s.hoop, w.narrowest));
   s.hoop = wanted > s.hoop ? stepped_to(s.hoop, wanted, h / kOpens) : stepped_to(s.hoop, wanted, h / kCloses);
   s.unrolled = std::max(s.unrolled, s.hoop);
-  if (s.unrolled > 0.999) s.unrolled = 1;
+  if (s.unrolled > kUnrolled) s.unrolled = 1;
   if (s.shut() && hand.depth < kNeck) s.out = 1;
 }
 

@@ -206,6 +206,7 @@ struct Pouch {
   std::vector<BondSetting> bonds;
   Contents contents;
   bool cuttable = true;
+  bool free = false;  ///< nothing holds it: it lies where it is put
   core::Location at, spacing_at;
 };
 
