@@ -19,6 +19,7 @@ constexpr double kQuickestNode = 3;             // [m/s]
 constexpr double kStiff = 0.1;                  // [N/m] of a bend
 constexpr double kTaut = 0.98, kStilled = 0.5;  // of its length, squared; share of a swing that is lost in a tick
 constexpr double kViscous = 0.05;               // of any other motion between two nodes
+constexpr double kComesOut = 0.1;               // share of what has sunk into the cloth that comes out in a tick
 constexpr int kSweeps = 4;
 constexpr double kThrownOut = 0.1;    // [m/s] at most
 constexpr double kThick = 0.0008;     // [m] half the cloth's thickness, with what clings to it
@@ -139,6 +140,14 @@ void part(const BagModel& m, const BagTouch& t, Vec3d by, BagState& s, BagWork& 
     if (give[k] > 0) s.x[size_t(t.nodes[k])] -= (give[k] / all) * by;
 }
 
+/// What has sunk in before this tick comes out again bit by bit: all at once it would be thrown.
+void be_patient(const BagState& s, BagWork& w) noexcept {
+  for (BagTouch& t : w.touches) {
+    const double sunk = t.away - dot(w.bodies[size_t(t.point)].x - place_of(t, s), t.normal);
+    if (sunk > 0) t.away -= (1 - kComesOut) * sunk;
+  }
+}
+
 void hold_off(const BagModel& m, BagState& s, BagWork& w) noexcept {
   for (BagTouch& t : w.touches) {
     const BagBody& body = w.bodies[size_t(t.point)];
@@ -248,6 +257,7 @@ void rest_cloth(const BagModel& m, const Surface& surface, std::int32_t number, 
 }
 
 bool advance_cloth(const BagModel& m, Vec3d gravity, double h, BagState& s, BagWork& w) noexcept {
+  be_patient(s, w);
   w.before = s.x;
   for (size_t n = size_t(m.around); n < s.x.size() && s.unrolled >= 1; ++n) {
     s.v[n] = (1 - kStill * h) * (s.v[n] + h * gravity);
@@ -257,11 +267,11 @@ bool advance_cloth(const BagModel& m, Vec3d gravity, double h, BagState& s, BagW
   if (s.unrolled < 1) return true;
   keep_apart(m, h, s);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    pull_together(m, s);
-    rein_in(m, s);
     press_out(m, s, w);
     push_aside(m, s, w);
     hold_off(m, s, w);
+    pull_together(m, s);
+    rein_in(m, s);
   }
   rub(m, h, s, w);
   bool sound = true;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/interactions/contact/body_push.hpp>
 #include <trocar/interactions/objects/bag_contents.hpp>
 
 namespace trocar::interactions {
@@ -16,6 +17,8 @@ constexpr double kStillIn = 0.040;      // [m] ... but of what is inside, which 
 constexpr double kInMouth = 0.006;      // [m] about the mouth's plane: what lies there keeps the hoop open
 constexpr double kLeaves = 0.002;       // [m] that what keeps it open is away from the hoop
 constexpr double kBack = 0.0005;        // [m] above the mouth before what was inside has left
+constexpr double kRubs = 0.15;          // Coulomb's coefficient of a pouch on cloth
+constexpr double kCreeps = 0.005;       // [m/s] below it friction is viscous
 constexpr std::uint64_t kLooks = 16;    // ticks in which the nearest node is looked for among all
 
 /// A place as seen from the hoop's middle.
@@ -171,6 +174,32 @@ void find_touches(const BagModel& m, std::uint64_t tick, BagState& s, BagWork& w
     if (p.where == BagPoint::over_mouth || is_clear(s, w, p, body)) continue;
     touch_cloth(m, s, std::int32_t(i), w);
   }
+}
+
+void push_pouch(const BagState& s, const BagTouch& t, const BagBody& body, int node, NetworkLoads& loads) noexcept {
+  Vec3d at = t.hoop, speed;
+  for (size_t k = 0; k < 3 && t.nodes[0] >= 0; ++k) {
+    if (k == 0) at = {};
+    at += t.weights[int(k)] * s.x[size_t(t.nodes[k])];
+    speed += t.weights[int(k)] * s.v[size_t(t.nodes[k])];
+  }
+  const double depth = t.away - dot(body.x - at, t.normal);
+  if (!(depth > 0)) return;
+  const double counts = std::min(depth, kQuickestApart);
+  tissue::NodeLoad load;
+  load.node = node;
+  load.k = float(kBodyStiffness);
+  load.d = float(kBodyDamping);
+  load.dir = vec_cast<float>(t.normal);
+  load.x0 = vec_cast<float>(body.x + counts * t.normal);
+  load.f0 = vec_cast<float>(kBodyDamping * dot(speed, t.normal) * t.normal);
+  loads.add(load, {Owner::body, 0, 0});
+  const Vec3d slip = body.speed - speed, across = slip - dot(slip, t.normal) * t.normal;
+  tissue::NodeLoad rub;
+  rub.node = node;
+  rub.d = float(kRubs * kBodyStiffness * counts / std::max(length(across), kCreeps));
+  rub.f0 = vec_cast<float>(double(rub.d) * speed);
+  loads.add(rub, {Owner::body, 0, 0});
 }
 
 BagShare share_in(const BagModel& m, const BagState& s, BodyId body) noexcept {

@@ -13,6 +13,11 @@ void note_places(const BagModel& model, BagState& state, BagWork& work) noexcept
 /// Points at the cloth and at the hoop. @param tick  whose turn it is to look for the nearest node of all
 void find_touches(const BagModel& model, std::uint64_t tick, BagState& state, BagWork& work) noexcept;
 
+/// How the cloth pushes a node of a pouch that has sunk into it: as organs push each other, as a load that its wall takes
+/// with all others. Moved like a stone it would strain its springs, tick after tick.
+void push_pouch(const BagState& state, const BagTouch& touch, const BagBody& body, int node,
+                NetworkLoads& loads) noexcept;
+
 /// How many points of the body are inside, of how many: a rigid body has one.
 struct BagShare {
   int inside = 0, all = 0;

@@ -62,6 +62,7 @@ void look_at_rigids(const StepContext& c, const BagModel& m, BagWork& w) noexcep
   }
 }
 
+/// Nothing in the cloth's own step moves them: it pushes them with loads.
 void look_at_pouches(const StepContext& c, const BagModel& m, BagWork& w) noexcept {
   for (const interactions::BagPouch& p : m.pouches) {
     const size_t i = size_t(p.membrane);
@@ -73,19 +74,23 @@ void look_at_pouches(const StepContext& c, const BagModel& m, BagWork& w) noexce
       BagBody& b = w.bodies[size_t(p.first + n)];
       b = {};
       if (!reached) continue;
-      const double inside = sheet.contents.empty() ? 0 : sheet.contents[size_t(n)];
       b.x = nodes.position(n);
       b.speed = nodes.velocity(n);
       b.radius = radius;
-      const double own = sheet.network.mass[size_t(n)] + inside;
-      b.light = sheet.network.fixed[size_t(n)] != 0 ? 0 : std::max(interactions::kLightest, m.mass / own);
       b.near = w.bounds.reaches(b.x, kNearBag);
     }
   }
 }
 
+void push_pouches(StepContext& c, const BagModel& m, const BagState& s, const BagWork& w) noexcept {
+  for (const interactions::BagTouch& t : w.touches)
+    for (const interactions::BagPouch& p : m.pouches)
+      if (t.point >= p.first && t.point < p.first + p.count)
+        push_pouch(s, t, w.bodies[size_t(t.point)], t.point - p.first, c.work.membrane_loads[size_t(p.membrane)]);
+}
+
 /// A stone in it does not sleep.
-void move_contents(StepContext& c, const BagModel& m, const BagState& s, const BagWork& w) noexcept {
+void move_stones(StepContext& c, const BagModel& m, const BagState& s, const BagWork& w) noexcept {
   auto& states = interactions::part_of<Rigid>(c.state.objects);
   for (size_t i = 0; i < size_t(m.rigids); ++i) {
     const Vec3d moved = w.bodies[i].moved;
@@ -93,15 +98,6 @@ void move_contents(StepContext& c, const BagModel& m, const BagState& s, const B
     if (touched) states[i].x += moved, states[i].v = speed_after(w.bodies[i], kTick);
     if (touched || s.points[i].where == interactions::BagPoint::inside) states[i].still = 0;
   }
-  for (const interactions::BagPouch& p : m.pouches)
-    for (std::int32_t n = 0; n < p.count; ++n) {
-      const BagBody& b = w.bodies[size_t(p.first + n)];
-      if (!b.near || b.moved == Vec3d{}) continue;
-      const tissue::NetworkModel& network = c.model.membranes[size_t(p.membrane)].sheet.network;
-      tissue::NetworkState& state = c.state.membranes[size_t(p.membrane)].network;
-      tissue::set_position(network, state, n, b.x + b.moved);
-      tissue::set_velocity(network, state, n, speed_after(b, kTick));
-    }
 }
 
 /// @return whether there is a bag to be moved
@@ -123,6 +119,9 @@ bool follow(const StepContext& c, BagState& s, const BagWork& w) noexcept {
 void rest_bags(StepContext& c) noexcept {
   for_bags(c, [&c](const BagModel& m, BagState& s, BagWork& w) {
     w.bounds = bounds_of(s);
+    w.narrowest = 0;
+    look_at_rigids(c, m, w);
+    look_at_pouches(c, m, w);
     if (s.unrolled < 1) return;
     find_skins(m, c.work.surfaces, c.state.tick, s, w);
     for (size_t i = 0; i < c.work.surfaces.size(); ++i) {
@@ -130,25 +129,23 @@ void rest_bags(StepContext& c) noexcept {
       if (!surface.pose->bounds.near_box(w.bounds, 0.005f)) continue;
       rest_cloth(m, surface, std::int32_t(i), s, surface.moves() ? &c.work.organ_loads[i] : nullptr, w);
     }
+    note_places(m, s, w);
+    find_normals(m, s, w);
+    find_touches(m, c.state.tick, s, w);
+    push_pouches(c, m, s, w);
   });
 }
 
 void hold_in_bags(StepContext& c) noexcept {
   for_bags(c, [&c](const BagModel& m, BagState& s, BagWork& w) {
+    if (!follow(c, s, w)) return;
     look_at_rigids(c, m, w);
     look_at_pouches(c, m, w);
-    w.narrowest = 0;
-    if (s.unrolled >= 1) note_places(m, s, w);
-    if (!follow(c, s, w)) return;
-    if (s.unrolled >= 1) {
-      find_normals(m, s, w);
-      find_touches(m, c.state.tick, s, w);
-    }
     if (!advance_cloth(m, c.model.gravity, kTick, s, w) && !c.report.first_bad_body.exists()) {
       c.report.flags |= tissue::StepReport::kNonFinite;
       c.report.first_bad_body = BodyId(BodyKind::bag, 0);
     }
-    move_contents(c, m, s, w);
+    move_stones(c, m, s, w);
   });
 }
 
