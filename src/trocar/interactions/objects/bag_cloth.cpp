@@ -141,9 +141,10 @@ void part(const BagModel& m, const BagTouch& t, Vec3d by, BagState& s, BagWork& 
 }
 
 /// What has sunk in before this tick comes out again bit by bit: all at once it would be thrown.
-void be_patient(const BagState& s, BagWork& w) noexcept {
+void be_patient(double h, const BagState& s, BagWork& w) noexcept {
   for (BagTouch& t : w.touches) {
-    const double sunk = t.away - dot(w.bodies[size_t(t.point)].x - place_of(t, s), t.normal);
+    const BagBody& body = w.bodies[size_t(t.point)];
+    const double sunk = t.away - dot(body.x - h * body.speed - place_of(t, s), t.normal);
     if (sunk > 0) t.away -= (1 - kComesOut) * sunk;
   }
 }
@@ -257,7 +258,7 @@ void rest_cloth(const BagModel& m, const Surface& surface, std::int32_t number, 
 }
 
 bool advance_cloth(const BagModel& m, Vec3d gravity, double h, BagState& s, BagWork& w) noexcept {
-  be_patient(s, w);
+  be_patient(h, s, w);
   w.before = s.x;
   for (size_t n = size_t(m.around); n < s.x.size() && s.unrolled >= 1; ++n) {
     s.v[n] = (1 - kStill * h) * (s.v[n] + h * gravity);
