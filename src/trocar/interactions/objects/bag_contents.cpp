@@ -109,12 +109,13 @@ double lost_at(const BagPoint& p) noexcept { return p.where == BagPoint::inside 
 
 /// So far from the nearest node that none of its triangles is near, on its own side of it, or altogether lost.
 bool is_clear(const BagState& s, const BagWork& w, const BagPoint& p, const BagBody& body) noexcept {
-  constexpr double kTriangles = 0.014;  // [m]
+  constexpr double kTriangles = 0.014, kBulges = 0.008;  // [m] how far triangles reach; rise above a node's plane
   const Vec3d off = body.x - s.x[size_t(p.node)];
   const double away2 = dot(off, off), far = kTriangles + body.radius, lost = lost_at(p) + body.radius;
   if (away2 > lost * lost) return true;
-  const bool outer_side = dot(off, w.normal[size_t(p.node)]) > 0;
-  return away2 > far * far && outer_side == (p.where != BagPoint::inside);
+  const double outwards = dot(off, w.normal[size_t(p.node)]);
+  const double above = p.where == BagPoint::inside ? -outwards : outwards;  // on its own side
+  return above > 0 && (away2 > far * far || above > kBulges + body.radius);
 }
 
 void touch_cloth(const BagModel& m, const BagState& s, std::int32_t point, BagWork& w) noexcept {
