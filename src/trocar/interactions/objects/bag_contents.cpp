@@ -118,16 +118,33 @@ bool is_clear(const BagState& s, const BagWork& w, const BagPoint& p, const BagB
   return above > 0 && (away2 > far * far || above > kBulges + body.radius);
 }
 
+/// The place of the cloth next to a point, on the triangles at its nearest node.
+struct OnCloth {
+  geometry::TrianglePoint<double> at{{}, {}, 1e30};
+  std::int32_t face = 0;
+};
+OnCloth nearest_on_cloth(const BagModel& m, const BagState& s, size_t node, Vec3d p) noexcept {
+  OnCloth best;
+  const auto look = [&](auto&& nearest) {
+    for (std::int32_t k = m.face_first[node]; k < m.face_first[node + 1]; ++k) {
+      const std::int32_t face = m.face[size_t(k)];
+      const auto& t = m.triangles[size_t(face)];
+      geometry::TrianglePoint<double> on;
+      if (nearest(s.x[size_t(t[0])], s.x[size_t(t[1])], s.x[size_t(t[2])], on) && on.distance2 < best.at.distance2)
+        best = {on, face};
+    }
+  };
+  look([p](Vec3d a, Vec3d b, Vec3d c, auto& on) { return geometry::foot_on_triangle(p, a, b, c, on); });
+  if (best.at.distance2 < 1e30) return best;
+  look([p](Vec3d a, Vec3d b, Vec3d c, auto& on) { return on = geometry::closest_on_triangle(p, a, b, c), true; });
+  return best;
+}
+
 void touch_cloth(const BagModel& m, const BagState& s, std::int32_t point, BagWork& w) noexcept {
   const BagBody& body = w.bodies[size_t(point)];
-  const size_t node = size_t(s.points[size_t(point)].node);
-  geometry::TrianglePoint<double> best{{}, {}, 1e30};
-  size_t face = 0;
-  for (std::int32_t k = m.face_first[node]; k < m.face_first[node + 1]; ++k) {
-    const auto& t = m.triangles[size_t(m.face[size_t(k)])];
-    const auto on = geometry::closest_on_triangle(body.x, s.x[size_t(t[0])], s.x[size_t(t[1])], s.x[size_t(t[2])]);
-    if (on.distance2 < best.distance2) best = on, face = size_t(m.face[size_t(k)]);
-  }
+  const OnCloth on = nearest_on_cloth(m, s, size_t(s.points[size_t(point)].node), body.x);
+  const geometry::TrianglePoint<double>& best = on.at;
+  const size_t face = size_t(on.face);
   const auto& nodes = m.triangles[face];
   Vec3d outwards;
   for (size_t k = 0; k < 3; ++k) outwards += best.weights[int(k)] * w.normal[size_t(nodes[k])];
