@@ -246,10 +246,9 @@ void rest_cloth(const BagModel& m, const Surface& surface, std::int32_t number, 
     const Vec3d normal = surface.normal(vertex), at = surface.position(vertex);
     const double above = dot(s.x[n] - at, normal), depth = kThick - above;
     if (depth < -0.002 || depth > kDeepestContact || w.presses.size() == w.presses.capacity()) continue;
-    BagPress press{std::int32_t(n), at + kThick * normal, normal, 0};
+    const double given = std::min(depth, kQuickestApart);
+    BagPress press{std::int32_t(n), s.x[n] + (loads && given > 0 ? 0.5 : 1.0) * given * normal, normal, 0};
     if (loads) {
-      const double given = std::clamp(depth, 0.0, kQuickestApart);
-      press.at -= 0.5 * std::max(depth, 0.0) * normal;
       press.give = m.mass / (kBodyStiffness * core::kTick * core::kTick);
       if (given > 0) push_skin(surface, vertex, -0.5 * given * normal, normal, kBodyStiffness, kBodyDamping, *loads);
     }

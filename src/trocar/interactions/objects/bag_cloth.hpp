@@ -13,6 +13,8 @@
 // No energy comes of it: corrections only ever end what has come too near or too far.
 #pragma once
 
+#include <span>
+
 #include <trocar/interactions/objects/bag.hpp>
 
 namespace trocar::interactions {
