@@ -44,6 +44,19 @@ bool holds_lobule(const ToolState& tool, BodyId body, int lobule) noexcept {
   return false;
 }
 
+bool lies_between(const ToolModel& tool, const ToolShape& shape, Vec3d local, double radius) noexcept {
+  const double beside = 0.6 * radius;
+  return std::fabs(local.y) <= 0.5 * tool.jaw_width + beside && local.z >= 0 && local.z <= tool.jaw_length + beside &&
+         std::fabs(local.x) <= shape.half_opening(local.z) + beside;
+}
+
+/// Of a part at a lobule: jaws' inner faces are toothed, and what lies between them does not slip out as they close.
+double friction_at(const ObjectHand& hand, int part, Vec3d p, double radius) noexcept {
+  const ToolShape& shape = hand.touching.shape;
+  const bool inside = part != kShaft && !shape.has_foot && lies_between(hand.tool, shape, to_jaw(shape, p), radius);
+  return inside ? std::max(hand.tool.friction, hand.tool.rubbing) : hand.tool.rubbing;
+}
+
 void touch_part(const tissue::FatModel& m, const tissue::FatState& s, BodyId body, const ObjectHand& hand, int part,
                 NetworkLoads& loads) noexcept {
   const Capsule& rod = hand.touching.shape.part[part];
@@ -56,8 +69,8 @@ void touch_part(const tissue::FatModel& m, const tissue::FatState& s, BodyId bod
     const Vec3d p = tissue::position(m, s, n);
     const Vec3d off = p - collision::nearest_on_axis(rod, p);
     if (dot(off, off) > reach * reach || (part != kShaft && holds_lobule(hand.state, body, n))) continue;
-    push(rod, hand.touching.way(part), velocity, hand.tool.rubbing, tag, n, p, tissue::velocity(m, s, n), m.radius,
-         loads);
+    push(rod, hand.touching.way(part), velocity, friction_at(hand, part, p, m.radius), tag, n, p,
+         tissue::velocity(m, s, n), m.radius, loads);
   }
 }
 

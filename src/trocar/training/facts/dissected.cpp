@@ -16,7 +16,8 @@ std::string_view needs_fat(const sim::Model& model) {
   return interactions::part_of<interactions::Fat>(model.objects).list.empty() ? "fat" : "";
 }
 
-/// Looked at ten times a second: what is asked there costs more than a tick should.
+constexpr int kTurns = 5;  // looked at ten times a second: what is asked there costs more than a tick should
+
 template <double (*figure)(const sim::Model&, const sim::State&, const Arguments&)>
 class Figure final : public Observer {
  public:
@@ -27,7 +28,6 @@ class Figure final : public Observer {
   Value value(const Moment&) const override { return m_turn > 0 ? Value(m_value) : kUnknown; }
 
  private:
-  static constexpr int kTurns = 5;
   Arguments m_arguments;
   int m_turn = 0;
   double m_value = 0;
@@ -37,9 +37,19 @@ double volume_left(const sim::Model& model, const sim::State& state, const Argum
   return fat_left(model, state, a[0].body());
 }
 
-double bared(const sim::Model& model, const sim::State& state, const Arguments& a) {
-  return bared_length(model, state, a[0].index);
-}
+class Bared final : public Observer {
+ public:
+  Bared(const sim::Model& model, const Arguments& a) : m_stretch(model, a[0].index) {}
+  void sample(const Moment& moment, double) override {
+    if (m_turn++ % kTurns == 0) m_value = m_stretch.longest(moment.state);
+  }
+  Value value(const Moment&) const override { return m_turn > 0 ? Value(m_value) : kUnknown; }
+
+ private:
+  BaredStretch m_stretch;
+  int m_turn = 0;
+  double m_value = 0;
+};
 
 double window_open(const sim::Model& model, const sim::State& state, const Arguments& a) {
   std::array<Vec3d, 3> corners;
@@ -86,23 +96,25 @@ const Fact kBondsLeft{"bonds.left_share",
                       false,
                       &unknown_bonds};
 
-const Fact kFatLeft{"fat.left_share",
-                    {{"of", ArgumentKind::body, "which fat"}},
-                    0,
-                    1,
-                    "The share of its volume that has not boiled away.",
-                    needs_fat,
-                    &remembering<Figure<volume_left>>,
-                    false,
-                    &no_fat};
+const Fact kFatLeft{
+    "fat.left_share",
+    {{"of", ArgumentKind::body, "which fat"}},
+    0,
+    1,
+    "The share of its volume that is still there: not boiled away, and not torn off all that it hung on.",
+    needs_fat,
+    &remembering<Figure<volume_left>>,
+    false,
+    &no_fat};
 
 const Fact kStrandBared{"strand.bared_mm",
                         {{"of", ArgumentKind::strand, "a duct or a vessel in fat"}},
                         0,
                         1000,
-                        "The longest stretch along which no fat lies on it in at least seven of eight sectors around.",
+                        "The longest stretch that lay in fat and along which none lies on it in at least seven of "
+                        "eight sectors around.",
                         needs_fat,
-                        &remembering<Figure<bared>>};
+                        &remembering<Bared>};
 
 const Fact kWindowOpen{"window.open_share",
                        {{"a", ArgumentKind::mark, "a corner of the window"},

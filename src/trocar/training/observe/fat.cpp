@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
+#include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/training/observe/fat.hpp>
 
@@ -14,8 +16,10 @@ using interactions::FatBody;
 using interactions::FatBodyState;
 
 constexpr double kStride = 0.001;  // [m] between places of a strand that are looked at
-constexpr double kOnIt = 0.6;     // spacings from a strand's surface: a lobule whose middle is so near lies on it
-constexpr int kRows = 8;          // of sights: 64 in a triangle
+constexpr double kOnIt = 0.9;      // spacings from a strand's surface: a lobule whose middle is so near lies on it
+constexpr double kWasIn = 1.2;     // the same as drawn: so wide that gaps between lobules count as fat
+constexpr int kInFat = 3;          // sectors with fat as drawn from which on a place counts
+constexpr int kRows = 8;           // of sights: 64 in a triangle
 
 /// f(body, state) of all fat.
 template <class F>
@@ -24,43 +28,42 @@ void for_fat(const sim::Model& model, const sim::State& state, F&& f) {
   for (std::size_t i = 0; i < bodies.size(); ++i) f(bodies[i], interactions::part_of<Fat>(state.objects)[i]);
 }
 
-/// Which sectors of a strand's place a lobule is in: bits.
-class Sectors {
- public:
-  Sectors(const sim::Model& model, const sim::State& state, int strand)
-      : m_body(model.strand_bodies[std::size_t(strand)]),
-        m_state(state.strands[std::size_t(strand)]),
-        m_covered(std::size_t(m_body.length() / kStride) + 1, 0) {}
+using Sectors = std::uint32_t;  // bits
 
-  void cover(Vec3d p, double reach) {
-    for (std::size_t i = 0; i < m_covered.size(); ++i) {
-      const interactions::StrandPlace at = interactions::place_at(m_body, double(i) * kStride);
-      const interactions::StrandFrame frame = frame_at(m_body, m_state, at);
-      const Vec3d off = p - point_at(m_body, m_state, at);
-      const double y = dot(off, frame.normal), z = dot(off, frame.binormal);
-      const double along = dot(off, cross(frame.normal, frame.binormal));
-      const double radius = m_body.model.radius[std::size_t(at.element)];
-      if (std::fabs(along) > reach || y * y + z * z > (radius + reach) * (radius + reach)) continue;
-      const double turn = portable::atan2(z, y) / (2 * portable::pi) + 1;
-      m_covered[i] |= std::uint32_t(1) << (int(turn * kSectors) % kSectors);
-    }
-  }
-  double longest() const {
-    int most = 0, run = 0;
-    for (const std::uint32_t bits : m_covered) {
-      int covered = 0;
-      for (std::uint32_t b = bits; b; b &= b - 1) ++covered;
-      run = covered <= kSectors - kBareSectors ? run + 1 : 0;
-      most = std::max(most, run);
-    }
-    return std::max(0, most - 1) * kStride;
-  }
-
- private:
-  const interactions::StrandBody& m_body;
-  const tissue::StrandState& m_state;
-  std::vector<std::uint32_t> m_covered;
+/// A place of a strand, and which way its sectors are counted.
+struct Spot {
+  Vec3d at;
+  interactions::StrandFrame frame;
+  double radius = 0;  ///< [m]
 };
+
+/// The sector that `p` lies in, if it is so near; else none.
+Sectors sector_of(const Spot& spot, Vec3d p, double reach) {
+  const Vec3d off = p - spot.at;
+  const double across = spot.radius + reach;
+  if (dot(off, off) > across * across + reach * reach) return 0;
+  const double y = dot(off, spot.frame.normal), z = dot(off, spot.frame.binormal), along = dot(off, spot.frame.tangent);
+  if (std::fabs(along) > reach || y * y + z * z > across * across) return 0;
+  const double turn = portable::atan2(z, y) / (2 * portable::pi) + 1;
+  return Sectors(1) << (int(turn * kSectors) % kSectors);
+}
+
+/// How many there are a stride apart along a strand.
+std::size_t spots_along(const interactions::StrandBody& strand) { return std::size_t(strand.length() / kStride) + 1; }
+
+Spot spot_as_drawn(const interactions::StrandBody& strand, std::size_t i) {
+  const tissue::StrandModel& m = strand.model;
+  const interactions::StrandPlace place = interactions::place_at(strand, double(i) * kStride);
+  const std::size_t e = std::size_t(place.element);
+  const Vec3d edge = m.rest[e + 1] - m.rest[e], along = normalised(edge, Vec3d{1, 0, 0}), normal = m.director_rest[e];
+  return {m.rest[e] + place.w * edge, {along, normal, cross(along, normal)}, m.radius[e]};
+}
+
+Spot spot_now(const interactions::StrandBody& strand, const tissue::StrandState& state, std::size_t i) {
+  const interactions::StrandPlace place = interactions::place_at(strand, double(i) * kStride);
+  return {point_at(strand, state, place), frame_at(strand, state, place),
+          strand.model.radius[std::size_t(place.element)]};
+}
 
 /// Which things hang together: disjoint sets.
 class Together {
@@ -90,11 +93,16 @@ void for_holds(const FatBody& body, const FatBodyState& s, F&& f) {
     if (s.ties[i].holds()) f(std::size_t(body.ties[i].lobule), BodyId::membrane(std::size_t(body.ties[i].membrane)));
 }
 
-void add_bridged(const FatBody& body, const FatBodyState& s, BodyId from, std::vector<BodyId>& out) {
+Together joined_by_septa(const FatBody& body, const FatBodyState& s) {
   Together lobules(s.fat.lobules.size());
   for (int i = 0; i < body.fat.septa(); ++i)
     if (holding(body.fat, s.fat, i) > 0)
       lobules.join(std::size_t(septum_end(body.fat, i, 0)), std::size_t(septum_end(body.fat, i, 1)));
+  return lobules;
+}
+
+void add_bridged(const FatBody& body, const FatBodyState& s, BodyId from, std::vector<BodyId>& out) {
+  Together lobules = joined_by_septa(body, s);
   std::vector<std::uint8_t> reached(s.fat.lobules.size(), 0);
   for_holds(body, s, [&](std::size_t lobule, BodyId on) {
     if (on == from) reached[lobules.root(lobule)] = 1;
@@ -107,13 +115,33 @@ void add_bridged(const FatBody& body, const FatBodyState& s, BodyId from, std::v
 
 }  // namespace
 
-double bared_length(const sim::Model& model, const sim::State& state, int strand) {
-  Sectors sectors(model, state, strand);
-  for_fat(model, state, [&](const FatBody& body, const FatBodyState& s) {
-    for (int n = 0; n < body.fat.lobules(); ++n)
-      if (!s.fat.lobules[std::size_t(n)].gone()) sectors.cover(position(body.fat, s.fat, n), kOnIt * body.fat.spacing);
-  });
-  return sectors.longest();
+BaredStretch::BaredStretch(const sim::Model& model, int strand) : m_model(&model), m_strand(strand) {
+  const interactions::StrandBody& body = model.strand_bodies[std::size_t(strand)];
+  for (std::size_t i = 0; i < spots_along(body); ++i) {
+    const Spot spot = spot_as_drawn(body, i);
+    Sectors covered = 0;
+    for (const FatBody& fat : interactions::part_of<Fat>(model.objects).list)
+      for (const Vec3d p : fat.fat.network.rest) covered |= sector_of(spot, p, kWasIn * fat.fat.spacing);
+    m_lay_in_fat.push_back(std::popcount(covered) >= kInFat);
+  }
+}
+
+double BaredStretch::longest(const sim::State& state) const {
+  const interactions::StrandBody& body = m_model->strand_bodies[std::size_t(m_strand)];
+  int most = 0, run = 0;
+  for (std::size_t i = 0; i < m_lay_in_fat.size(); ++i) {
+    Sectors covered = 0;
+    const Spot spot = spot_now(body, state.strands[std::size_t(m_strand)], i);
+    if (m_lay_in_fat[i])
+      for_fat(*m_model, state, [&](const FatBody& fat, const FatBodyState& s) {
+        for (int n = 0; n < fat.fat.lobules(); ++n)
+          if (!s.fat.lobules[std::size_t(n)].gone())
+            covered |= sector_of(spot, position(fat.fat, s.fat, n), kOnIt * fat.fat.spacing);
+      });
+    run = m_lay_in_fat[i] && std::popcount(covered) <= kSectors - kBareSectors ? run + 1 : 0;
+    most = std::max(most, run);
+  }
+  return std::max(0, most - 1) * kStride;
 }
 
 double open_share(const sim::Model& model, const sim::State& state, const std::array<Vec3d, 3>& corners, double reach) {
@@ -137,10 +165,31 @@ std::vector<BodyId> bridged_from(const sim::Model& model, const sim::State& stat
   return out;
 }
 
+NearStrand nearest_strand(const sim::Model& model, const sim::State& state, Vec3d place, std::span<const BodyId> but) {
+  NearStrand best;
+  for (std::size_t i = 0; i < model.strand_bodies.size(); ++i) {
+    if (std::find(but.begin(), but.end(), BodyId::strand(i)) != but.end()) continue;
+    const std::vector<Vec3d>& x = state.strands[i].x;
+    for (std::size_t e = 0; e + 1 < x.size(); ++e) {
+      const Vec3d edge = x[e + 1] - x[e];
+      const Vec3d off = place - (x[e] + geometry::closest_on_segment(place, x[e], x[e + 1]) * edge);
+      const double apart = length(off) - model.strand_bodies[i].model.radius[e];
+      if (apart < best.apart)
+        best = {BodyId::strand(i), apart, normalised(off, Vec3d{0, 0, 1}), normalised(edge, Vec3d{1, 0, 0})};
+    }
+  }
+  return best;
+}
+
 double fat_left(const sim::Model& model, const sim::State& state, BodyId fat) {
   const FatBody& body = interactions::part_of<Fat>(model.objects).list[fat.index()];
   const FatBodyState& s = interactions::part_of<Fat>(state.objects)[fat.index()];
-  return 1 - double(s.fat.gone) / double(body.fat.lobules());
+  Together lobules = joined_by_septa(body, s);
+  std::vector<std::uint8_t> hangs(s.fat.lobules.size(), 0);
+  for_holds(body, s, [&](std::size_t lobule, BodyId) { hangs[lobules.root(lobule)] = 1; });
+  int left = 0;
+  for (std::size_t n = 0; n < hangs.size(); ++n) left += !s.fat.lobules[n].gone() && hangs[lobules.root(n)];
+  return double(left) / double(body.fat.lobules());
 }
 
 }  // namespace trocar::training

@@ -38,6 +38,7 @@ class Operator {
   const sim::State& state() const { return *m_state; }
   Arms& arms() { return m_arms; }
   Arms::Arm& arm(int hand) { return m_arms[hand]; }
+  const Arms::Arm& arm(int hand) const { return m_arms[hand]; }
   CameraHand& camera() { return m_camera; }
 
   // Eyes and fingers

@@ -48,18 +48,11 @@ class ClearFat final : public Skill {
     m_done = 0;
   }
 
-  /// Does it lie on a tube that is to stay in its fat?
+  /// Is it to stay: on a tube that stays in its fat, or so near to another that hot metal would burn that?
   bool spared(const Operator& op, Vec3d p) const {
-    constexpr double kOff = 0.0045;  // [m]
-    for (size_t i = 0; i < op.model().strand_bodies.size(); ++i) {
-      if (std::find(m_bared.begin(), m_bared.end(), BodyId::strand(i)) != m_bared.end()) continue;
-      const std::vector<Vec3d>& x = op.state().strands[i].x;
-      const std::vector<double>& radius = op.model().strand_bodies[i].model.radius;
-      for (size_t e = 0; e + 1 < x.size(); ++e)
-        if (length(p - (x[e] + geometry::closest_on_segment(p, x[e], x[e + 1]) * (x[e + 1] - x[e]))) < radius[e] + kOff)
-          return true;
-    }
-    return false;
+    constexpr double kInItsFat = 0.0045, kOnIt = 0.0019;  // [m] of its middle from the tube
+    return nearest_strand(op.model(), op.state(), p).apart < kOnIt ||
+           nearest_strand(op.model(), op.state(), p, m_bared).apart < kInItsFat;
   }
 
   /// The outermost of those that have not been tried, near to where the hook is.
@@ -109,23 +102,6 @@ class ClearFat final : public Skill {
       }
     return true;
   }
-  /// From the nearest tube to the lobule: the foot lies across that, so that it is no nearer to the tube.
-  Vec3d off_nearest(const Operator& op) const {
-    Vec3d best{0, 0, 1};
-    double nearest = 1;
-    for (const tissue::StrandState& strand : op.state().strands)
-      for (size_t e = 0; e + 1 < strand.x.size(); ++e) {
-        const Vec3d a = strand.x[e], b = strand.x[e + 1];
-        const Vec3d off = m_last - (a + geometry::closest_on_segment(m_last, a, b) * (b - a));
-        if (length(off) < nearest) nearest = length(off), best = off;
-      }
-    return best;
-  }
-  /// From a lobule that lies on a tube to where the metal touches it on its far side.
-  Vec3d outside(const Operator& op, Vec3d off) const {
-    constexpr double kOnTube = 0.005;  // [m] of its middle from the tube's
-    return length(off) < kOnTube ? 1.3 * body(op).fat.radius * normalised(off) : Vec3d{};
-  }
   /// Where the tip has to be for what is bare of it to lie there: half of the foot reaches beyond it.
   Vec3d tip_for(const Operator& op, const Arms::Arm& arm, Vec3d place) const {
     const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, place, arm.roll);
@@ -155,9 +131,11 @@ class ClearFat final : public Skill {
     constexpr double kTouches = 0.004;                    // [N]
     constexpr double kBefore = 0.006, kDeeper = 0.001;    // [m]
     constexpr double kFar = 2, kLongest = 3, kOff = 0.3;  // [s]
-    const Vec3d along = normalised(m_last - arm.port), off = off_nearest(op);
-    const Vec3d goal = tip_for(op, arm, m_last + outside(op, off));
+    const Vec3d along = normalised(m_last - arm.port);
+    const Vec3d goal = tip_for(op, arm, m_last);
     const double force = norm(op.tool_state(m_hand).contact_force);
+    // the foot lies across the way to the nearest tube: so it is no nearer to that
+    const Vec3d off = nearest_strand(op.model(), op.state(), m_last).outwards;
     const bool turned = !(op.tool(m_hand).foot > 0) || op.arms().turn_across(m_hand, off);
     if ((m_phase == kReach || m_phase == kPress) && !off_tubes(op, kHot)) lift(op);
     switch (m_phase) {
@@ -190,12 +168,11 @@ class ClearFat final : public Skill {
     m_lifted = arm.tip + kBy * normalised(arm.port - arm.tip);
     go(kLift);
   }
-  /// Goes on with what the wire is at; lifts it where there is no more.
+  /// Goes on with what the wire is at; lifts it where there is no more, and off what does not go.
   void press(Operator& op) {
     const int was = m_lobule;
     m_lobule = at_metal(op);
-    if (m_lobule == was && m_phase == kPress) m_lobule = -1;  // it does not go
-    m_steady = 0;
+    if (m_lobule == was && m_phase == kPress) return lift(op);
     if (m_lobule < 0) op.arm(m_hand).coagulating = false;
     go(m_lobule < 0 ? kAbove : kPress);
   }
@@ -217,18 +194,19 @@ std::string lacks_fat(const sim::Model& model, const Given& given) {
 
 }  // namespace
 
-const SkillKind kClearFat{"clear_fat",
-                          "clear fat away",
-                          {hand_parameter("that has a hook"),
-                           {"fat", ArgumentKind::body, "which"},
-                           {"bare", ArgumentKind::bodies, "strands that are to be bared: fat on others is left", false},
-                           number_parameter("left_share", "until no more of its volume is left; 0", 0, 1),
-                           number_parameter("most", "lobules in one go; all", 1, 10000)},
-                          400,
-                          "Brings an electrode to the outermost lobule of fat, presses the blue pedal until it has "
-                          "boiled away, and goes on to "
-                          "the next; then draws back.",
-                          lacks_fat,
-                          &making<ClearFat>};
+const SkillKind kClearFat{
+    "clear_fat",
+    "clear fat away",
+    {hand_parameter("that has a hook"),
+     {"fat", ArgumentKind::body, "which"},
+     {"bare", ArgumentKind::bodies, "strands beside which it works: about others all is left", false},
+     number_parameter("left_share", "until no more of its volume is left; 0", 0, 1),
+     number_parameter("most", "lobules in one go; all", 1, 10000)},
+    400,
+    "Brings an electrode to the outermost lobule of fat, presses the blue pedal until it has "
+    "boiled away, and goes on to the next; then draws back. What lies right on a strand is left: "
+    "hot metal would burn that.",
+    lacks_fat,
+    &making<ClearFat>};
 
 }  // namespace trocar::training
