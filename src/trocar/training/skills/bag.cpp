@@ -70,7 +70,7 @@ class PutInBag final : public Skill {
         m_least(given.number("least_share", 1)) {}
 
  private:
-  enum Phase { kRaise, kOver, kIn, kLetGo, kBack, kFalls };
+  enum Phase { kOver, kIn, kLetGo, kBack, kFalls };
 
   void start(Operator& op, int) override {
     const interactions::ToolState& tool = op.tool_state(m_hand);
@@ -83,10 +83,7 @@ class PutInBag final : public Skill {
     op.want(mouth);
     if (!m_body.exists()) return fail("there is nothing in the jaws");
     if (m_phase <= kIn && op.tool_state(m_hand).holds == 0) return fail("it slipped out of the jaws");
-    if (m_phase == kRaise) {
-      const double lower = std::max(0.0, dot(over - arm.tip, up));
-      if (op.arms().move(m_hand, arm.tip + lower * up, pace::kTravel) || m_in_phase > kLongestRaise) go(kOver);
-    } else if (m_phase == kOver) {
+    if (m_phase == kOver) {
       if (op.arms().move(m_hand, over, pace::kTravel)) go(kIn);
     } else if (m_phase == kIn) {
       if (op.arms().move(m_hand, mouth - m_deep * up, pace::kCareful)) go(kLetGo);
@@ -105,7 +102,6 @@ class PutInBag final : public Skill {
     return share.all > 0 ? double(share.inside) / share.all : 0;
   }
 
-  static constexpr double kLongestRaise = 3;  // [s]
   int m_hand;
   double m_deep, m_above, m_least;
   BodyId m_body;
