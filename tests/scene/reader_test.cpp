@@ -364,7 +364,7 @@ TEST(Reader, AllFaultsComeInOnePassInTheOrderOfTheFile) {
       (Faults{"expected a known key of a scene ($schema, format, name, like, title, gravity_m_s2, tissues, organs, "
               "vessels, "
               "fluids, bleeder, energy, peristalsis, breathing, detail, marks, variation, instruments, ports, tools, "
-              "scope, rigids, fat), got "
+              "scope, rigids, fat, bags), got "
               "\"titel\" (did "
               "you mean \"title\"?)",
               "expected a number in [1, 25000] for \"density_kg_m3\", got -1", "expected a finite number, got 1e999",

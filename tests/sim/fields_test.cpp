@@ -293,6 +293,27 @@ const Model& digestive_model() { return shipped("digestive"); }
 const Model& gallbladder_model() { return shipped("gallbladder"); }
 const Model& calot_model() { return shipped("calot"); }
 
+/// A bag that is open, a stone in it and another one on the liver, cloth on the liver, too.
+const Model& spill_model() { return shipped("cholecystectomy_spill"); }
+Lively lively_bag() {
+  const Model& m = spill_model();
+  Lively l{initial_state(m), make_work(m)};
+  interactions::BagState& bag = interactions::part_of<interactions::Bag>(l.state.objects).front();
+  const interactions::BagModel& model = interactions::part_of<interactions::Bag>(m.objects).list.front();
+  auto& stones = interactions::part_of<interactions::Rigid>(l.state.objects);
+  const kinematics::TipFrame hand = kinematics::forward(m.hands[1].port, pose_of(m.start.tools[1]));
+  bag.hoop = bag.unrolled = 1;
+  bag.frame = {hand.tip, hand.axis(), hand.normal()};
+  for (size_t n = 0; n < bag.x.size(); ++n)
+    bag.x[n] = bag.middle(model) + model.drawn[n].x * bag.frame.axis + model.drawn[n].y * bag.frame.side() +
+               model.drawn[n].z * bag.frame.up;
+  const Vec3d liver = vec_cast<double>(m.skin(m.organ_index("liver")).rest.front());
+  bag.x[20] = stones[1].x = liver;
+  stones[0].x = bag.x.back() + 0.003 * bag.frame.up;
+  for (int i = 0; i < 2; ++i) step(m, m.start, l.state, l.work);
+  return l;
+}
+
 const Model& pegs_model() { return shipped("peg_transfer"); }
 
 // ---- Poison -----------------------------------------------------------------------------------------------------
@@ -387,7 +408,8 @@ TEST(Fields, AListThatLeavesOneOutIsFound) {
 TEST(Fields, EveryFieldOfAStateThatIsListedCountsInItsHash) {
   Changes::Fields changed, listed;
   State states[] = {lively_everything().state,   lively_small(2600).state,        initial_state(gallbladder_model()),
-                    initial_state(pegs_model()), initial_state(small::statics()), initial_state(calot_model())};
+                    initial_state(pegs_model()), initial_state(small::statics()), initial_state(calot_model()),
+                    lively_bag().state};
   states[2].bonds.emplace_back(1);
   for (State& state : states) {
     Changes changes([&] { return hash_of(state); }, changed);
@@ -401,7 +423,7 @@ TEST(Fields, EveryFieldOfAModelThatIsListedCountsInItsSeal) {
   Changes::Fields changed, listed;
   for (const bool grows : {false, true})
     for (const Model* m : {&everything_model(), &small::model(), &digestive_model(), &gallbladder_model(),
-                           &pegs_model(), &small::statics(), &calot_model()}) {
+                           &pegs_model(), &small::statics(), &calot_model(), &spill_model()}) {
       Model model = *m;
       model.vessels.bleeder.vessel = 0;  // what no scene has is hashed as well where it is there
       model.wet.pool_at_start.saline = 1;
@@ -439,6 +461,9 @@ TEST(Fields, PoisonReachesEveryArrayOfWork) {
   Lively lively = lively_everything();
   poison(lively.work);
   spoilt.through(lively.work, "Work");
+  Lively bag = lively_bag();
+  poison(bag.work);
+  spoilt.through(bag.work, "Work");
   EXPECT_GT(spoilt.arrays.size(), 150u);
   // these have no cells, and so neither guard nor volume force
   for (const std::string without : {"Work.membrane_work.network.", "Work.objects.fat.list.fat.network."})

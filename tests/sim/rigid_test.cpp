@@ -234,4 +234,50 @@ TEST(Rigid, SavedAndPoisonedItGoesOnTheSame) {
   EXPECT_NE(hash_of(s), hash_of(initial_state(m)));
 }
 
+/// A pebble of 1 g over the pad of the small scene.
+Model pebble_on_pad() {
+  scene::Description d = small::description();
+  d.solids.erase(d.solids.begin() + 2);
+  d.vessels.clear();
+  d.fluids.reset();
+  scene::RigidSetting s;
+  s.name = "pebble";
+  s.pebble = {0.007, 0.006, 0.005};
+  s.thick = s.pebble.z;
+  s.mass = 0.001;
+  s.place = {0.050, 0.006, 0.012};
+  settings_of(scene::RigidScene{}, d.objects).push_back(s);
+  return scene::compile(d);
+}
+
+TEST(Rigid, APebbleFallsOnTissueAndLiesThere) {
+  const Model m = pebble_on_pad();
+  State s = initial_state(m);
+  Work w = make_work(m);
+  double least = 1, grown = 0;
+  const auto whole = [&] { return 0.001 * (0.5 * dot(ring(s).v, ring(s).v) + 9.81 * ring(s).x.z); };
+  for (int i = 0; i < 3000; ++i) {
+    step(m, m.start, s, w);
+    grown = std::max(grown, whole() - least);
+    least = std::min(least, whole());
+  }
+  EXPECT_NEAR(ring(s).x.z, -0.0021 + 0.0025, 0.0015) << "on the pad's top, at -2.1 mm";
+  EXPECT_LT(length(ring(s).v), 1e-3);
+  EXPECT_LT(grown, 2e-6) << "it does not jump";
+}
+
+TEST(Rigid, WhatLiesOnTissueWeighsOnIt) {
+  const Model m = pebble_on_pad();
+  State s = initial_state(m);
+  Work w = make_work(m);
+  for (int i = 0; i < 2500; ++i) step(m, m.start, s, w);
+  double force = 0;  // that the skin is pressed with, mean of some ticks
+  for (int i = 0; i < 100; ++i) {
+    step(m, m.start, s, w);
+    for (const interactions::RigidBed& bed : interactions::part_of<Rigid>(w.objects).beds)
+      force += std::max(0.0, -bed.gap) * 150 * bed.normal.z / 100;
+  }
+  EXPECT_NEAR(force, 9.81e-3, 2e-3);
+}
+
 }  // namespace

@@ -160,7 +160,7 @@ inline scene::Description description() {
   d.strands = {tube(), cord()};
   d.membranes = {fold()};
   d.vessels = {arteries()};
-  d.fluids = scene::FluidsSetting{{0.025, 0, -0.019}, 0.14, {}, 1024, 0, {}};
+  d.fluids = scene::FluidsSetting{{0.025, 0, -0.019}, 0.14, {}, 1024, 0, 0, {}};
   scene::Wall floor;
   floor.name = "floor";
   floor.rows = floor.columns = 3;

@@ -4,6 +4,7 @@
 // (nothing turns the jaws askew on a cord that is not held), and what the common rules assess (flaws_soak.cpp).
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -90,6 +91,24 @@ void spoil_dissection(Plan& plan, const std::string& code) {
   if (code == "A2.14") flaws::insert(plan.goal("front"), 0, PlanTask::of(kDeclare));
 }
 
+/// One stone is not looked for; or it is let go of high above where it lay.
+void spoil_spill(Plan& plan, const std::string& code) {
+  const std::string stone = "the smallest stone";
+  for (PlanPart& part : plan.parts)
+    for (size_t i = part.goals.size(); code == "A4.1" && i-- > 0;)
+      if (part.goals[i].name.find(stone) != std::string::npos) part.goals.erase(part.goals.begin() + std::ptrdiff_t(i));
+  if (code != "A4.2") return;
+  PlanGoal& goal = plan.goal("put " + stone + " into the bag");
+  const int hand = goal.todo[0].argument("hand").index;
+  auto from = std::make_shared<Vec3d>();
+  flaws::insert(goal, 0, [hand, from](Operator& op, double now) {
+    if (now <= 2 * sim::kTick) *from = op.arm(hand).tip;
+    op.want(op.arm(hand).tip);
+    if (now < 2.5) return op.arms().move(hand, *from + Vec3d{0, 0, 0.04}, pace::kCareful), Progress::working;
+    return op.arms().grip(hand, 0, 0.3) && now > 5 ? Progress::done : Progress::working;
+  });
+}
+
 struct Case {
   const char *exercise, *code;
 };
@@ -108,6 +127,8 @@ TEST_P(PartsFlaw, TriggersItsErrorAndOnlyWhatTheTableSaysItImplies) {
     spoil_bed(demonstration.plan, code);
   else if (name == "calot" || name == "operation")
     spoil_dissection(demonstration.plan, code);
+  else if (name == "spill")
+    spoil_spill(demonstration.plan, code);
   else
     spoil_clip_and_cut(demonstration.plan, model, code);
   Performer surgeon(model, std::move(demonstration), {{0.0002, 1}});
@@ -143,11 +164,12 @@ std::string word(const testing::TestParamInfo<Case>& info) {
       all.begin(), all.end(), [](char c) { return c == '.' || c == '-'; }, '_');
   return all;
 }
-constexpr Case kCases[] = {
-    {"clip-and-cut", "A2.2"}, {"clip-and-cut", "A2.13"}, {"clip-and-cut", "A2.3"},  {"clip-and-cut", "A2.4"},
-    {"clip-and-cut", "A2.7"}, {"clip-and-cut", "A2.9"},  {"clip-and-cut", "A2.10"}, {"clip-and-cut", "A2.11"},
-    {"clip-and-cut", "E4.2"}, {"clip-and-cut", "E11"},   {"bed", "A2.2"},           {"bed", "A2.13"},
-    {"bed-scarred", "A2.16"}, {"expose", "A2.15"},       {"calot", "A2.14"},        {"operation", "A2.14"}};
+constexpr Case kCases[] = {{"clip-and-cut", "A2.2"},  {"clip-and-cut", "A2.13"}, {"clip-and-cut", "A2.3"},
+                           {"clip-and-cut", "A2.4"},  {"clip-and-cut", "A2.7"},  {"clip-and-cut", "A2.9"},
+                           {"clip-and-cut", "A2.10"}, {"clip-and-cut", "A2.11"}, {"clip-and-cut", "E4.2"},
+                           {"clip-and-cut", "E11"},   {"bed", "A2.2"},           {"bed", "A2.13"},
+                           {"bed-scarred", "A2.16"},  {"expose", "A2.15"},       {"calot", "A2.14"},
+                           {"operation", "A2.14"},    {"spill", "A4.1"},         {"spill", "A4.2"}};
 INSTANTIATE_TEST_SUITE_P(Codes, PartsFlaw, testing::ValuesIn(kCases), word);
 
 }  // namespace

@@ -17,6 +17,7 @@ enum class BodyKind : std::int16_t {
   membrane = 2,
   rigid = 3,
   fat = 4,
+  bag = 5,
 };
 
 struct BodyKindName {
@@ -29,6 +30,7 @@ inline constexpr BodyKindName kBodyKinds[] = {
     {BodyKind::membrane, "membrane", "membranes", "a fold, or the wall of a pouch"},
     {BodyKind::rigid, "rigid object", "rigid objects", "a ring or a rod that does not bend, and is no tissue"},
     {BodyKind::fat, "fat", "bodies of fat", "lobules between ducts and vessels, which come apart"},
+    {BodyKind::bag, "bag", "bags", "a retrieval bag: cloth on a hoop, which holds what is put into it"},
 };
 
 /// A body by its kind and its number among its kind. Four bytes; their order is by kind, then number.

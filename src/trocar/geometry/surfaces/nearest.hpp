@@ -52,6 +52,16 @@ bool foot_inside(Vec3<T> p, Vec3<T> a, Vec3<T> b, Vec3<T> c, Vec3<T>& weights) n
 
 }  // namespace detail
 
+/// The same where the foot of the perpendicular from p falls inside the triangle, at a fraction of the cost.
+/// @return whether it does
+template <class T>
+bool foot_on_triangle(Vec3<T> p, Vec3<T> a, Vec3<T> b, Vec3<T> c, TrianglePoint<T>& foot) noexcept {
+  if (!detail::foot_inside(p, a, b, c, foot.weights)) return false;
+  foot.point = a + foot.weights.y * (b - a) + foot.weights.z * (c - a);
+  foot.distance2 = distance2(p, foot.point);
+  return true;
+}
+
 template <class T>
 TrianglePoint<T> closest_on_triangle(Vec3<T> p, Vec3<T> a, Vec3<T> b, Vec3<T> c) noexcept {
   TrianglePoint<T> best;

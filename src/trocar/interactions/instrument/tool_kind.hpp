@@ -23,6 +23,7 @@ enum class ToolKind : std::int32_t {
   hook,
   bipolar,
   dissector,
+  bag,
 };
 
 /// Verbs that instruments do with what is at their tip. What jaws do is in sim/verbs.
@@ -35,6 +36,7 @@ struct Abilities {
   bool bipolar = false;    ///< ... and current goes from jaw to jaw
   bool hook = false;       ///< its end is a wire that may be bent to a foot, which catches bands
   bool spread = false;     ///< jaws that open push apart what lies on their outer sides
+  bool bag = false;        ///< a sleeve that the scene's bag comes out of (interactions/objects/bag.hpp)
 
   /// Legs of clips and blades come astride of what they close on.
   constexpr bool blunt() const noexcept { return !set_clips && !cut; }
@@ -54,6 +56,7 @@ inline constexpr KindOfTool kToolKinds[] = {
     {ToolKind::hook, "hook", {.coagulate = true, .hook = true}},
     {ToolKind::bipolar, "bipolar", {.grip = true, .coagulate = true, .bipolar = true}},
     {ToolKind::dissector, "dissector", {.grip = true, .spread = true}},
+    {ToolKind::bag, "bag", {.bag = true}},
 };
 
 constexpr const KindOfTool& about(ToolKind kind) noexcept { return kToolKinds[std::size_t(kind)]; }

@@ -7,39 +7,45 @@
 
 #include <trocar/core/fields.hpp>
 #include <trocar/core/kind_list.hpp>
+#include <trocar/interactions/objects/bag.hpp>
 #include <trocar/interactions/objects/fat.hpp>
 #include <trocar/interactions/objects/rigid.hpp>
 
 namespace trocar::interactions {
 
-using ObjectKinds = core::KindList<Rigid, Fat>;
+using ObjectKinds = core::KindList<Rigid, Fat, Bag>;
 
 /// All of them, a member a kind, which the kind's part() names. Kinds that a scene lacks are not in its hashes.
 struct ObjectModels {
   RigidModels rigid;
   FatBodies fat;
+  BagModels bags;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("rigid", s.rigid, core::only_if(!s.rigid.list.empty())), v("fat", s.fat, core::only_if(!s.fat.list.empty()));
+    v("rigid", s.rigid, core::only_if(!s.rigid.list.empty())), v("fat", s.fat, core::only_if(!s.fat.list.empty())),
+        v("bags", s.bags, core::only_if(!s.bags.list.empty()));
   }
 };
 struct ObjectStates {
   std::vector<RigidState> rigid;
   std::vector<FatBodyState> fat;
+  std::vector<BagState> bags;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("rigid", s.rigid, core::only_if(!s.rigid.empty())), v("fat", s.fat, core::only_if(!s.fat.empty()));
+    v("rigid", s.rigid, core::only_if(!s.rigid.empty())), v("fat", s.fat, core::only_if(!s.fat.empty())),
+        v("bags", s.bags, core::only_if(!s.bags.empty()));
   }
 };
 struct ObjectWork {
   RigidWork rigid;
   FatWorks fat;
+  BagWorks bags;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("rigid", s.rigid), v("fat", s.fat);
+    v("rigid", s.rigid), v("fat", s.fat), v("bags", s.bags);
   }
 };
 

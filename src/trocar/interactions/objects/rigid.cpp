@@ -61,6 +61,7 @@ bool wakes(const RigidModels& models, const Rigid::States& states, size_t i, con
 /// Who wakes one may have been woken by a third.
 void find_awake(const RigidModels& models, const Rigid::States& states, RigidWork& work) noexcept {
   for (size_t i = 0; i < states.size(); ++i) work.awake[i] = states[i].still < kSleeps;
+  for (const RigidBed& bed : work.beds) work.awake[size_t(bed.body)] = true;  // tissue never lies quite still
   for (bool more = true; more;) {
     more = false;
     for (size_t i = 0; i < states.size(); ++i)
@@ -153,6 +154,7 @@ Rigid::Work Rigid::make_work(const Models& models, int hands) {
   if (n == 0) return w;
   w.holds.reserve(size_t(hands) * kMaxHolds);
   w.rods.reserve(size_t(hands) * kToolParts);
+  w.beds.reserve(n * kMostContacts);
   w.contacts.reserve(n * kMostContacts);
   w.mobility.resize(n);
   w.motion.resize(n);
@@ -163,6 +165,7 @@ Rigid::Work Rigid::make_work(const Models& models, int hands) {
 void Rigid::clear(Work& w) noexcept {
   w.holds.clear();
   w.rods.clear();
+  w.beds.clear();
   w.contacts.clear();
   w.overflowed = false;
 }

@@ -1,8 +1,9 @@
-// Rigid bodies that are no tissue: rings for peg transfer, and what else is brought in, moved and put down. Each is a
-// chain of beads, balls of one radius along its axis, which touch walls, instruments and each other.
+// Rigid bodies that are no tissue: rings for peg transfer, stones, and what else is brought in, moved and put down.
+// Each is a handful of beads, balls of one radius, which touch walls, tissue, instruments and each other.
 //
 //   Rigid::clear(work);                                        // each tick
 //   Rigid::touch(models, states, hand, work);                  // for each instrument
+//   rest_on_skin(models, states, surface, loads, work);        // for each organ (rigid_on_skin.hpp)
 //   Rigid::pull(models, states, hold, target, law, tag, work); // for each held point
 //   const tissue::StepReport r = Rigid::advance(models, gravity, tick, states, work);
 //
@@ -37,6 +38,7 @@ struct RigidModel {
   double reach = 0;          ///< of the farthest bead's surface from its middle [m]
   double friction = 0;       ///< Coulomb's coefficient
   bool closed = false;       ///< the last bead's neighbour is the first
+  Vec3d pebble{0, 0, 0};     ///< of a pebble: half its diameters along its axes [m]; zero: a ring or a line
   std::vector<Vec3d> beads;  ///< middles, from its own [m]
   std::vector<Vec3d> grips;  ///< places of its surface that jaws hold [m]
   Vec3d place;               ///< of its middle, as placed [m]
@@ -46,7 +48,8 @@ struct RigidModel {
   static void fields(S& s, V&& v) {
     v("name", s.name, core::kNotHashed), v("look", s.look, core::kNotHashed), v("mass", s.mass),
         v("inertia", s.inertia), v("radius", s.radius), v("reach", s.reach), v("friction", s.friction),
-        v("closed", s.closed), v("beads", s.beads), v("grips", s.grips), v("place", s.place), v("turn", s.turn);
+        v("closed", s.closed), v("pebble", s.pebble, core::only_if(s.pebble.x > 0)), v("beads", s.beads),
+        v("grips", s.grips), v("place", s.place), v("turn", s.turn);
   }
 };
 struct RigidModels {
@@ -95,7 +98,8 @@ struct RigidContact {
   Vec3d arm, other_arm;               ///< of the touching point from the middles [m]
   double gap = 0;                     ///< [m]
   double friction = 0;
-  Vec3d drive{0, 0, 0};    ///< of an instrument's surface across the normal [m/s]
+  double give = 0;         ///< of what yields, 1 / (its stiffness tick^2) [1/kg]; 0: it is hard
+  Vec3d drive{0, 0, 0};    ///< of the other surface across the normal [m/s]
   Vec3d impulse{0, 0, 0};  ///< along normal, along, across [N s]
   Tag tag;
   std::array<Vec6, 3> row, other_row;        ///< dot motion: the speed along each
@@ -108,9 +112,16 @@ struct RigidRod {
   Tag tag;
   BodyId held;  ///< what its jaws hold, which it does not touch
 };
+/// A bead in tissue that yields.
+struct RigidBed {
+  std::int32_t body = 0, bead = 0;
+  Vec3d normal, velocity;  ///< of the skin there; [m/s]
+  double gap = 0;          ///< that the bead gives, the skin gives the rest [m]
+};
 struct RigidWork {
   std::vector<RigidHold> holds;
   std::vector<RigidRod> rods;
+  std::vector<RigidBed> beds;
   std::vector<RigidContact> contacts;
   std::vector<Mat6> mobility;       ///< (bodies)
   std::vector<Vec6> motion;         ///< (bodies)
@@ -119,8 +130,8 @@ struct RigidWork {
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("holds", s.holds), v("rods", s.rods), v("contacts", s.contacts), v("mobility", s.mobility), v("motion", s.motion),
-        v("awake", s.awake), v("overflowed", s.overflowed);
+    v("holds", s.holds), v("rods", s.rods), v("beds", s.beds), v("contacts", s.contacts), v("mobility", s.mobility),
+        v("motion", s.motion), v("awake", s.awake), v("overflowed", s.overflowed);
   }
 };
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/interactions/contact/body_push.hpp>
 #include <trocar/interactions/objects/mat6.hpp>
 #include <trocar/interactions/objects/rigid_contacts.hpp>
 
@@ -43,6 +44,20 @@ class Finder {
       const double far = m.reach + rod.now.radius + near;
       if (geometry::distance2(collision::nearest_on_axis(rod.now, m_states[i].x), m_states[i].x) > far * far) continue;
       for (const Vec3d& own : m.beads) at_rod(i, rod, place_of(m_states[i], own), near);
+    }
+  }
+
+  /// Tissue is a spring where it lies, and goes on as fast as it goes now.
+  void at_beds() noexcept {
+    for (const RigidBed& bed : m_work.beds) {
+      const size_t i = size_t(bed.body);
+      const RigidModel& m = m_models.list[i];
+      const Vec3d p = place_of(m_states[i], m.beads[size_t(bed.bead)]);
+      const double gap = std::max(bed.gap, -kQuickestApart) - m_tick * dot(bed.velocity, bed.normal);
+      RigidContact* c = add(i, p - m.radius * bed.normal, bed.normal, gap, m.friction);
+      if (!c) return;
+      c->give = 1 / (kBodyStiffness * m_tick * m_tick);
+      c->drive = bed.velocity;
     }
   }
 
@@ -145,7 +160,8 @@ void push(RigidWork& work, const RigidContact& c, size_t k, double impulse) noex
 /// @return by how much it has changed a speed [m/s]
 double solve(double tick, RigidWork& work, RigidContact& c) noexcept {
   double changed = 0;
-  const double wanted = c.impulse.x - (speed_of(work, c, 0) + c.gap / tick) / c.gain.x;
+  const double lacks = speed_of(work, c, 0) + c.gap / tick + c.give * c.impulse.x;
+  const double wanted = c.impulse.x - lacks / (c.gain.x + c.give);
   const double press = std::max(wanted, 0.0);
   push(work, c, 0, press - c.impulse.x);
   changed = std::max(changed, std::fabs(press - c.impulse.x) * c.gain.x);
@@ -173,6 +189,7 @@ void find_contacts(const RigidModels& models, const Rigid::States& states, doubl
     for (size_t j = i + 1; j < states.size(); ++j)
       if (work.awake[i] || work.awake[j]) finder.at_other(i, j);
   }
+  finder.at_beds();
 }
 
 void solve_contacts(double tick, RigidWork& work) noexcept {

@@ -105,6 +105,7 @@ void compile_fluids(const Description& d, sim::Model& model, std::vector<core::F
   }
   lay_floor(f, model);
   model.wet.pool_at_start.blood = std::int64_t(f.pool_at_start * fluids::kPicolitresPerM3);
+  model.wet.pool_at_start.bile = std::int64_t(f.bile_at_start * fluids::kPicolitresPerM3);
   model.wet.there = true;
 }
 

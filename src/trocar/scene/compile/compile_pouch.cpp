@@ -129,8 +129,8 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, const Description& 
   d.positions = wall.positions;
   d.triangles = wall.triangles;
   d.held = nodes_within(pouch.held, pouch.name, d.positions, faults);
-  if (std::count(d.held.begin(), d.held.end(), 1) == 0) {
-    faults.push_back({pouch.at, "expected '" + pouch.name + "' to be held somewhere, got no held node"});
+  if (!pouch.free && std::count(d.held.begin(), d.held.end(), 1) == 0) {
+    faults.push_back({pouch.at, "expected '" + pouch.name + "' to be held somewhere, or to be free, got no held node"});
     return;
   }
   d.thickness = pouch.thickness;

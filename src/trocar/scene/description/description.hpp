@@ -209,6 +209,7 @@ struct Pouch {
   std::vector<BondSetting> bonds;
   Contents contents;
   bool cuttable = true;
+  bool free = false;  ///< nothing holds it: it lies where it is put
   core::Location at, spacing_at;
 };
 
@@ -239,6 +240,7 @@ struct FluidsSetting {
   std::vector<std::string> pool_on;  ///< solids whose tops are part of its floor, beside the walls
   int drops = 4096;                  ///< at a time
   double pool_at_start = 0;          ///< blood that lies there when it begins [m^3]
+  double bile_at_start = 0;          ///< bile, with it [m^3]
   core::Location at;
 };
 

@@ -164,6 +164,8 @@ const Table<Contents>& contents() {
 constexpr double kMaxPouchNodes = 20'000;
 
 void check_pouch(const JsonObject& o, Pouch& p, Context&) {
+  if (p.free && !p.held.empty())
+    o.fault("held", "expected no place where a wall is held that is free, got " + std::to_string(p.held.size()));
   const double nodes = extent_of(p).nodes;
   if (!(nodes <= kMaxPouchNodes))
     o.fault(p.spacing_at,
@@ -293,7 +295,8 @@ const Table<Pouch>& pouch() {
        R::object("contents", contents, &Pouch::contents, "default: nothing presses").only([](const Pouch& p) {
          return p.contents.kind != Contents::nothing;
        }),
-       R::flag("cuttable", &Pouch::cuttable, "default {}")},
+       R::flag("cuttable", &Pouch::cuttable, "default {}"),
+       R::flag("free", &Pouch::free, "nothing holds it: it lies where it is put; default {}")},
       check_pouch};
   return table;
 }

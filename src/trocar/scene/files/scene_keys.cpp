@@ -123,7 +123,9 @@ const Table<FluidsSetting>& fluids() {
                "solids whose tops are part of its floor, as they lie, beside the walls"),
        R::integer("drops", &F::drops, 64, 65536, "at a time, default {}"),
        R::number("pool_mL", units::millilitre, &F::pool_at_start, 0, 500,
-                 "blood that lies in the pool at the start, default {}")}};
+                 "blood that lies in the pool at the start, default {}"),
+       R::number("pool_bile_mL", units::millilitre, &F::bile_at_start, 0, 500,
+                 "bile that lies there with it, default {}")}};
   return table;
 }
 

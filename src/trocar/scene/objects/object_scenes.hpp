@@ -6,12 +6,13 @@
 #include <vector>
 
 #include <trocar/core/kind_list.hpp>
+#include <trocar/scene/objects/bag_scene.hpp>
 #include <trocar/scene/objects/fat_scene.hpp>
 #include <trocar/scene/objects/rigid_scene.hpp>
 
 namespace trocar::scene {
 
-using ObjectScenes = core::KindList<RigidScene, FatScene>;
+using ObjectScenes = core::KindList<RigidScene, FatScene, BagScene>;
 
 namespace objects {
 template <class K>

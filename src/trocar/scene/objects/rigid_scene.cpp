@@ -19,16 +19,18 @@ constexpr double kGripSpacing = 0.4;   // of places that jaws hold, in radii
 const Shape& rigid_shape() {
   static const Shape shape{
       "rigid object",
-      "A body that does not bend: a ring, or a thick line of points. It falls, lies, and is held by jaws.",
+      "A body that does not bend: a ring, a thick line of points, or a pebble. It falls, lies on walls and tissue, and "
+      "is held by jaws.",
       {needed(keys::name("name", "what exercises call it")),
        keys::text("look", "its surface in the picture, default \"plastic\""),
        keys::number("outer_mm", 2, 200, "outer diameter of a ring; a thick line has line_mm instead"),
        keys::points("line_mm", -kFar, kFar, 1, "middles of a thick line, in its own frame"),
-       needed(keys::number("thick_mm", 0.5, 50, "diameter of what it is made of")),
+       keys::vec3("pebble_mm", 0.5, 50, "diameters of a pebble along its axes, the widest first"),
+       keys::number("thick_mm", 0.5, 50, "diameter of what a ring or a line is made of"),
        needed(keys::number("mass_g", 0.05, 1000, "")),
        keys::number("friction", 0, 2, "Coulomb's coefficient on walls, instruments and others, default 0.3"),
        needed(keys::vec3("at_mm", -kFar, kFar, "its middle, at the start")),
-       keys::vec3("axis", -1, 1, "of the ring, default (0, 0, 1); of a line: its frame's z")}};
+       keys::vec3("axis", -1, 1, "of the ring, default (0, 0, 1); of others: their frame's z")}};
   return shape;
 }
 
@@ -74,6 +76,20 @@ void make_line(const std::vector<Vec3d>& line, RigidModel& m) {
   }
 }
 
+/// Five balls as thick as it is: one in the middle, and one at either end of its length and of its width.
+void make_pebble(Vec3d half, RigidModel& m) {
+  m.pebble = half;
+  const double along = half.x - m.radius, across = half.y - m.radius;
+  m.beads = {{0, 0, 0}, {along, 0, 0}, {-along, 0, 0}, {0, across, 0}, {0, -across, 0}};
+  for (const Vec3d& p : m.beads)
+    for (const Vec3d side : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}})
+      m.grips.push_back(p + m.radius * side), m.grips.push_back(p - m.radius * side);
+  const Vec3d h2{half.x * half.x, half.y * half.y, half.z * half.z};  // of a solid ellipsoid
+  m.inertia = {{{h2.y + h2.z, 0, 0}, {0, h2.x + h2.z, 0}, {0, 0, h2.x + h2.y}}};
+  for (auto& row : m.inertia.m)
+    for (double& entry : row) entry *= 0.2 * m.mass;
+}
+
 RigidModel compiled(const RigidSetting& s) {
   RigidModel m;
   m.name = s.name;
@@ -85,6 +101,8 @@ RigidModel compiled(const RigidSetting& s) {
   m.turn = quat_from_two_vectors(Vec3d{0, 0, 1}, s.axis);
   if (s.outer > 0)
     make_ring(s.outer, m);
+  else if (s.pebble.x > 0)
+    make_pebble(0.5 * s.pebble, m);
   else
     make_line(s.chain, m);
   for (const Vec3d& p : m.beads) m.reach = std::max(m.reach, length(p) + m.radius);
@@ -105,20 +123,32 @@ RigidSetting RigidScene::read(const JsonObject& o) {
   s.look = o.text("look", "plastic");
   s.outer = o.number("outer_mm") / 1000;
   for (const Vec3d& p : o.points("line_mm")) s.chain.push_back(p / 1000.0);
-  s.thick = o.number("thick_mm", 1) / 1000;
+  s.pebble = o.vec3("pebble_mm") / 1000.0;
+  s.thick = o.names("pebble_mm") ? s.pebble.z : o.number("thick_mm", 1) / 1000;
   s.mass = o.number("mass_g", 1) / 1000;
   s.friction = o.number("friction", s.friction);
   s.place = o.vec3("at_mm") / 1000.0;
   s.axis = o.vec3("axis", s.axis);
   s.at = o.at();
   s.text = o.value();
-  if (o.names("outer_mm") == o.names("line_mm"))
-    o.fault(o.at(), "expected a ring with outer_mm or a line with line_mm, got " +
-                        std::string(o.names("outer_mm") ? "both" : "neither"));
+  const int shapes = int(o.names("outer_mm")) + int(o.names("line_mm")) + int(o.names("pebble_mm"));
+  if (shapes != 1)
+    o.fault(o.at(), "expected a ring with outer_mm, a line with line_mm or a pebble with pebble_mm, got " +
+                        std::string(shapes == 0 ? "none of them" : "several"));
+  if (o.names("pebble_mm") == o.names("thick_mm"))
+    o.fault(o.at(), "expected thick_mm for a ring or a line, and for these alone, got " +
+                        std::string(o.names("thick_mm") ? "it for a pebble" : "none"));
+  if (o.names("pebble_mm") && !(s.pebble.x >= s.pebble.y && s.pebble.y >= s.pebble.z))
+    o.fault("pebble_mm", "expected the widest diameter first and the smallest last, got another order");
   if (s.outer > 0 && s.outer < 2.5 * s.thick)
     o.fault("outer_mm", "expected a ring with a hole, at least 2.5 times as wide as it is thick, got a narrower one");
   if (!(length(s.axis) > 1e-6)) o.fault("axis", "expected a direction, got none");
   return s;
+}
+
+void RigidScene::bend(std::vector<Setting>& settings, const std::function<Vec3d(Vec3d)>& warp) {
+  for (RigidSetting& s : settings)
+    if (s.pebble.x > 0) s.place = warp(s.place);
 }
 
 void RigidScene::compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>&) {

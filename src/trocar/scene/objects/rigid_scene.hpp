@@ -1,4 +1,4 @@
-// Rigid objects as scene files have them: rings, and chains of beads.
+// Rigid objects as scene files have them: rings, chains of beads, pebbles.
 #pragma once
 
 #include <functional>
@@ -18,11 +18,12 @@ struct RigidSetting {
   std::string name, look;
   double outer = 0;          ///< a ring's outer diameter [m]; 0: a chain
   std::vector<Vec3d> chain;  ///< middles of its thick line, in its own frame [m]
+  Vec3d pebble;              ///< diameters of a pebble along its own axes, the widest first [m]; zero: none
   double thick = 0;          ///< diameter of what it is made of [m]
   double mass = 0;           ///< [kg]
   double friction = 0.3;     ///< Coulomb's coefficient
   Vec3d place;               ///< of its middle [m]
-  Vec3d axis{0, 0, 1};       ///< of a ring; of a chain: where its z points
+  Vec3d axis{0, 0, 1};       ///< of a ring; of others: where its z points
   core::Location at;
   JsonValue text;  ///< as it was read
 };
@@ -35,7 +36,8 @@ struct RigidScene {
   static Key row();  ///< of scene files
   static Setting read(const JsonObject& o);
   static JsonValue written(const Setting& setting) { return setting.text; }
-  static void bend(std::vector<Setting>&, const std::function<Vec3d(Vec3d)>&) {}  ///< no part of the anatomy
+  /// Pebbles lie where the anatomy leaves room for them; the rest is no part of it.
+  static void bend(std::vector<Setting>& settings, const std::function<Vec3d(Vec3d)>& warp);
   static void compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>& faults);
 };
 

@@ -1,3 +1,4 @@
+#include <trocar/interactions/objects/rigid_on_skin.hpp>
 #include <trocar/sim/bodies/objects.hpp>
 
 namespace trocar::sim {
@@ -23,6 +24,19 @@ void touch_objects(StepContext& c, const HandContact& hand) noexcept {
   const interactions::ObjectHand at{hand.tool, c.state.tools[hand.hand], hand.touching};
   for_kinds(c,
             [&at](auto kind, const auto& models, auto& states, auto& work) { kind.touch(models, states, at, work); });
+}
+
+void rest_objects(StepContext& c) noexcept {
+  using interactions::Rigid;
+  const interactions::RigidModels& models = interactions::part_of<Rigid>(c.model.objects);
+  if (models.list.empty()) return;
+  const Rigid::States& states = interactions::part_of<Rigid>(c.state.objects);
+  interactions::RigidWork& work = interactions::part_of<Rigid>(c.work.objects);
+  for (size_t i = 0; i < size_t(c.model.organs()); ++i)
+    rest_on_skin(models, states, c.work.surfaces[i], c.work.organ_loads[i], work);
+  for (size_t i = 0; i < c.model.membranes.size(); ++i)
+    if (c.model.membranes[i].sheet.closed())
+      rest_on_skin(models, states, c.work.sheets[i].surface, c.work.membrane_loads[i], work);
 }
 
 void advance_objects(StepContext& c) noexcept {

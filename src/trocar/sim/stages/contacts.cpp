@@ -1,3 +1,4 @@
+#include <trocar/sim/bodies/bag.hpp>
 #include <trocar/sim/bodies/bodies.hpp>
 #include <trocar/sim/stages/contacts.hpp>
 #include <trocar/sim/stages/stage.hpp>
@@ -70,6 +71,8 @@ void touch_organs(StepContext& c) noexcept {
     });
     at += p.sample.size();
   }
+  rest_objects(c);
+  rest_bags(c);
 }
 
 }  // namespace trocar::sim

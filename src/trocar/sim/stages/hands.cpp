@@ -66,7 +66,8 @@ void move_hand(StepContext& c, size_t t) noexcept {
   if (!known) c.report.flags |= StepReport::kBadInput;
   interactions::ToolCommand command{pose_of(in), double(in.handle)};
   if (known && in.instrument != tool.instrument) {
-    command = {tool.pose(), 0};
+    // An empty hand opens its jaws; a bag's mouth is shut before it is drawn out.
+    command = {tool.pose(), c.model.tool(c.state, t).can().bag ? 1.0 : 0.0};
     if (tool.holds == 0) command.pose.depth = kParked;
     if (tool.holds == 0 && tool.depth <= kParked) change_instrument(c, t, in.instrument);
   }

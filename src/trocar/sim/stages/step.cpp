@@ -1,3 +1,4 @@
+#include <trocar/sim/bodies/bag.hpp>
 #include <trocar/sim/bodies/bodies.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
 #include <trocar/sim/bodies/fat.hpp>
@@ -58,6 +59,7 @@ constexpr Stage kStages[] = {
     {"advance organs", advance_organs},
     {"advance membranes", advance_membranes},
     {"advance objects", advance_objects},
+    {"hold in bags", hold_in_bags},
     {"contain", contain},
     {"gather reactions", gather_reaction_forces},
     {"heat tissue", heat_tissue},

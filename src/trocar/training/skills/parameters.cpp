@@ -101,7 +101,7 @@ Vec3d Place::tangent(Operator& op) const {
 }
 
 std::string Place::lacks(const sim::Model& model, const Given& given) {
-  if (!given("there").word.empty() && model.vessels.bleeder.vessel < 0) return "no vessel opens by itself";
+  if (given.says("there", "bleeding") && model.vessels.bleeder.vessel < 0) return "no vessel opens by itself";
   if (given("nearest_of").given &&
       model.targets[size_t(given("nearest_of").index)].kind != sim::VisibilityTarget::organ)
     return fmt::format("\"{}\" is no organ", model.targets[size_t(given("nearest_of").index)].name);

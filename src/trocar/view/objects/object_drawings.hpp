@@ -3,6 +3,7 @@
 
 #include <tuple>
 
+#include <trocar/view/objects/bag_drawing.hpp>
 #include <trocar/view/objects/fat_drawing.hpp>
 #include <trocar/view/objects/rigid_drawing.hpp>
 
@@ -10,7 +11,8 @@ namespace trocar::view {
 
 class ObjectDrawings {
  public:
-  ObjectDrawings(const sim::Model& model, render::Backend& backend) : m_all(RigidDrawing(model, backend), FatDrawing(model, backend)) {}
+  ObjectDrawings(const sim::Model& model, render::Backend& backend)
+      : m_all(RigidDrawing(model, backend), FatDrawing(model, backend), BagDrawing(model, backend)) {}
 
   void update(const sim::State& state) {
     std::apply([&](auto&... kind) { (kind.update(state), ...); }, m_all);
@@ -21,7 +23,7 @@ class ObjectDrawings {
   }
 
  private:
-  std::tuple<RigidDrawing, FatDrawing> m_all;
+  std::tuple<RigidDrawing, FatDrawing, BagDrawing> m_all;
 };
 
 }  // namespace trocar::view

@@ -60,6 +60,35 @@ MeshBuffer line_shape(const RigidModel& m) {
   return b;
 }
 
+/// An ellipsoid within its beads' hull, with facets that have worn against its fellows.
+MeshBuffer pebble_shape(const RigidModel& m) {
+  constexpr int kAcross = 18, kRoundPebble = 28;
+  constexpr double kFacets = 0.07;  // of its thickness
+  MeshBuffer b;
+  const auto out = [&m](int row, int k) {
+    const double up = portable::pi * row / kAcross, turn = 2 * portable::pi * k / kRoundPebble;
+    const Vec3d d{portable::sin(up) * portable::cos(turn), portable::sin(up) * portable::sin(turn), portable::cos(up)};
+    const double worn = portable::sin(5 * d.x + 1.3) * portable::sin(4 * d.y + 0.4) * portable::cos(6 * d.z);
+    const double size = 1 - kFacets * (0.5 + 0.5 * worn);
+    return size * Vec3d{m.pebble.x * d.x, m.pebble.y * d.y, m.pebble.z * d.z};
+  };
+  for (int row = 0; row <= kAcross; ++row)
+    for (int k = 0; k < kRoundPebble; ++k) {
+      const Vec3d p = out(row, k);
+      b.add(vec_cast<float>(p));
+      b.normals.push_back(vec_cast<float>(normalised(
+          Vec3d{p.x / (m.pebble.x * m.pebble.x), p.y / (m.pebble.y * m.pebble.y), p.z / (m.pebble.z * m.pebble.z)})));
+    }
+  for (int row = 0; row < kAcross; ++row)
+    join_rows(b, std::uint32_t((row + 1) * kRoundPebble), std::uint32_t(row * kRoundPebble), kRoundPebble, true);
+  return b;
+}
+
+MeshBuffer shape_of(const RigidModel& m) {
+  if (m.pebble.x > 0) return pebble_shape(m);
+  return m.closed ? ring_shape(m) : line_shape(m);
+}
+
 render::Mat4 placed(const interactions::RigidState& s) {
   const Mat3d turn = to_mat3(s.q);
   Mat3f rotation;
@@ -73,8 +102,7 @@ render::Mat4 placed(const interactions::RigidState& s) {
 RigidDrawing::RigidDrawing(const sim::Model& model, render::Backend& backend) {
   for (const RigidModel& m : interactions::part_of<Rigid>(model.objects).list) {
     const Detail detail(levels_of(model, m.name));
-    m_bodies.push_back(
-        {rigid(m.closed ? ring_shape(m) : line_shape(m), detail, backend), detail, &look(model, m.look), {}});
+    m_bodies.push_back({rigid(shape_of(m), detail, backend), detail, &look(model, m.look), {}});
   }
 }
 

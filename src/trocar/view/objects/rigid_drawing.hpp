@@ -1,4 +1,4 @@
-// Rigid objects as they are drawn: a tube along their beads, moved as a whole.
+// Rigid objects as they are drawn: a tube along their beads or a pebble's skin, moved as a whole.
 #pragma once
 
 #include <vector>

@@ -10,10 +10,15 @@ Value spilled(const Moment& moment, const Arguments&) {
   return fluids::kM3PerPicolitre * double(out - moment.model.wet.pool_at_start.bile);
 }
 
+Value pool(const Moment& moment, const Arguments&) {
+  return fluids::kM3PerPicolitre * double(at(moment.state.fluids.ledger, fluids::Place::kPool).total());
+}
+
 }  // namespace
 
 const Fact kBileSpilled{
     "bile.spilled_mL",  {}, 0, 1e4, "What has run out of pouches that are open, so far.", needs_fluids,
     &stateless<spilled>};
+const Fact kPoolVolume{"pool.volume_mL", {}, 0, 1e4, "What stands in the pool.", needs_fluids, &stateless<pool>};
 
 }  // namespace trocar::training

@@ -1,0 +1,178 @@
+// A retrieval bag: opened where it is wanted, filled, drawn shut, and out by its trocar.
+#include <algorithm>
+
+#include <trocar/interactions/objects/bag_contents.hpp>
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+using interactions::Bag;
+using interactions::BagModel;
+using interactions::BagState;
+
+const BagModel& bag_model(const Operator& op) { return interactions::part_of<Bag>(op.model().objects).list.front(); }
+const BagState& bag_state(const Operator& op) { return interactions::part_of<Bag>(op.state().objects).front(); }
+Vec3d mouth_of(const Operator& op) { return bag_state(op).middle(bag_model(op)); }
+
+Vec3d upwards(const Operator& op) { return -normalised(op.model().gravity, {0, 0, -1}); }
+
+std::string lacks_bag(const sim::Model& model, const Given&) {
+  return interactions::part_of<Bag>(model.objects).list.empty() ? "there is no bag" : "";
+}
+std::string lacks_bag_in_hand(const sim::Model& model, const Given& given) {
+  if (std::string lack = lacks_bag(model, given); !lack.empty()) return lack;
+  return lacks_tool(model, given.hand(), &interactions::Abilities::bag);
+}
+
+/// The middle of the mouth to a place, the mouth facing up, and the hoop out.
+class OpenBag final : public Skill {
+ public:
+  OpenBag(const sim::Model&, const Given& given)
+      : m_hand(given.hand()), m_at{given.number("x_mm", 0), given.number("y_mm", 0), given.number("z_mm", 0)} {}
+
+ private:
+  Progress work(Operator& op) override {
+    Arms::Arm& arm = op.arm(m_hand);
+    const Vec3d along = normalised(m_at - arm.port), tip = m_at - bag_model(op).hoop * along;
+    op.want(arm.tip);
+    op.want(m_at);
+    const bool there = op.arms().move(m_hand, tip, pace::kTravel);
+    const bool level = turn_up(op, arm);
+    if (!there || !level) return Progress::working;
+    const bool pushed = op.arms().grip(m_hand, 0, 1.0);
+    return pushed && bag_state(op).open() ? Progress::done : Progress::working;
+  }
+  /// All the way round if it must: a mouth that faces down is of no use.
+  bool turn_up(Operator& op, Arms::Arm& arm) const {
+    constexpr double kTurns = 1.5, kLevel = 0.03;  // [rad/s] [rad]
+    const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, arm.tip, arm.roll);
+    double left = kinematics::roll_towards(pose, upwards(op)) - arm.roll;
+    while (left > portable::pi) left -= 2 * portable::pi;
+    while (left < -portable::pi) left += 2 * portable::pi;
+    arm.roll += std::clamp(left, -kTurns * sim::kTick, kTurns * sim::kTick);
+    return std::fabs(left) < kLevel;
+  }
+
+  int m_hand;
+  Vec3d m_at;
+};
+
+/// What is held to over the mouth, through it, let go of, and back.
+class PutInBag final : public Skill {
+ public:
+  PutInBag(const sim::Model&, const Given& given)
+      : m_hand(given.hand()),
+        m_deep(given.number("deep_mm", 0.015)),
+        m_above(given.number("above_mm", 0.03)),
+        m_least(given.number("least_share", 1)) {}
+
+ private:
+  enum Phase { kOver, kIn, kLetGo, kBack, kFalls };
+
+  void start(Operator& op, int) override {
+    const interactions::ToolState& tool = op.tool_state(m_hand);
+    m_body = tool.holds > 0 ? tool.hold[0].body : BodyId{};
+  }
+  Progress work(Operator& op) override {
+    const Vec3d up = bag_state(op).frame.up, mouth = mouth_of(op), over = mouth + m_above * up;
+    Arms::Arm& arm = op.arm(m_hand);
+    op.want(arm.tip);
+    op.want(mouth);
+    if (!m_body.exists()) return fail("there is nothing in the jaws");
+    if (m_phase <= kIn && op.tool_state(m_hand).holds == 0) return fail("it slipped out of the jaws");
+    if (m_phase == kOver) {
+      if (op.arms().move(m_hand, over, pace::kTravel)) go(kIn);
+    } else if (m_phase == kIn) {
+      if (op.arms().move(m_hand, mouth - m_deep * up, pace::kCareful)) go(kLetGo);
+    } else if (m_phase == kLetGo) {
+      if (op.arms().grip(m_hand, 0, 0.5) && m_in_phase > 0.7) go(kBack);
+    } else if (m_phase == kBack) {
+      if (op.arms().move(m_hand, over, pace::kCareful)) go(kFalls);
+    } else {
+      if (share_inside(op) >= m_least) return Progress::done;
+      if (m_in_phase > 1.5) return fail("it has not all come in");
+    }
+    return Progress::working;
+  }
+  double share_inside(const Operator& op) const {
+    const interactions::BagShare share = share_in(bag_model(op), bag_state(op), m_body);
+    return share.all > 0 ? double(share.inside) / share.all : 0;
+  }
+
+  int m_hand;
+  double m_deep, m_above, m_least;
+  BodyId m_body;
+};
+
+/// The hoop back into its sleeve.
+class CloseBag final : public Skill {
+ public:
+  CloseBag(const sim::Model&, const Given& given) : m_hand(given.hand()) {}
+
+ private:
+  Progress work(Operator& op) override {
+    op.want(op.arm(m_hand).tip);
+    op.want(mouth_of(op));
+    if (op.arms().grip(m_hand, 1, 2.0) && bag_state(op).shut()) return Progress::done;
+    return m_in_phase > 5 ? fail("something lies in its mouth") : Progress::working;
+  }
+  int m_hand;
+};
+
+/// Back along the sleeve until its neck is in the trocar.
+class TakeOutBag final : public Skill {
+ public:
+  TakeOutBag(const sim::Model&, const Given& given) : m_hand(given.hand()) {}
+
+ private:
+  Progress work(Operator& op) override {
+    constexpr double kInPort = 0.010;  // [m]
+    op.want(op.arm(m_hand).tip);
+    op.arms().move_to_depth(m_hand, kInPort, pace::kTravel);
+    return bag_state(op).out != 0 ? Progress::done : Progress::working;
+  }
+  int m_hand;
+};
+
+}  // namespace
+
+const SkillKind kOpenBag{
+    "open_bag",
+    "open the bag",
+    {hand_parameter("that has the bag"),
+     {"x_mm", ArgumentKind::number, "to the patient's left", true, -1000, 1000},
+     {"y_mm", ArgumentKind::number, "towards the head", true, -1000, 1000},
+     {"z_mm", ArgumentKind::number, "to the front", true, -1000, 1000}},
+    15,
+    "Brings the middle of the bag's mouth to a place, its mouth facing up, and pushes the hoop out.",
+    lacks_bag_in_hand,
+    &making<OpenBag>};
+const SkillKind kPutInBag{
+    "put_in_bag",
+    "put it into the bag",
+    {hand_parameter("that holds it"), number_parameter("deep_mm", "how far below the mouth it lets go; 15", 0, 200),
+     number_parameter("above_mm", "how far above the mouth it is carried; 30", 0, 200),
+     number_parameter("least_share", "of it that has to be inside then; 1", 0, 1)},
+    20,
+    "Carries what it holds to over the bag's mouth, lowers it through that, lets go and draws back.",
+    lacks_bag,
+    &making<PutInBag>};
+const SkillKind kCloseBag{"close_bag",
+                          "draw the bag shut",
+                          {hand_parameter("that has the bag")},
+                          10,
+                          "Draws the hoop back into its sleeve until the mouth is shut.",
+                          lacks_bag_in_hand,
+                          &making<CloseBag>};
+const SkillKind kTakeOutBag{"take_out_bag",
+                            "take the bag out",
+                            {hand_parameter("that has the bag")},
+                            15,
+                            "Draws the bag back until its neck is in the trocar.",
+                            lacks_bag_in_hand,
+                            &making<TakeOutBag>};
+
+}  // namespace trocar::training

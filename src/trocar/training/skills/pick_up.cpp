@@ -1,0 +1,115 @@
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// Where an object's middle is.
+Vec3d middle_of_object(const Operator& op, BodyId body) {
+  Vec3d at;
+  interactions::visit_object(body, [&](auto kind) {
+    at = kind.middle(interactions::part_of<decltype(kind)>(op.model().objects),
+                     interactions::part_of<decltype(kind)>(op.state().objects), body.index());
+  });
+  return at;
+}
+
+/// Half open jaws around an object that lies about, closed, and lifted a little.
+class PickUp final : public Skill {
+ public:
+  PickUp(const sim::Model&, const Given& given)
+      : m_hand(given.hand()),
+        m_body(given("body").body()),
+        m_open(given.number("open_to", 0.45)),
+        m_lift(given.number("lift_mm", 0.012)) {}
+
+ private:
+  enum Phase { kReach, kEnter, kClose, kLift };
+
+  /// After each failure a little beside its middle, and with the jaws turned.
+  void start(Operator&, int tries) override {
+    constexpr double kBeside = 0.0015, kTurn = 0.7;  // [m] [rad]
+    m_beside = kBeside * Vec3d{double(tries % 3) - (tries > 0 ? 1.0 : 0.0), double((tries / 3) % 3), 0};
+    m_turn = kTurn * (tries % 4);
+  }
+  Progress work(Operator& op) override {
+    constexpr double kAtTip = 0.8, kPressed = 1.2, kLongest = 4, kFeels = 0.8;  // of the jaws' length; [N] [s] [s]
+    Arms::Arm& arm = op.arm(m_hand);
+    const Vec3d at = middle_of_object(op, m_body) + m_beside, along = normalised(at - arm.port);
+    const Vec3d tip = at + (1 - kAtTip) * op.tool(m_hand).jaw_length * along;
+    op.want(arm.tip);
+    op.want(at);
+    if (m_phase == kReach) {
+      const bool open = op.arms().grip(m_hand, m_open, 0.8);
+      const Vec3d across = any_perpendicular(along);
+      op.arms().turn_across(m_hand, portable::cos(m_turn) * across + portable::sin(m_turn) * cross(along, across));
+      if (op.arms().move(m_hand, tip - reach::kBefore * along, pace::kTravel) && open) go(kEnter);
+    } else if (m_phase == kEnter) {
+      const bool there = op.arms().move(m_hand, tip, pace::kCareful);
+      if (there || norm(op.tool_state(m_hand).contact_force) > kPressed || m_in_phase > kLongest) go(kClose);
+    } else if (m_phase == kClose) {
+      if (!op.arms().grip(m_hand, 1, 0.8) || m_in_phase < kFeels) return Progress::working;
+      const interactions::ToolState& tool = op.tool_state(m_hand);
+      if (tool.holds == 0 || tool.hold[0].body != m_body) return fail("the jaws have not taken it");
+      m_from = arm.tip;
+      go(kLift);
+    } else if (op.arms().move(m_hand, m_from - m_lift * along, pace::kCareful)) {
+      return op.tool_state(m_hand).holds > 0 ? Progress::done : fail("it slipped out of the jaws");
+    }
+    return Progress::working;
+  }
+
+  int m_hand;
+  BodyId m_body;
+  double m_open, m_lift, m_turn = 0;
+  Vec3d m_beside, m_from;
+};
+
+/// What is held to a place, the camera on the jaws.
+class Carry final : public Skill {
+ public:
+  Carry(const sim::Model&, const Given& given)
+      : m_hand(given.hand()), m_at{given.number("x_mm", 0), given.number("y_mm", 0), given.number("z_mm", 0)} {}
+
+ private:
+  Progress work(Operator& op) override {
+    op.want(op.arm(m_hand).tip);
+    op.want(m_at);
+    if (op.tool_state(m_hand).holds == 0) return fail("it slipped out of the jaws");
+    return op.arms().move(m_hand, m_at, pace::kTravel) ? Progress::done : Progress::working;
+  }
+  int m_hand;
+  Vec3d m_at;
+};
+
+std::string lacks_object(const sim::Model& model, const Given& given) {
+  if (!given("body").body().is(BodyKind::rigid)) return "what is picked up has to be a rigid object";
+  return lacks_tool(model, given.hand(), &interactions::Abilities::grip);
+}
+
+}  // namespace
+
+const SkillKind kPickUp{
+    "pick_up",
+    "pick it up",
+    {hand_parameter(),
+     {"body", ArgumentKind::body, "a rigid object"},
+     number_parameter("open_to", "how far the handle is closed before the jaws go around it; 0.45", 0, 1),
+     number_parameter("lift_mm", "how far it is drawn back then; 12", 0, 100)},
+    15,
+    "Puts half open jaws around an object that lies about, closes them, and draws it back a little.",
+    lacks_object,
+    &making<PickUp>};
+const SkillKind kCarry{"carry",
+                       "carry what is held",
+                       {hand_parameter("that holds it"),
+                        {"x_mm", ArgumentKind::number, "to the patient's left", true, -1000, 1000},
+                        {"y_mm", ArgumentKind::number, "towards the head", true, -1000, 1000},
+                        {"z_mm", ArgumentKind::number, "to the front", true, -1000, 1000}},
+                       15,
+                       "Carries what the jaws hold to a place.",
+                       nothing,
+                       &making<Carry>};
+
+}  // namespace trocar::training
