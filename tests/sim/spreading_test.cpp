@@ -122,18 +122,18 @@ TEST(BluntDissection, ABluntTipWipesFatOffTheCysticDuct) {
       sum += holding(fat.fat, interactions::part_of<Fat>(d.m_state.objects).front().fat, i);
     return sum / fat.fat.septa();
   };
-  constexpr Vec3d kBeforeDuct{-0.046, 0.107, -0.096};
-  d.aim(kBeforeDuct, {0, 1, 0});
-  d.go(kBeforeDuct, 0.025);
+  constexpr Vec3d kOnDuct{-0.046, 0.1085, -0.0986}, kAlong{-0.012, 0.002, 0.001};
+  d.aim(kOnDuct, {0, 1, 0});
+  d.go(kOnDuct, 0.02);
   const auto before = holding_roots();
-  for (int k = 0; k < 3; ++k) {
-    d.go(d.m_tip + Vec3d{0, -0.016, 0.004}, 0.03);
-    d.go(d.m_tip - Vec3d{0, -0.016, 0.004}, 0.03);
+  for (int wipe = 0; wipe < 2; ++wipe) {
+    d.go(d.m_tip + kAlong, 0.02);
+    d.go(d.m_tip - kAlong, 0.02);
   }
   RecordProperty("pressed_N", std::to_string(d.m_pressed));
-  std::printf("roots %d -> %d, septa %g, pressed %g N\n", int(before), int(holding_roots()), septa(), d.m_pressed);
-  EXPECT_LT(septa(), 0.99);
-  EXPECT_LT(holding_roots(), before);
+  RecordProperty("roots", std::to_string(before - holding_roots()));
+  EXPECT_LT(holding_roots(), before) << "what held on the duct does not any more";
+  EXPECT_LT(septa(), 0.995);
   EXPECT_GT(d.m_pressed, 0.1);
   EXPECT_LT(d.m_pressed, 0.7);
 }
