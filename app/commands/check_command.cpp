@@ -96,7 +96,7 @@ Json check_one(const fs::path& path, double unit) {
   if (scene::kind_of_file(path) == scene::FileKind::vessels) return describe_vessels(path);
   if (scene::kind_of_file(path) == scene::FileKind::look) {
     out["kind"] = "look";
-  } else if (has("organs") || has("scope")) {
+  } else if (has("organs") || has("scope") || has("like")) {
     out["kind"] = "scene";
     out.update(describe_scene(path, {}));
   } else if (has("solids") || has("strands") || has("walls") || has("membranes") || has("pouches")) {

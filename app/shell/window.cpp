@@ -74,6 +74,7 @@ constexpr KeyPair kKeys[] = {
     {GLFW_KEY_A, devices::Key::a},
     {GLFW_KEY_D, devices::Key::d},
     {GLFW_KEY_T, devices::Key::t},
+    {GLFW_KEY_K, devices::Key::k},
 };
 
 /// The size that was asked for, or what the monitor has room for.

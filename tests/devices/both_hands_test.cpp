@@ -422,6 +422,20 @@ TEST(BothHandsMouseAndKeys, SideButtonsTakeTheMouseRoundBothHandsAndTheEndoscope
   EXPECT_EQ(pair.hands.state.led, 1);
 }
 
+TEST(BothHandsMode, BothShouldersWithBDeclareAndWipeNothing) {
+  for (const bool both : {false, true}) {
+    Pair pair(both);
+    pair.give(pad_with({kLB, kRB}));
+    bool declared = false;
+    for (const HandCommand& c : pair.give(pad_with({kLB, kRB, Button::b}))) {
+      declared |= c.declare;
+      EXPECT_FALSE(c.wipe);
+    }
+    EXPECT_TRUE(declared) << (both ? "both hands" : "one hand");
+    for (const HandCommand& c : pair.give(HandSample{})) EXPECT_FALSE(c.declare);
+  }
+}
+
 TEST(BothHandsMode, IsSwitchedByAKeyAndByBothShouldersWithY) {
   Pair pair(false);
   pair.press(Key::h);

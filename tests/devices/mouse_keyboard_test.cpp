@@ -443,6 +443,15 @@ TEST(Wipe, IsAskedForWhoeverIsLed) {
   EXPECT_FALSE(session.give({}).wipe);
 }
 
+TEST(Declaration, IsHeardForAsLongAsTheKeyIsHeldWhoeverIsLed) {
+  Session session;
+  for (const Key hand : {Key::one, Key::zero}) {
+    session.press(hand);
+    EXPECT_TRUE(session.give(Session::holding(Key::k)).declare);
+    EXPECT_FALSE(session.give({}).declare);
+  }
+}
+
 TEST(MouseKeyboard, FootSwitchesWorkAsLongAsTheyAreHeldWhoeverIsLed) {
   Session session;
   for (const Key hand : {Key::one, Key::two, Key::zero}) {

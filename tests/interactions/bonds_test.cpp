@@ -140,3 +140,20 @@ TEST(Bonds, PressedBackWhatHasPartedDoesNotHold) {
   for (int t = 0; t < 100; ++t) force = strip.pull(0.01 * kTick * Vec3d{0, 0, 1});
   EXPECT_LT(force.z, 0.05 * kendall(strip.width)) << "loose as far as it was peeled";
 }
+
+TEST(Bonds, OneThatIsTougherThanItsBaseTearsThatOnlyWhereItIsTornOff) {
+  BondSet set;
+  set.bonds.resize(4);
+  for (Bond& bond : set.bonds) bond.area = 2e-5;
+  std::vector<BondState> states{
+      {1, BondState::pulled}, {0.5f, BondState::pulled}, {1, BondState::cut}, {1, BondState::burnt}};
+  EXPECT_EQ(breached_area(set, states), 0) << "these part themselves";
+  set.breaches = true;
+  EXPECT_DOUBLE_EQ(breached_area(set, states), 2e-5) << "torn off, not half torn, cut or burnt";
+  EXPECT_TRUE(states[0].raw());
+  for (BondState& state : states)
+    if (!state.holds()) staunch(set, state);
+  EXPECT_DOUBLE_EQ(breached_area(set, states), 2e-5) << "coagulated it is dry, and still torn";
+  EXPECT_FALSE(states[0].raw());
+  EXPECT_EQ(states[2].cause, BondState::burnt);
+}

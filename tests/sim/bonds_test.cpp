@@ -187,3 +187,71 @@ TEST(BondedPouch, WhereItWasTornOffBloodOozesUntilThatIsCoagulated) {
   for (int tick = 0; tick < 200; ++tick) ASSERT_TRUE(step(m, m.start, s, w).fine());
   EXPECT_EQ(bled(), before);
 }
+
+namespace {
+
+Model bed_of(const char* scene) {
+  return scene::compile(scene::read_scene(std::string(TROCAR_SOURCE_DIR "/scenes/") + scene + "/scene.json"));
+}
+const Model& scarred() {
+  static const Model made = bed_of("gallbladder_bed_scarred");
+  return made;
+}
+double breached(const Model& m, const State& s) { return interactions::breached_area(m.bonds[0], s.bonds[0]); }
+
+/// An electrode at every bond's root, for that long.
+void burn_all(const Model& m, State& s, Work& w, double seconds) {
+  StepReport report;
+  StepContext context{m, m.start, s, w, report};
+  const interactions::Holders holders = holders_of(context);
+  for (const interactions::Bond& bond : m.bonds[0].bonds)
+    burn_bonds(context, held_place(bond.hold, holders) - bond.hold.offset, seconds);
+}
+
+}  // namespace
+
+TEST(ScarredBed, IsTougherThanTheLiverAndTheOthersAreNot) {
+  EXPECT_TRUE(scarred().bonds.at(0).breaches);
+  EXPECT_NEAR(scarred().bonds.at(0).law.toughness(), 164, 1e-9) << "what the liver takes";
+  EXPECT_FALSE(bed_of("gallbladder_bed").bonds.at(0).breaches);
+  const Model inflamed = bed_of("gallbladder_bed_inflamed");
+  EXPECT_FALSE(inflamed.bonds.at(0).breaches);
+  EXPECT_NEAR(inflamed.bonds.at(0).law.toughness(), 120, 1e-9);
+}
+
+TEST(ScarredBed, TornOffItBreachesTheLiverWhichBleedsUntilItIsCoagulated) {
+  const Model& m = scarred();
+  const interactions::BondSet& bed = m.bonds[0];
+  State s = initial_state(m);
+  Work w = make_work(m);
+  for (int tick = 0; tick < 100; ++tick) ASSERT_TRUE(step(m, m.start, s, w).fine());
+  for (interactions::BondState& bond : s.bonds[0]) bond = {1, interactions::BondState::pulled};
+  EXPECT_DOUBLE_EQ(breached(m, s), bed.area());
+  const auto bled = [&] { return s.fluids.ledger.in[size_t(fluids::Source::kBled)].blood; };
+  const int ticks = int(bed.bonds.size()) * 20;
+  for (int tick = 0; tick < ticks; ++tick) ASSERT_TRUE(step(m, m.start, s, w).fine());
+  const double expected = bed.bleeds * bed.area() * ticks * kTick;
+  EXPECT_NEAR(fluids::kM3PerPicolitre * double(bled()) / expected, 1, 0.001);
+  EXPECT_GE(bed.bleeds * 60 * 1e6 * 1e-4, 0.5) << "mL/min/cm2 of a breached bed";
+
+  burn_all(m, s, w, 0.001);
+  const std::int64_t before = bled();
+  for (int tick = 0; tick < 200; ++tick) ASSERT_TRUE(step(m, m.start, s, w).fine());
+  EXPECT_EQ(bled(), before);
+  EXPECT_DOUBLE_EQ(breached(m, s), bed.area()) << "it stays torn";
+}
+
+TEST(ScarredBed, CoagulatedOrCutTheScarPartsAndTheLiverStaysWhole) {
+  const Model& m = scarred();
+  for (const bool cut : {false, true}) {
+    State s = initial_state(m);
+    Work w = make_work(m);
+    ASSERT_TRUE(step(m, m.start, s, w).fine());
+    if (cut)
+      for (interactions::BondState& bond : s.bonds[0]) bond = {1, interactions::BondState::cut};
+    else
+      burn_all(m, s, w, 0.2);
+    EXPECT_EQ(interactions::holding_share(m.bonds[0], s.bonds[0]), 0);
+    EXPECT_EQ(breached(m, s), 0);
+  }
+}

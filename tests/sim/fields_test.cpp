@@ -428,6 +428,7 @@ TEST(Fields, EveryFieldOfAModelThatIsListedCountsInItsSeal) {
       model.vessels.bleeder.vessel = 0;  // what no scene has is hashed as well where it is there
       model.wet.pool_at_start.saline = 1;
       model.bonds.emplace_back().bonds.emplace_back();
+      model.bonds.back().breaches = true;
       const auto sealed = [&] {
         seal(model);
         return model.hash;

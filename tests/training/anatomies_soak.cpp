@@ -56,7 +56,7 @@ class CalotAnatomy : public testing::TestWithParam<int> {};
 TEST_P(CalotAnatomy, TheSurgeonDissectsTheTriangle) {
   expect_passes("cholecystectomy/calot.json", std::uint64_t(GetParam()));
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, CalotAnatomy, testing::Range(0, 1));  // of others it does not clear enough yet
+INSTANTIATE_TEST_SUITE_P(Seeds, CalotAnatomy, testing::Range(0, 20));
 
 class Haemorrhage : public testing::TestWithParam<int> {};
 TEST_P(Haemorrhage, TheSurgeonStopsIt) { expect_passes("cholecystectomy/haemorrhage.json", std::uint64_t(GetParam())); }
@@ -71,5 +71,20 @@ TEST_P(BedAnatomy, TheSurgeonPeelsTheGallbladderOffTheLiver) {
   expect_passes("cholecystectomy/bed.json", std::uint64_t(GetParam()));
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, BedAnatomy, testing::Range(0, 20));
+
+class BedInAnotherState : public testing::TestWithParam<int> {};
+TEST_P(BedInAnotherState, TheSurgeonPartsAnInflamedGallbladder) {
+  expect_passes("cholecystectomy/bed-inflamed.json", std::uint64_t(GetParam()));
+}
+TEST_P(BedInAnotherState, TheSurgeonPartsAScarredGallbladder) {
+  expect_passes("cholecystectomy/bed-scarred.json", std::uint64_t(GetParam()));
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, BedInAnotherState, testing::Range(0, 5));
+
+class Adhesions : public testing::TestWithParam<int> {};
+TEST_P(Adhesions, TheSurgeonFreesTheGallbladderAndShowsBothFaces) {
+  expect_passes("cholecystectomy/expose.json", std::uint64_t(GetParam()));
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, Adhesions, testing::Range(0, 5));
 
 }  // namespace

@@ -68,6 +68,8 @@ void spoil_clip_and_cut(Plan& plan, const sim::Model& model, const std::string& 
 }
 
 void spoil_bed(Plan& plan, const std::string& code) {
+  if (code == "A2.16")  // what holds is torn off instead of coagulated
+    plan.task("open and part", "draw").set("pull_N", 7.5).set("by_mm", 0.04).at_most = 20;
   if (code != "A2.2" && code != "A2.13") return;
   PlanGoal& goal = plan.goal("open and part");
   const int hand = plan.task("open and part", "part_bonds").argument("hand").index;
@@ -78,6 +80,15 @@ void spoil_bed(Plan& plan, const std::string& code) {
   in.set_index("hand", hand).set_index("mark", neck);
   open_the_gallbladder(goal, 0, hand);
   for (PlanTask* task : {&in, &take, &away}) flaws::insert(goal, 0, *task);
+}
+
+void spoil_expose(Plan& plan, const std::string& code) {
+  if (code == "A2.15") plan.task("front", "draw").set("towards", "up").set("by_mm", 0.03).set("pull_N", 4);
+}
+
+/// Who declares with all of the fat still there.
+void spoil_dissection(Plan& plan, const std::string& code) {
+  if (code == "A2.14") flaws::insert(plan.goal("front"), 0, PlanTask::of(kDeclare));
 }
 
 /// One stone is not looked for; or it is let go of high above where it lay.
@@ -110,8 +121,12 @@ TEST_P(PartsFlaw, TriggersItsErrorAndOnlyWhatTheTableSaysItImplies) {
   const Penalty& p = *exercise.penalty(code);
   Monitor monitor(exercise, model);
   Demonstration demonstration = read_demonstration(exercise, model);
-  if (name == "bed")
+  if (name == "expose")
+    spoil_expose(demonstration.plan, code);
+  else if (name.rfind("bed", 0) == 0)
     spoil_bed(demonstration.plan, code);
+  else if (name == "calot" || name == "operation")
+    spoil_dissection(demonstration.plan, code);
   else if (name == "spill")
     spoil_spill(demonstration.plan, code);
   else
@@ -153,7 +168,8 @@ constexpr Case kCases[] = {{"clip-and-cut", "A2.2"},  {"clip-and-cut", "A2.13"},
                            {"clip-and-cut", "A2.4"},  {"clip-and-cut", "A2.7"},  {"clip-and-cut", "A2.9"},
                            {"clip-and-cut", "A2.10"}, {"clip-and-cut", "A2.11"}, {"clip-and-cut", "E4.2"},
                            {"clip-and-cut", "E11"},   {"bed", "A2.2"},           {"bed", "A2.13"},
-                           {"spill", "A4.1"},         {"spill", "A4.2"}};
+                           {"bed-scarred", "A2.16"},  {"expose", "A2.15"},       {"calot", "A2.14"},
+                           {"operation", "A2.14"},    {"spill", "A4.1"},         {"spill", "A4.2"}};
 INSTANTIATE_TEST_SUITE_P(Codes, PartsFlaw, testing::ValuesIn(kCases), word);
 
 }  // namespace

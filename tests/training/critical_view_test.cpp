@@ -11,6 +11,7 @@
 #include <trocar/sim/stages/step.hpp>
 #include <trocar/training/exercise/exercise.hpp>
 #include <trocar/training/expert/expert.hpp>
+#include <trocar/training/facts/registry.hpp>
 #include <trocar/training/observe/fat.hpp>
 #include <trocar/training/observe/marks.hpp>
 
@@ -196,6 +197,20 @@ TEST(CriticalView, TractionAloneOpensNothing) {
   EXPECT_GT(holds, 0.98);
   EXPECT_LT(t.open(), 0.1);
   EXPECT_FALSE(t.bridged().empty());
+}
+
+TEST(BondsOfAScene, WhatIsBreachedIsAnAreaAndNothingWhereTheyPartThemselves) {
+  sim::Model model = calot();
+  sim::State state = sim::initial_state(model);
+  const int set = model.bonds_index("cystic_plate");
+  ASSERT_GE(set, 0);
+  const interactions::BondSet& plate = model.bonds[std::size_t(set)];
+  for (BondState& bond : state.bonds[std::size_t(set)]) bond = {1, BondState::pulled};
+  const Arguments of{{true, -1, 0, 0, "cystic_plate", {}}};
+  const auto area = [&] { return kBondsBreached.watch(model, of)->value({model, state}).number; };
+  EXPECT_EQ(area(), 0) << "loose tissue, weaker than the liver";
+  model.bonds[std::size_t(set)].breaches = true;
+  EXPECT_NEAR(area(), plate.area(), 1e-12);
 }
 
 }  // namespace trocar::training

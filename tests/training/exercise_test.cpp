@@ -197,6 +197,68 @@ TEST_F(ExerciseFile, AFileThatIsNotThereIsSaid) {
   EXPECT_THROW(read_exercise("/nowhere/exercise.json"), core::BadInput);
 }
 
+// ---- an exercise that is like another one ---------------------------------------------------------------------------
+
+class LikeAnother : public ExerciseFile {
+ protected:
+  Exercise twin(const std::string& keys, Faults& found) const {
+    scene::MemoryFiles files = *files_with(m_text);
+    files[kTwin] = "{\"format\": 3, \"name\": \"twin\", " + keys + "}";
+    return read_exercise(kTwin, found, &files);
+  }
+  static constexpr const char* kTwin = "scenes/changed/twins/twin.json";
+  static constexpr const char* kKeys = R"("like": "../exercise.json", "title": "Twin", "scene": "other.json")";
+};
+
+TEST_F(LikeAnother, SaysWhatDiffersAndTheRestIsAsThere) {
+  Faults found;
+  const Exercise base = read_exercise(kChanged, files_with(m_text));
+  const Exercise e = twin(std::string(kKeys) + R"(, "pass_mark": 95)", found);
+  EXPECT_TRUE(found.empty());
+  EXPECT_EQ(e.name, "twin");
+  EXPECT_EQ(e.title, "Twin");
+  EXPECT_EQ(e.scene.lexically_normal().generic_string(), "scenes/changed/twins/other.json");
+  EXPECT_EQ(e.pass_mark, 95);
+  EXPECT_EQ(e.expert_time, base.expert_time);
+  EXPECT_EQ(e.steps.size(), base.steps.size());
+  EXPECT_EQ(e.penalties.size(), base.penalties.size()) << "with those of the common rules, named relative to that file";
+  EXPECT_EQ(e.limits.size(), base.limits.size());
+  EXPECT_EQ(e.demonstration.file, base.demonstration.file);
+}
+
+TEST_F(LikeAnother, AKeyReplacesTheOtherFilesAsAWhole) {
+  Faults found;
+  const Exercise e =
+      twin(std::string(kKeys) + R"(, "includes": [], "limits": {"lost_mL": {"value": 1, "source": "ours"}})", found);
+  EXPECT_FALSE(found.empty()) << "what the steps decide by is not there any more";
+  ASSERT_EQ(e.limits.size(), 1u);
+  EXPECT_EQ(e.limits[0].at.file, kTwin);
+}
+
+TEST_F(LikeAnother, ItsFaultsAreToldWhereTheyStand) {
+  change("\"pass_mark\": 80", "\"pass_mark\": 800");
+  Faults found;
+  twin(kKeys, found);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].at.file, kChanged);
+  EXPECT_EQ(found[0].at.line, m_line);
+}
+
+TEST_F(LikeAnother, TitleAndSceneItSaysItself) {
+  Faults found;
+  twin(R"("like": "../exercise.json")", found);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NE(found[0].message.find("\"title\""), std::string::npos);
+  EXPECT_NE(found[1].message.find("\"scene\""), std::string::npos);
+}
+
+TEST_F(LikeAnother, ACircleIsAFault) {
+  Faults found;
+  twin(R"("like": "twin.json", "title": "Twin", "scene": "other.json")", found);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].message.find("no circle"), std::string::npos) << found[0].message;
+}
+
 TEST_F(ExerciseFile, TornAnywhereItIsAFaultAndNotACrash) {
   const std::string whole = m_text;
   for (size_t n = 0; n + 3 < whole.size(); n += 197) {

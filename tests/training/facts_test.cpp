@@ -186,6 +186,22 @@ TEST(Facts, ADiscIsAsFarAsItsMiddleAndFacesWhereItsNormalDoes) {
   EXPECT_UNKNOWN(w.value(kMarkFacing, {w.mark("stripe")})) << "it goes all around";
 }
 
+TEST(Facts, AMarkHasMovedFromWhereItWasAtFirst) {
+  World w;
+  const auto moved = [&w](const char* towards) {
+    return kMarkMoved.watch(w.model, {w.mark("tube_left.isthmus"), word(towards)});
+  };
+  const std::unique_ptr<Observer> left = moved("left"), right = moved("right"), hip = moved("right_hip");
+  EXPECT_UNKNOWN(left->value(w.moment())) << "nobody has looked yet";
+  for (Observer* o : {left.get(), right.get(), hip.get()}) o->sample(w.moment(), 0.02);
+  expect_value(left->value(w.moment()), 0);
+  for (Vec3d& x : w.state.strands[kLeft].x) x += Vec3d{0.003, 0, 0.005};
+  for (Observer* o : {left.get(), right.get(), hip.get()}) o->sample(w.moment(), 0.02);
+  expect_value(left->value(w.moment()), 0.003);
+  expect_value(right->value(w.moment()), -0.003);
+  expect_value(hip->value(w.moment()), -0.003 / std::sqrt(2.0));
+}
+
 TEST(Facts, TheHorizonIsWhereThePictureIsTurnedTo) {
   World w;
   w.state.scope.pitch = 0.9f;
@@ -490,9 +506,13 @@ TEST(Events, OfHandsAreWhatTheStepReports) {
   const struct {
     const EventKind& kind;
     sim::Event::Kind reported;
-  } all[] = {{*find_event("grasped"), sim::Event::grasped}, {*find_event("released"), sim::Event::released},
-             {*find_event("slipped"), sim::Event::slipped}, {*find_event("exchanged"), sim::Event::exchanged},
-             {*find_event("parted"), sim::Event::parted},   {kTorn, sim::Event::torn}};
+  } all[] = {{*find_event("grasped"), sim::Event::grasped},
+             {*find_event("released"), sim::Event::released},
+             {*find_event("slipped"), sim::Event::slipped},
+             {*find_event("exchanged"), sim::Event::exchanged},
+             {*find_event("parted"), sim::Event::parted},
+             {*find_event("declared"), sim::Event::declared},
+             {kTorn, sim::Event::torn}};
   for (const auto& one : all) {
     Noticed n;
     n.watch(one.kind);

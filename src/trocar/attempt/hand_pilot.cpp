@@ -19,6 +19,7 @@ std::array<float, 3> as_array(Vec3d v) { return {float(v.x), float(v.y), float(v
 
 std::uint32_t pedals_of(const devices::HandCommand& command) {
   std::uint32_t pedals = (command.wipe ? sim::kWipe : 0u) | (command.blue ? sim::kBlue : 0u);
+  if (command.declare) pedals |= sim::kDeclare;
   if (command.yellow) pedals |= sim::kYellow;
   if (command.irrigate) pedals |= sim::irrigates(command.led);
   if (command.suck) pedals |= sim::sucks(command.led);

@@ -132,6 +132,15 @@ bool asks_for_the_other_mode(const HandSample& sample, const HandSample& last) {
   return sample.pressed.has(Key::h) || (both_shoulders(sample) && went_down(Button::y, sample, last));
 }
 
+/// B with both shoulders held is K, and wipes no lens.
+HandSample with_declaration(HandSample sample) {
+  if (both_shoulders(sample) && sample.gamepad.has(Button::b)) {
+    sample.gamepad.set(Button::b, false);
+    sample.held.set(Key::k, true);
+  }
+  return sample;
+}
+
 void let_go(HandState& side) {
   side.opening = false;
   side.waiting = true;
@@ -305,7 +314,8 @@ bool leads_both(const HandSettings& settings, const BothHands& hands) noexcept {
   return hands.on && instruments_of(settings) >= 2;
 }
 
-HandCommands lead(const HandSettings& settings, const HandSample& given, BothHands& hands) noexcept {
+HandCommands lead(const HandSettings& settings, const HandSample& from_devices, BothHands& hands) noexcept {
+  const HandSample given = with_declaration(from_devices);
   const HandSample last = std::exchange(hands.last, given);
   if (asks_for_the_other_mode(given, last) && instruments_of(settings) >= 2) {
     lead_both(settings, !hands.on, hands);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array<const char*, std::size_t(Key::count)> kKeyNames = {
     "Tab", "1", "2", "3", "4",     "0", "C", "Left",  "Right", "Up", "Down", "PageUp", "PageDown", "W", "S", "Q",
-    "E",   "R", "F", "G", "Enter", "V", "X", "Space", "Shift", "A",  "D",    "T",      "B",        "N", "H"};
+    "E",   "R", "F", "G", "Enter", "V", "X", "Space", "Shift", "A",  "D",    "T",      "B",        "N", "H", "K"};
 
 constexpr HelpLine kHelp[] = {
     {Device::keyboard, "1 2 3 4, Tab", "lead this hand, the next one; the others keep pose and grip"},
@@ -26,6 +26,7 @@ constexpr HelpLine kHelp[] = {
     {Device::keyboard, "R F", "light post of an oblique endoscope"},
     {Device::keyboard, "A D", "suction-irrigator: water, suction, as long as it is held"},
     {Device::keyboard, "T", "wipe the lens; it takes eight seconds"},
+    {Device::keyboard, "K", "declare that it is shown: the critical view"},
     {Device::keyboard, "B N", "foot switch: blue, coagulates; yellow, cuts; as long as it is held"},
     {Device::keyboard, "Shift", "fine: a quarter of every motion, of closing too: for clips"},
     {Device::mouse, "move", "tip sideways, up and down; endoscope: where it looks"},
@@ -46,6 +47,7 @@ constexpr HelpLine kHelp[] = {
     {Device::gamepad, "A, right stick pressed", "foot switch: blue, coagulates; yellow, cuts"},
     {Device::gamepad, "shoulders", "lead the previous, the next hand, the endoscope among them"},
     {Device::gamepad, "both shoulders and Y", "both hands at once: on, off"},
+    {Device::gamepad, "both shoulders and B", "declare that it is shown: the critical view"},
     {Device::gamepad, "Y", "another instrument for this hand, another hand"},
     {Device::gamepad, "X", "bring the instrument into the view"},
 };
@@ -268,6 +270,7 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
                  went_down(Button::y, sample, state.last) || (tapped && jaws && !sample.left_button);
   command.insert = sample.pressed.has(Key::v) || went_down(Button::x, sample, state.last);
   command.wipe = sample.held.has(Key::t) || sample.pressed.has(Key::t) || sample.gamepad.has(Button::b);
+  command.declare = sample.held.has(Key::k) || sample.pressed.has(Key::k);
   command.blue = sample.held.has(Key::b) || sample.gamepad.has(Button::a);
   command.yellow = sample.held.has(Key::n) || sample.gamepad.has(Button::right_stick);
   if (state.led == kScope) {

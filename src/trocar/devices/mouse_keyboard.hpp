@@ -57,6 +57,7 @@ enum class Key : std::uint8_t {
   b,
   n,
   h,
+  k,
   count
 };
 const char* name_of(Key key) noexcept;  ///< as help() writes it
@@ -138,6 +139,7 @@ struct HandCommand {
   bool insert = false;                  ///< asked to bring the led instrument into the view
   bool irrigate = false, suck = false;  ///< valves of the led instrument, as long as they are held
   bool wipe = false;                    ///< asked for a clean lens, whoever is led
+  bool declare = false;                 ///< "this is what was to be shown", whoever is led
   bool blue = false, yellow = false;    ///< foot switches as long as they are held, whoever is led
 };
 

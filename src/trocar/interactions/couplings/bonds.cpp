@@ -48,6 +48,20 @@ void bond_loads(const BondSet& set, std::span<BondState> states, const BondedNod
   }
 }
 
+bool breached(const BondSet& set, const BondState& state) noexcept {
+  return state.cause == BondState::staunched || (set.breaches && !state.holds() && state.cause == BondState::pulled);
+}
+
+double breached_area(const BondSet& set, std::span<const BondState> states) noexcept {
+  double sum = 0;
+  for (std::size_t i = 0; i < set.bonds.size(); ++i) sum += breached(set, states[i]) ? set.bonds[i].area : 0;
+  return sum;
+}
+
+void staunch(const BondSet& set, BondState& state) noexcept {
+  state.cause = breached(set, state) ? BondState::staunched : BondState::burnt;
+}
+
 double energy_spent(const BondSet& set, std::span<const BondState> states) noexcept {
   double sum = 0;
   for (std::size_t i = 0; i < set.bonds.size(); ++i)

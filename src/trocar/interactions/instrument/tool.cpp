@@ -36,6 +36,7 @@ ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, 
     bend_wire(model, s);
     return s;
   }
+  s.spreads = model.can().spread;
   s.half_gap = 0.5 * model.parallel_gap * aperture;
   s.half_angle = 0.5 * model.opening * aperture;
   const double c = portable::cos(s.half_angle), sn = portable::sin(s.half_angle);

@@ -125,6 +125,7 @@ struct ToolShape {
   double half_angle = 0;       ///< of each jaw from the axis [rad]
   double half_gap = 0;         ///< at the pivot (parallel jaws) [m]
   bool has_foot = false;       ///< it is a hook's, and has no jaws
+  bool spreads = false;        ///< its jaws push apart what lies beside them
 
   /// Half the clear distance between the jaws at `along` [m] from the pivot.
   double half_opening(double along) const { return half_gap + along * tangent; }

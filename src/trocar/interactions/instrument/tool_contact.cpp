@@ -165,8 +165,9 @@ void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part,
 }
 
 /// Number `ball` of the balls along a part presses the skin in, whatever lies between the skin's vertices.
+/// @param out  only skin that lies that way of it; zero: any
 void press(Touching& c, BodyId body, const Surface& surface, int part, int ball, Vec3d p, Vec3d before, double radius,
-           NetworkLoads& loads) noexcept {
+           NetworkLoads& loads, Vec3d out = {}) noexcept {
   const std::int32_t element = -1 - ball;
   const Touch* was = c.last.find(body, element, part);
   const bool known =
@@ -175,6 +176,7 @@ void press(Touching& c, BodyId body, const Surface& surface, int part, int ball,
   if (known && was->anchored && vertex != was->vertex) vertex = walk_to_nearest(surface, was->vertex, p);
   if (vertex < 0 || surface.torn(vertex)) return;
   const SkinPoint at = nearest_skin_point(surface, vertex, p);
+  if (dot(at.normal, out) > 0) return;
   const double above = dot(p - at.point, at.normal), far = length(p - at.point);
   if (above >= 0 ? far > radius + kNoted : far > kDeepestTool) return;
   if (above < 0 && !known && !was_near(c, body, surface, vertex) && dot(before - at.point, at.normal) < 0) return;
@@ -191,18 +193,40 @@ void press(Touching& c, BodyId body, const Surface& surface, int part, int ball,
   }
 }
 
+constexpr double kSpacing = 0.002;  // [m] of balls along jaws
+
+bool closed_jaws(const ToolShape& shape) noexcept {
+  const Capsule &a = shape.part[kJawA], &b = shape.part[kJawB];
+  return length(a.b - b.b) <= 2.5 * (a.radius + b.radius);
+}
+
 /// Closed jaws are a blunt rod that is thinner than the skin's triangles: points along it are pressed against the skin.
 /// Open jaws are not, so that a fold can rise between them.
 void closed_jaws_on_surface(Touching& c, BodyId body, const Surface& surface, NetworkLoads& loads) noexcept {
   const Capsule &a = c.shape.part[kJawA], &b = c.shape.part[kJawB];
-  if (c.shape.has_foot || length(a.b - b.b) > 2.5 * (a.radius + b.radius)) return;
-  constexpr double kSpacing = 0.002;
+  if (c.shape.has_foot || !closed_jaws(c.shape)) return;
   const double far = length(c.shape.frame.tip - c.shape.pivot);
   if (!meets_box(surface.pose->bounds, c.shape.pivot, c.shape.frame.tip, kDeepestTool)) return;
   int ball = 0;
   for (double back = 0; back < far; back += kSpacing, ++ball)
     press(c, body, surface, kJawA, ball, c.shape.frame.tip - back * c.shape.frame.axis(),
           c.before.frame.tip - back * c.before.frame.axis(), a.radius + b.radius, loads);
+}
+
+/// But for those of a dissector, which part what they are opened in: they press what lies on their outer sides.
+void spread_jaws_on_surface(Touching& c, BodyId body, const Surface& surface, NetworkLoads& loads) noexcept {
+  if (!c.shape.spreads || closed_jaws(c.shape)) return;
+  for (const int part : {kJawA, kJawB}) {
+    const Capsule &now = c.shape.part[part], &before = c.before.part[part];
+    if (!meets_box(surface.pose->bounds, now.a, now.b, kDeepestTool)) continue;
+    const Vec3d out = normalised(now.b - c.shape.part[part == kJawA ? kJawB : kJawA].b);
+    const int balls = int(length(now.b - now.a) / kSpacing);
+    for (int ball = 0; ball < balls; ++ball) {
+      const double share = double(ball) / balls;
+      press(c, body, surface, part, ball, now.b + share * (now.a - now.b), before.b + share * (before.a - before.b),
+            now.radius, loads, out);
+    }
+  }
 }
 
 /// A hook's wire, or its foot, is thinner still: the same from its end back, as close as it is thick.
@@ -220,6 +244,7 @@ void wire_on_surface(Touching& c, BodyId body, const Surface& surface, int part,
 void tool_on_surface(Touching& touching, BodyId body, const Surface& surface, NetworkLoads& loads) noexcept {
   for (int part = 0; part < kToolParts; ++part) part_on_surface(touching, body, surface, part, loads);
   closed_jaws_on_surface(touching, body, surface, loads);
+  spread_jaws_on_surface(touching, body, surface, loads);
   for (const int part : {kJawA, kJawB}) wire_on_surface(touching, body, surface, part, loads);
 }
 

@@ -6,7 +6,8 @@
 // State remembers from which side it came. A strand's element has a side of each rod. A vertex of an organ's skin that
 // finds itself behind the instrument's axis is pushed inwards along its own normal, down to 25 mm, if it or a neighbour
 // was near the instrument in the last tick, or the axis was outside then; so the far side of a thin organ is left
-// alone. Closed jaws and a hook's wire, thinner than the skin's triangles, are also pressed against those.
+// alone. Closed jaws, the spread ones of a dissector and a hook's wire, thinner than the skin's triangles, are
+// also pressed against those.
 #pragma once
 
 #include <span>

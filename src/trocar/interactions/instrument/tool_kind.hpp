@@ -35,6 +35,7 @@ struct Abilities {
   bool coagulate = false;  ///< an electrode is at the tip ...
   bool bipolar = false;    ///< ... and current goes from jaw to jaw
   bool hook = false;       ///< its end is a wire that may be bent to a foot, which catches bands
+  bool spread = false;     ///< jaws that open push apart what lies on their outer sides
   bool bag = false;        ///< a sleeve that the scene's bag comes out of (interactions/objects/bag.hpp)
 
   /// Legs of clips and blades come astride of what they close on.
@@ -54,7 +55,7 @@ inline constexpr KindOfTool kToolKinds[] = {
     {ToolKind::suction_irrigator, "suction_irrigator", {.irrigate = true}},
     {ToolKind::hook, "hook", {.coagulate = true, .hook = true}},
     {ToolKind::bipolar, "bipolar", {.grip = true, .coagulate = true, .bipolar = true}},
-    {ToolKind::dissector, "dissector", {.grip = true}},
+    {ToolKind::dissector, "dissector", {.grip = true, .spread = true}},
     {ToolKind::bag, "bag", {.bag = true}},
 };
 

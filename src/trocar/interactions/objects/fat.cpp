@@ -44,12 +44,6 @@ bool holds_lobule(const ToolState& tool, BodyId body, int lobule) noexcept {
   return false;
 }
 
-bool lies_between(const ToolModel& tool, const ToolShape& shape, Vec3d local, double radius) noexcept {
-  const double beside = 0.6 * radius;
-  return std::fabs(local.y) <= 0.5 * tool.jaw_width + beside && local.z >= 0 && local.z <= tool.jaw_length + beside &&
-         std::fabs(local.x) <= shape.half_opening(local.z) + beside;
-}
-
 /// Of a part at a lobule: jaws' inner faces are toothed, and what lies between them does not slip out as they close.
 double friction_at(const ObjectHand& hand, int part, Vec3d p, double radius) noexcept {
   const ToolShape& shape = hand.touching.shape;

@@ -151,18 +151,22 @@ int lobule_at(const FatBody& body, const FatBodyState& state, const Capsule& wir
 /// @return water that has boiled off [kg]
 double warm_fat(const FatBody& body, int lobule, double joules, FatBodyState& state) noexcept;
 
+/// Does a ball lie between the jaws? @param local  its middle, in the jaws' frame [m]
+inline bool lies_between(const ToolModel& tool, const ToolShape& shape, Vec3d local, double radius) noexcept {
+  const double beside = 0.6 * radius;
+  return std::fabs(local.y) <= 0.5 * tool.jaw_width + beside && local.z >= 0 && local.z <= tool.jaw_length + beside &&
+         std::fabs(local.x) <= shape.half_opening(local.z) + beside;
+}
+
 template <class Add>
 void Fat::between(const Models& models, const States& states, size_t i, const ToolModel& tool, const ToolShape& shape,
                   Add&& add) noexcept {
   const tissue::FatModel& m = models.list[i].fat;
   const tissue::FatState& s = states[i].fat;
-  const double beside = 0.6 * m.radius;
   for (int n = 0; n < m.lobules(); ++n) {
     if (s.lobules[size_t(n)].gone()) continue;
     const Vec3d local = to_jaw(shape, tissue::position(m, s, n));
-    if (std::fabs(local.y) > 0.5 * tool.jaw_width + beside) continue;
-    if (local.z < 0 || local.z > tool.jaw_length + beside) continue;
-    if (std::fabs(local.x) > shape.half_opening(local.z) + beside) continue;
+    if (!lies_between(tool, shape, local, m.radius)) continue;
     add(std::int32_t(n), local);
   }
 }

@@ -252,7 +252,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
   }
   for (const Pouch& pouch : d.pouches) {
     const Tissue* tissue = find_tissue(d, pouch.tissue);
-    if (tissue) compile_pouch(pouch, *tissue, d.gravity, model, faults, report);
+    if (tissue) compile_pouch(pouch, *tissue, d, model, faults, report);
   }
   ObjectScenes::for_each([&](auto kind) { kind.compile(settings_of(kind, d.objects), model, faults); });
   if (report) report_fat(model, *report);

@@ -15,7 +15,8 @@ void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d grav
                       std::vector<core::Fault>& faults, CompileReport* report);
 
 /// A closed wall. Appends to Model::membranes, as above.
-void compile_pouch(const Pouch& pouch, const Tissue& tissue, Vec3d gravity, sim::Model& model,
+/// @param scene  that it is of: its gravity, and what its bonds tie it to, which may be weaker than they are
+void compile_pouch(const Pouch& pouch, const Tissue& tissue, const Description& scene, sim::Model& model,
                    std::vector<core::Fault>& faults, CompileReport* report);
 
 /// The sheet's nodes as a skin: one vertex a node.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -55,10 +56,22 @@ std::vector<double> areas_of_nodes(const std::vector<Vec3d>& positions,
 
 constexpr double kMillilitrePerMinuteAndSquareCentimetre = 1e-6 / 60 / 1e-4;  // [m/s]
 
+/// What it takes to tear the weakest organ of those named [J/m^2]; infinite where none can be torn.
+double fracture_of(const std::vector<std::string>& on, const Description& scene) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Solid& solid : scene.solids) {
+    if (std::find(on.begin(), on.end(), solid.name) == on.end()) continue;
+    for (const Tissue& t : scene.tissues)
+      if (t.name == solid.tissue && t.fracture > 0) least = std::min(least, t.fracture);
+  }
+  return least;
+}
+
 /// The sets of bonds of a pouch that is yet to be built: which nodes they tie, and to what. A node that is held, or
 /// tied already, stays so.
 std::vector<interactions::BondSet> bonds_of(const Pouch& pouch, const tissue::MembraneDescription& d,
-                                            const sim::Model& model, std::vector<core::Fault>& faults) {
+                                            const Description& scene, const sim::Model& model,
+                                            std::vector<core::Fault>& faults) {
   std::vector<interactions::BondSet> sets;
   std::vector<std::uint8_t> taken = d.held;
   const std::vector<double> area = areas_of_nodes(d.positions, d.triangles);
@@ -66,8 +79,11 @@ std::vector<interactions::BondSet> bonds_of(const Pouch& pouch, const tissue::Me
     interactions::BondSet set;
     set.name = setting.name;
     set.membrane = std::int32_t(model.membranes.size());
-    set.law = tissue::CohesiveLaw::of(setting.toughness, setting.opens);
+    const double base = fracture_of(setting.on, scene);
+    set.breaches = base < setting.toughness;
+    set.law = tissue::CohesiveLaw::of(std::min(base, setting.toughness), setting.opens);
     set.oozes = setting.oozes * kMillilitrePerMinuteAndSquareCentimetre;
+    set.bleeds = setting.bleeds * kMillilitrePerMinuteAndSquareCentimetre;
     const std::vector<std::uint8_t> within = nodes_within(setting.places, pouch.name, d.positions, faults);
     for (size_t i = 0; i < within.size(); ++i) {
       if (!within[i] || taken[i]) continue;
@@ -104,7 +120,7 @@ tissue::MembraneModel build_wall(const tissue::MembraneDescription& d, std::vect
 
 }  // namespace
 
-void compile_pouch(const Pouch& pouch, const Tissue& tissue, Vec3d gravity, sim::Model& model,
+void compile_pouch(const Pouch& pouch, const Tissue& tissue, const Description& scene, sim::Model& model,
                    std::vector<core::Fault>& faults, CompileReport* report) try {
   std::vector<geometry::Section> sections;
   for (const Section& s : pouch.sections) sections.push_back({s.centre, s.across, s.deep, s.squareness});
@@ -124,9 +140,9 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, Vec3d gravity, sim:
   d.damping_time = damping_time(tissue::network_of(d), tissue.damping_ms * 1e-3);
   d.bending_damping_time = kPouchBendingDamping;
   d.global_damping = kFoldDrag;
-  d.gravity = gravity;
+  d.gravity = scene.gravity;
   d.enclosure = enclosure_of(pouch.contents);
-  std::vector<interactions::BondSet> bonds = bonds_of(pouch, d, model, faults);
+  std::vector<interactions::BondSet> bonds = bonds_of(pouch, d, scene, model, faults);
   sim::MembraneBody out;
   out.name = pouch.name;
   out.look = pouch.look;

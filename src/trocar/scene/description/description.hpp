@@ -32,8 +32,9 @@ struct Tissue {
   double strain_cap = 0.2;    ///< the law continues linearly beyond it
   double failure_strain = 0;  ///< tears beyond it (0: never)
   double damping_ms = 2;      ///< stiffness-proportional damping, a time [ms]
+  double fracture = 0;        ///< what it takes to tear a square metre of it off (0: bonds never do) [J/m^2]
   std::string source;         ///< literature or "ours": of the figures that have no source of their own below
-  std::array<std::string, 8> source_of;  ///< in the order of kTissueFigures; empty: `source`
+  std::array<std::string, 9> source_of;  ///< in the order of kTissueFigures; empty: `source`
   core::Location at;
 };
 /// The figures of a tissue, as files name them.
@@ -41,14 +42,15 @@ struct TissueFigure {
   const char* key;
   double Tissue::*value;
 };
-inline constexpr std::array<TissueFigure, 8> kTissueFigures{{{"density_kg_m3", &Tissue::density},
+inline constexpr std::array<TissueFigure, 9> kTissueFigures{{{"density_kg_m3", &Tissue::density},
                                                              {"young_Pa", &Tissue::young},
                                                              {"poisson", &Tissue::poisson},
                                                              {"p1", &Tissue::p1},
                                                              {"p2", &Tissue::p2},
                                                              {"strain_cap", &Tissue::strain_cap},
                                                              {"failure_strain", &Tissue::failure_strain},
-                                                             {"damping_ms", &Tissue::damping_ms}}};
+                                                             {"damping_ms", &Tissue::damping_ms},
+                                                             {"fracture_J_m2", &Tissue::fracture}}};
 
 /// A section of a lofted body: a super-ellipse with two half-axis vectors.
 struct Section {
@@ -182,6 +184,7 @@ struct BondSetting {
   double toughness = 50;        ///< [J/m^2]
   double opens = 0.005;         ///< [m]
   double oozes = 0;             ///< [mL/min/cm^2] where it has parted
+  double bleeds = 0;            ///< [mL/min/cm^2] where what it is tied to has torn instead
   core::Location at;
 };
 

@@ -267,7 +267,10 @@ const Table<BondSetting>& bond_setting() {
                  "how far it opens until nothing holds, default {}"),
        R::number("oozes_mL_min_cm2", units::one, &BondSetting::oozes, 0, 100,
                  "blood from the raw surface that it leaves when it is torn or cut, until that is coagulated, "
-                 "default {}")}};
+                 "default {}"),
+       R::number("breach_mL_min_cm2", units::one, &BondSetting::bleeds, 0, 100,
+                 "the same where an organ has torn instead, as its tissue's fracture_J_m2 is less than the bond's "
+                 "toughness; default {}")}};
   return table;
 }
 

@@ -288,6 +288,9 @@ const Table<Tissue>& tissue() {
        R::number("failure_strain", units::one, &T::failure_strain, 0, 10,
                  "strain at which it tears, default {}: never"),
        R::number("damping_ms", units::one, &T::damping_ms, 0, 1000, "stiffness-proportional damping time, default {}"),
+       R::number("fracture_J_m2", units::one, &T::fracture, 0, 1e6,
+                 "of an organ: what it takes to tear a square metre off its surface, where bonds are tougher than "
+                 "that; default {}: they never tear it"),
        needed(R::text("source", &T::source, "where the figures come from: a publication, or \"ours\"")),
        R::own(keys::object("sources", tissue_sources, "sources of single figures, where they differ"), read_sources,
               written_sources)},

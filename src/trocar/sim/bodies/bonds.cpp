@@ -27,7 +27,7 @@ void pull_on_bonds(StepContext& c) noexcept {
 
 namespace {
 
-/// f(state, foot, node) of all bonds, parted ones among them: where they are rooted, and the wall's node.
+/// f(set, state, foot, node) of all bonds, parted ones among them: where they are rooted, and the wall's node.
 template <class F>
 void for_bonds(StepContext& c, F&& f) noexcept {
   const interactions::Holders holders = holders_of(c);
@@ -36,7 +36,7 @@ void for_bonds(StepContext& c, F&& f) noexcept {
     const interactions::BondedNodes nodes = nodes_of(c, set);
     for (size_t b = 0; b < set.bonds.size(); ++b) {
       const interactions::Bond& bond = set.bonds[b];
-      f(c.state.bonds[i][b], held_place(bond.hold, holders) - bond.hold.offset,
+      f(set, c.state.bonds[i][b], held_place(bond.hold, holders) - bond.hold.offset,
         tissue::position(nodes.model, nodes.state, bond.node));
     }
   }
@@ -48,7 +48,7 @@ int sever_bonds(StepContext& c, const geometry::Blade& blade) noexcept {
   const geometry::BladePlane plane(blade);
   if (!plane.flat) return 0;
   int severed = 0;
-  for_bonds(c, [&](interactions::BondState& state, Vec3d foot, Vec3d node) {
+  for_bonds(c, [&](const interactions::BondSet&, interactions::BondState& state, Vec3d foot, Vec3d node) {
     if (!state.holds() || !plane.crosses(foot, node)) return;
     state = {1, interactions::BondState::cut};
     ++severed;
@@ -57,9 +57,9 @@ int sever_bonds(StepContext& c, const geometry::Blade& blade) noexcept {
 }
 
 void burn_bonds(StepContext& c, Vec3d electrode, double dt) noexcept {
-  for_bonds(c, [&](interactions::BondState& state, Vec3d foot, Vec3d node) {
+  for_bonds(c, [&](const interactions::BondSet& set, interactions::BondState& state, Vec3d foot, Vec3d node) {
     if (!state.holds()) {  // what is left of it on the holder
-      if (length(electrode - foot) <= kBurns) state.cause = interactions::BondState::burnt;
+      if (length(electrode - foot) <= kBurns) staunch(set, state);
       return;
     }
     const double w = geometry::closest_on_segment(electrode, foot, node);
@@ -73,8 +73,10 @@ Ooze ooze_from_bonds(StepContext& c, size_t i) noexcept {
   const interactions::BondSet& set = c.model.bonds[i];
   const std::size_t turn = std::size_t(c.state.tick % set.bonds.size());
   const interactions::Bond& bond = set.bonds[turn];
-  if (!c.state.bonds[i][turn].raw() || bond.hold.kind != interactions::BorderHold::organ) return {};
-  const double flow = set.oozes * bond.area * kTick * double(set.bonds.size());  // [m^3]
+  const interactions::BondState& state = c.state.bonds[i][turn];
+  if (!state.raw() || bond.hold.kind != interactions::BorderHold::organ) return {};
+  const double flow =
+      (breached(set, state) ? set.bleeds : set.oozes) * bond.area * kTick * double(set.bonds.size());  // [m^3]
   return {held_place(bond.hold, holders_of(c)) - bond.hold.offset,
           c.model.wet.film[size_t(bond.hold.index)] + bond.hold.vertex, std::int64_t(flow / fluids::kM3PerPicolitre)};
 }

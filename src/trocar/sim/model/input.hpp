@@ -39,9 +39,10 @@ struct ScopeInput {
 
 /// Bits of Input::pedals: foot switches, and valves on the handles of suction-irrigators.
 enum Pedal : std::uint32_t {
-  kBlue = 1,    ///< coagulation
-  kYellow = 2,  ///< cutting current
-  kWipe = 4,    ///< the endoscope is taken out and wiped
+  kBlue = 1,     ///< coagulation
+  kYellow = 2,   ///< cutting current
+  kWipe = 4,     ///< the endoscope is taken out and wiped
+  kDeclare = 8,  ///< "this is what was to be shown", said aloud: once for as long as it is held
 };
 /// Keys of the generator's panel (tissue::PanelKey), from this bit on.
 inline constexpr int kPanelBit = 16;

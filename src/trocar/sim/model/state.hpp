@@ -102,6 +102,7 @@ struct State {
   std::int32_t impact_count = 0;
   std::array<std::uint8_t, kMaxTools> valves{};  ///< (hands) Valve, in the last tick
   std::vector<std::uint8_t> seen;                ///< (samples) 1 = in view when last looked
+  std::uint8_t declaring = 0;                    ///< kDeclare was down in the last tick
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
@@ -127,7 +128,8 @@ struct State {
         v("valves", s.valves, core::only_if(irrigates)), v("impact_count", s.impact_count, core::only_if(irrigates)),
         v("impacts", s.impacts, core::FieldNote{.hashed = irrigates, .first = s.impact_count}), v("objects", s.objects),
         v("statics", s.statics, core::only_if(!s.statics.empty())),
-        v("bonds", s.bonds, core::only_if(!s.bonds.empty()));
+        v("bonds", s.bonds, core::only_if(!s.bonds.empty())),
+        v("declaring", s.declaring, core::only_if(s.declaring != 0));
   }
 };
 

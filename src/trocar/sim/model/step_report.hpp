@@ -21,12 +21,13 @@ struct Event {
     cut,
     exchanged,
     torn,
-    parted
+    parted,
+    declared
   } kind = none;
   std::int32_t tool = 0;
   /// The clip's or the cut's number in the State's book; grasped: the body held (BodyId::code);
   /// parted: the body that current has cut, likewise; torn: the body that tore, likewise, under the hand that pulls or
-  /// presses most; exchanged: the new instrument's number in the rack; released and slipped: -1.
+  /// presses most; exchanged: the new instrument's number in the rack; released, slipped and declared: -1.
   std::int32_t index = 0;
 
   /// The body that `index` says, of a kind of event that says one.
@@ -56,6 +57,8 @@ inline constexpr EventWords kEventWords[] = {
      EventWords::choice},
     {Event::torn, "torn", "{body} tore", nullptr, true},
     {Event::parted, "parted", "{tool} parted {body}", "Current cut a body.", true, EventWords::current},
+    {Event::declared, "declared", "declared",
+     "Who operates declared, by key or pedal, that what was to be shown is shown."},
 };
 /// Of a kind that is not Event::none.
 constexpr const EventWords& words_of(Event::Kind kind) noexcept { return kEventWords[std::size_t(kind) - 1]; }

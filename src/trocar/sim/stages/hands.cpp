@@ -90,7 +90,15 @@ void move_hand(StepContext& c, size_t t) noexcept {
 }  // namespace
 
 // Hands: instruments and scope follow the input, no faster than hands can.
+/// Once for as long as the key is held.
+void hear_declaration(StepContext& c) noexcept {
+  const bool declares = (c.input.pedals & kDeclare) != 0;
+  if (declares && !c.state.declaring) tell(c, Event::declared, 0, -1);
+  c.state.declaring = declares;
+}
+
 void move_hands(StepContext& c) noexcept {
+  hear_declaration(c);
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     c.work.wall_stops[t] = {};
     if (finite(c.input.tools[t]))

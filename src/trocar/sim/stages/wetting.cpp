@@ -53,7 +53,7 @@ size_t lay_out_leaks(StepContext& c, size_t place) noexcept {
 /// What oozes where bonds were.
 void lay_out_oozing(StepContext& c, size_t place) noexcept {
   for (size_t i = 0; i < c.model.bonds.size() && place > 0; ++i) {
-    if (!(c.model.bonds[i].oozes > 0)) continue;
+    if (!(c.model.bonds[i].oozes > 0) && !(c.model.bonds[i].bleeds > 0)) continue;
     fluids::Outlet& o = c.work.wounds[--place];
     const Ooze ooze = ooze_from_bonds(c, i);
     if (ooze.picolitres == 0) continue;

@@ -1,4 +1,4 @@
-// Reads an exercise file, with the files of common rules that it includes.
+// Reads an exercise file, with those that it is like and the files of common rules that they include.
 #include <algorithm>
 #include <deque>
 #include <map>
@@ -7,6 +7,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/scene/files/library.hpp>
+#include <trocar/scene/json/like.hpp>
 #include <trocar/training/exercise/rule_files.hpp>
 #include <trocar/training/exercise/rules.hpp>
 #include <trocar/training/exercise/scoreboard.hpp>
@@ -19,6 +20,14 @@ using scene::JsonValue;
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kMostLayers = 16;  // of exercises that are like others
+
+/// Of an exercise that is like another one.
+const scene::Shape& like_shape() {
+  static const scene::Shape shape = scene::like_another(exercise_shape());
+  return shape;
+}
+
 class ExerciseReader {
  public:
   ExerciseReader(const fs::path& path, const scene::MemoryFiles* memory, Exercise& exercise, Faults& faults)
@@ -26,28 +35,69 @@ class ExerciseReader {
 
   void read() {
     m_exercise.file = m_path;
-    m_files.push_back(scene::load_json(m_path, m_faults, m_memory));
-    const scene::JsonDocument& document = m_files.back();
-    if (document.root.kind == JsonValue::Kind::broken || of_another_format(document)) return;
-    const JsonObject o(document.root, exercise_shape(), document.file, m_faults);
-    head(o);
-    score(o);
+    if (!open(m_path)) return;
+    head();
+    score();
     RuleFiles rules(m_exercise, m_faults);
-    includes(o, rules);
-    rules.read(o, document.file, true);
-    steps(o, document.file);
-    for (const JsonObject& d : o.objects("details")) m_exercise.details.push_back({d.value(), document.file});
-    if (const scene::JsonMember* d = document.root.find("demonstration"))
-      m_exercise.demonstration = {d->value, document.file};
-    for (const JsonObject& l : o.objects("later"))
+    includes(rules);
+    rules.read({said("limits").o, said("sets").o, said("errors").o}, true);
+    steps();
+    const JsonObject& detailed = said("details").o;
+    for (const JsonObject& d : detailed.objects("details"))
+      m_exercise.details.push_back({d.value(), detailed.at().file});
+    const JsonObject& shown = said("demonstration").o;
+    if (const scene::JsonMember* d = shown.value().find("demonstration"))
+      m_exercise.demonstration = {d->value, shown.at().file};
+    for (const JsonObject& l : said("later").o.objects("later"))
       m_exercise.later.push_back({l.text("code"), l.text("name"), l.text("needs")});
-    bounds(o);
+    bounds();
     words();
     codes();
     unused_limits();
   }
 
  private:
+  /// An exercise's file, and below it those that it is like: each stands in for what the ones above do not say.
+  struct Layer {
+    JsonObject o;
+    fs::path path;
+  };
+
+  /// @return false where there is nothing to go on with
+  bool open(const fs::path& path) {
+    m_files.push_back(scene::load_json(path, m_faults, m_memory));
+    const scene::JsonDocument& document = m_files.back();
+    if (document.root.kind == JsonValue::Kind::broken || of_another_format(document)) return false;
+    const bool is_like = document.root.find(scene::kLike) != nullptr;
+    const JsonObject o(document.root, is_like ? like_shape() : exercise_shape(), document.file, m_faults);
+    m_layers.push_back({o, path});
+    if (!o.has(scene::kLike)) return true;
+    for (const char* key : {"title", "scene"})
+      if (!o.names(key))
+        o.fault(o.at(), fmt::format("expected the key \"{}\" also in an exercise that is like another, got none", key));
+    return below(o, (path.parent_path() / o.text(scene::kLike)).lexically_normal());
+  }
+  bool below(const JsonObject& o, const fs::path& path) {
+    const auto same = [&path](const Layer& l) { return l.path.lexically_normal() == path; };
+    if (std::any_of(m_layers.begin(), m_layers.end(), same) || m_layers.size() >= kMostLayers)
+      o.fault(scene::kLike, fmt::format("expected at most {} exercises that are like each other, and no circle, got "
+                                        "one more: {}",
+                                        kMostLayers, path.generic_string()));
+    else if (!m_memory && !m_library.holds(path))
+      o.fault(scene::kLike, m_library.refusal(o.text(scene::kLike)));
+    else
+      return open(path);
+    return false;
+  }
+  /// Who says it.
+  const Layer& said(const char* key) const {
+    const auto end = scene::is_own(key) ? m_layers.begin() + 1 : m_layers.end();
+    const auto says = std::find_if(m_layers.begin(), end, [key](const Layer& l) { return l.o.names(key); });
+    return says == end ? m_layers.front() : *says;
+  }
+  std::string text(const char* key) const { return said(key).o.text(key); }
+  double number(const char* key) const { return said(key).o.number(key); }
+
   bool of_another_format(const scene::JsonDocument& document) {
     const scene::JsonMember* format = document.root.find("format");
     if (!format || format->value.kind != JsonValue::Kind::number || format->value.number >= 3) return false;
@@ -61,25 +111,27 @@ class ExerciseReader {
     scene::tell(m_faults, {{file, at.line, at.column}, std::move(message)});
   }
 
-  void head(const JsonObject& o) {
-    m_exercise.name = o.text("name");
-    m_exercise.title = o.text("title");
-    m_exercise.summary = o.text("summary");
-    m_exercise.order = o.integer("order", 1000);
-    m_exercise.scene = m_path.parent_path() / o.text("scene");
-    if (!m_memory && o.has("scene") && !m_library.holds(m_exercise.scene))
-      o.fault("scene", m_library.refusal(o.text("scene")));
+  void head() {
+    m_exercise.name = text("name");
+    m_exercise.title = text("title");
+    m_exercise.summary = text("summary");
+    m_exercise.order = said("order").o.integer("order", 1000);
+    const Layer& where = said("scene");
+    m_exercise.scene = where.path.parent_path() / where.o.text("scene");
+    if (!m_memory && where.o.has("scene") && !m_library.holds(m_exercise.scene))
+      where.o.fault("scene", m_library.refusal(where.o.text("scene")));
   }
 
-  void score(const JsonObject& o) {
+  void score() {
     Exercise& e = m_exercise;
-    e.hold_time = o.number("hold_s");
-    e.expert_time = o.number("expert_s");
-    e.longest_time = o.number("longest_s");
-    if (o.has("expert_s") && o.has("longest_s") && e.expert_time >= e.longest_time)
-      o.fault("longest_s", "expected more than expert_s, got less or the same");
-    e.pass_mark = o.number("pass_mark");
-    for (const JsonObject& s : o.objects("score")) {
+    e.hold_time = number("hold_s");
+    e.expert_time = number("expert_s");
+    e.longest_time = number("longest_s");
+    const JsonObject& longest = said("longest_s").o;
+    if (said("expert_s").o.has("expert_s") && longest.has("longest_s") && e.expert_time >= e.longest_time)
+      longest.fault("longest_s", "expected more than expert_s, got less or the same");
+    e.pass_mark = number("pass_mark");
+    for (const JsonObject& s : said("score").o.objects("score")) {
       e.quality_share = s.number("quality");
       e.time_share = s.number("time");
       e.motion_share = s.number("motion");
@@ -88,10 +140,11 @@ class ExerciseReader {
     }
   }
 
-  void includes(const JsonObject& o, RuleFiles& rules) {
+  void includes(RuleFiles& rules) {
+    const JsonObject& o = said("includes").o;
     const std::vector<std::string> names = o.texts("includes");
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const fs::path path = (m_path.parent_path() / names[i]).lexically_normal();
+      const fs::path path = (said("includes").path.parent_path() / names[i]).lexically_normal();
       if (!m_memory && !m_library.holds(path)) {
         o.fault(o.at("includes", i), m_library.refusal(names[i]));
         continue;
@@ -99,11 +152,14 @@ class ExerciseReader {
       m_files.push_back(scene::load_json(path, m_faults, m_memory));
       const scene::JsonDocument& document = m_files.back();
       if (document.root.kind == JsonValue::Kind::broken) continue;
-      rules.read(JsonObject(document.root, common_rules_shape(), document.file, m_faults), document.file, false);
+      const JsonObject common(document.root, common_rules_shape(), document.file, m_faults);
+      rules.read({common, common, common}, false);
     }
   }
 
-  void steps(const JsonObject& o, const std::string& file) {
+  void steps() {
+    const JsonObject& o = said("steps").o;
+    const std::string file = o.at().file;
     double weights = 0;
     for (const JsonObject& s : o.objects("steps")) {
       StepText text{s.text("step"),        s.text("title"),    s.text("hint"),   s.text("for_each"),
@@ -115,9 +171,9 @@ class ExerciseReader {
     if (o.has("steps") && weights <= 0) o.fault("steps", "expected a weight above 0, got none");
   }
 
-  void bounds(const JsonObject& o) {
+  void bounds() {
     if (m_exercise.sets.size() > std::size_t(kMaxSets))
-      o.fault("sets", fmt::format("expected at most {} sets, got {}", kMaxSets, m_exercise.sets.size()));
+      said("sets").o.fault("sets", fmt::format("expected at most {} sets, got {}", kMaxSets, m_exercise.sets.size()));
   }
 
   /// Limits go into what people are told of errors; steps are told with their elements, later.
@@ -170,6 +226,7 @@ class ExerciseReader {
   Faults& m_faults;
   scene::Library m_library;
   std::deque<scene::JsonDocument> m_files;  ///< they stay where they are
+  std::deque<Layer> m_layers;
 };
 
 /// The first of those that say the same of the same place.

@@ -1,5 +1,6 @@
 // The tables that say which keys an exercise file has: the reader obeys them, and the published schema is written from
 // them.
+#include <trocar/scene/json/like.hpp>
 #include <trocar/training/exercise/exercise.hpp>
 
 namespace trocar::training {
@@ -88,6 +89,7 @@ const Shape& exercise_shape() {
       {keys::text("$schema", "where editors find this kind of file's schema"),
        keys::format(3),
        needed(keys::name("name", "what the command line calls it")),
+       keys::text(scene::kLike, "exercise file whose keys stand for those that are not here, relative to this one"),
        needed(keys::text("title", "for people")),
        keys::text("summary", "two or three sentences for who chooses an exercise"),
        keys::integer("order", 0, 1000, "in lists, those with less come first; default 1000"),

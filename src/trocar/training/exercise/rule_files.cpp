@@ -36,10 +36,10 @@ std::vector<std::string> given(const JsonObject& o, const char* key, const std::
 
 }  // namespace
 
-void RuleFiles::read(const JsonObject& file, const std::string& path, bool own) {
-  limits(file, path, own);
-  sets(file, path);
-  errors(file, path, own);
+void RuleFiles::read(const Said& by, bool own) {
+  limits(by.limits, by.limits.at().file, own);
+  sets(by.sets, by.sets.at().file);
+  errors(by.errors, by.errors.at().file, own);
 }
 
 void RuleFiles::limits(const JsonObject& file, const std::string& path, bool own) {

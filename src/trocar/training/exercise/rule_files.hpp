@@ -10,8 +10,14 @@ class RuleFiles {
  public:
   RuleFiles(Exercise& exercise, Faults& faults) : m_exercise(exercise), m_faults(faults) {}
 
-  /// @param own  the exercise's file, after all common ones
-  void read(const scene::JsonObject& file, const std::string& path, bool own);
+  /// Who says what: one file, or an exercise and those that it is like.
+  struct Said {
+    const scene::JsonObject& limits;
+    const scene::JsonObject& sets;
+    const scene::JsonObject& errors;
+  };
+  /// @param own  the exercise's, after all common ones
+  void read(const Said& by, bool own);
 
  private:
   void limits(const scene::JsonObject& file, const std::string& path, bool own);

@@ -74,6 +74,12 @@ Value bonds_left(const Moment& moment, const Arguments& a) {
   return interactions::holding_share(moment.model.bonds[size_t(set)], moment.state.bonds[size_t(set)]);
 }
 
+Value bonds_breached(const Moment& moment, const Arguments& a) {
+  const int set = moment.model.bonds_index(a[0].word);
+  if (set < 0) return kUnknown;
+  return interactions::breached_area(moment.model.bonds[size_t(set)], moment.state.bonds[size_t(set)]);
+}
+
 std::string_view needs_bonds(const sim::Model& model) { return model.bonds.empty() ? "bonds of a pouch" : ""; }
 
 std::string unknown_bonds(const sim::Model& model, const Arguments& a) {
@@ -95,6 +101,17 @@ const Fact kBondsLeft{"bonds.left_share",
                       &stateless<bonds_left>,
                       false,
                       &unknown_bonds};
+
+const Fact kBondsBreached{"bonds.breached_mm2",
+                          {{"of", ArgumentKind::word, "bonds of a pouch, by their name"}},
+                          0,
+                          1e6,
+                          "How much of the organ they are rooted in has torn in place of bonds that are tougher than "
+                          "it. 0 where none are.",
+                          needs_bonds,
+                          &stateless<bonds_breached>,
+                          false,
+                          &unknown_bonds};
 
 const Fact kFatLeft{
     "fat.left_share",

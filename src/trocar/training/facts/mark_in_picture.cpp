@@ -1,10 +1,11 @@
 // Where a mark lies in the picture: how far from its middle, how far from the lens, how it faces it. All unknown while
-// the mark is not in view.
+// the mark is not in view. And how far it has been moved, seen or not.
 #include <fmt/format.h>
 
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/directions.hpp>
 #include <trocar/training/observe/marks.hpp>
 
 namespace trocar::training {
@@ -40,7 +41,34 @@ std::string faces_every_way(const sim::Model& model, const Arguments& a) {
   return fmt::format("expected an organ or a disc, got \"{}\", which faces every way", target.name);
 }
 
+/// Against where it was when it was first looked at: as drawn.
+class Moved final : public Observer {
+ public:
+  Moved(const sim::Model&, const Arguments& a) : m_mark(a[0].index), m_way(patient_direction(a[1].word)) {}
+  void sample(const Moment& moment, double) override {
+    if (!m_from) m_from = place_of_mark(moment.model, moment.state, m_mark);
+  }
+  Value value(const Moment& moment) const override {
+    if (!m_from) return kUnknown;
+    return dot(place_of_mark(moment.model, moment.state, m_mark) - *m_from, m_way);
+  }
+
+ private:
+  std::int32_t m_mark;
+  Vec3d m_way;
+  std::optional<Vec3d> m_from;
+};
+
 }  // namespace
+
+const Fact kMarkMoved{"mark.moved_mm",
+                      {{"of", ArgumentKind::mark, "what has been moved"},
+                       {"towards", ArgumentKind::word, "where to, of the patient", true, 0, 0, patient_directions()}},
+                      -1000,
+                      1000,
+                      "How far its middle is from where it began, that way; below 0 the other way.",
+                      anywhere,
+                      &remembering<Moved>};
 
 const Fact kMarkOffCentre{"mark.off_centre",
                           {{"of", ArgumentKind::mark, "what is looked at"}},

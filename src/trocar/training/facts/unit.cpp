@@ -9,6 +9,7 @@ constexpr Unit kUnits[] = {
     {"mL_min", 1e-6 / 60, "millilitres a minute"},
     {"mm_s", 1e-3, "millimetres a second"},
     {"N_s", 1, "newton seconds"},
+    {"mm2", 1e-6, "square millimetres"},
     {"mm", 1e-3, "millimetres"},
     {"mL", 1e-6, "millilitres"},
     {"deg", portable::pi / 180, "degrees"},

@@ -25,6 +25,7 @@ void Operator::begin_tick(const sim::Model& model, const sim::State& state) {
   m_point_count = 0;
   m_distance = kDistance;
   m_facing.reset();
+  m_declares = false;
   m_posed_vessel = -1;
   m_arms.begin_tick();
 }
@@ -34,6 +35,7 @@ sim::Input Operator::end_tick() {
   sim::Input input = m_model->start;
   m_arms.fill(m_state->tick, input);
   m_camera.fill(input);
+  if (m_declares) input.pedals |= sim::kDeclare;
   m_model = nullptr;
   m_state = nullptr;
   return input;

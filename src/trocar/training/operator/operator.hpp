@@ -67,6 +67,9 @@ class Operator {
   void across(int hand) { m_facing = m_arms[hand].tip - m_arms[hand].port; }
   void want_nothing() { m_point_count = 0; }
 
+  /// In this tick, aloud: what was to be shown is shown.
+  void declare() { m_declares = true; }
+
   // What hands do
   /// Moves so that `at` would lie `inside` from the jaws' hinge, less `back` along the shaft, and turns the jaws across
   /// `along`. True when they are there.
@@ -107,6 +110,7 @@ class Operator {
   std::array<Vec3d, 8> m_points{};
   int m_point_count = 0;
   double m_distance = 0;
+  bool m_declares = false;
   std::optional<Vec3d> m_facing;
   sim::HostViews m_hosts;
   std::vector<Vec3d> m_line;  ///< of the vessel that was asked for last, as it lies in this tick

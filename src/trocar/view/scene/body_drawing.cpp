@@ -304,6 +304,8 @@ void BodyDrawing::make_membranes(render::Backend& backend) {
     }
   }
   for (std::size_t i = 0; i < m_model->bonds.size(); ++i) m_bonds.emplace_back(*m_model, i, backend);
+  for (std::size_t i = 0; i < m_model->bonds.size(); ++i)
+    if (m_model->bonds[i].breaches) m_breaches.emplace_back(*m_model, i, backend);
 }
 
 void BodyDrawing::list_ooze(render::Liquid& liquid) const {
@@ -347,6 +349,7 @@ void BodyDrawing::update(const sim::State& state) {
   for (MembraneDrawing& m : m_membranes) m.update(state);
   for (PouchDrawing& p : m_pouches) p.update(state);
   for (BondDrawing& b : m_bonds) b.update(state);
+  for (BreachDrawing& b : m_breaches) b.update(state);
   for (DrawnVessels& v : m_vessels) v.drawing.update(state);
   for (MarkDrawing& m : m_marks) m.update(state, m_tubes);
 }
@@ -484,6 +487,8 @@ void BodyDrawing::list_folds(bool with_walls, const FirstParts& first, const Lis
            m_pouches[i].burnt() || held(BodyId::membrane(std::size_t(m_pouch_of[i]))));
   for (const BondDrawing& b : m_bonds)
     to.add(item(b.mesh(), look(*m_model, "adhesion"), first.of(BodyId::membrane(b.membrane()))));
+  for (const BreachDrawing& b : m_breaches)
+    if (b.any()) to.add(item(b.mesh(), look(*m_model, "liver_raw"), first.of(BodyId::organ(std::size_t(b.organ())))));
 }
 
 }  // namespace trocar::view

@@ -18,6 +18,7 @@
 #include <trocar/view/base/heat_marks.hpp>
 #include <trocar/view/base/listing.hpp>
 #include <trocar/view/bodies/bond_drawing.hpp>
+#include <trocar/view/bodies/breach_drawing.hpp>
 #include <trocar/view/bodies/cuttable_drawing.hpp>
 #include <trocar/view/bodies/mark_drawing.hpp>
 #include <trocar/view/bodies/membrane_drawing.hpp>
@@ -107,6 +108,7 @@ class BodyDrawing {
   std::vector<PouchDrawing> m_pouches;
   std::vector<std::size_t> m_membrane_of, m_pouch_of;  ///< their numbers in the Model
   std::vector<BondDrawing> m_bonds;
+  std::vector<BreachDrawing> m_breaches;
   std::vector<MarkDrawing> m_marks;
   std::vector<DrawnVessels> m_vessels;
   std::vector<const Look*> m_vessel_look;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <trocar/training/observe/directions.hpp>
 #include <trocar/training/observe/hands.hpp>
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
@@ -7,21 +8,12 @@
 namespace trocar::training {
 namespace {
 
-Vec3d direction_of(const std::string& where) {
-  if (where == "up") return {0, 0, 1};
-  if (where == "down") return {0, 0, -1};
-  if (where == "head") return {0, 1, 0};
-  if (where == "left") return {1, 0, 0};
-  if (where == "right") return {-1, 0, 0};
-  return {0, -1, 0};
-}
-
 /// Draws what is held, no harder than it shall, and keeps the jaws where that has come to.
 class Draw final : public Skill {
  public:
   Draw(const sim::Model&, const Given& given)
       : m_hand(given.hand()),
-        m_direction(direction_of(given("towards").word)),
+        m_direction(patient_direction(given("towards").word)),
         m_far(given.number("by_mm", 0.02)),
         m_speed(given.number("speed_mm_s", 0.008)),
         m_most(given.number("pull_N", 3)) {}
@@ -50,8 +42,7 @@ class Draw final : public Skill {
 const SkillKind kDraw{
     "draw",
     "draw what is held",
-    {hand_parameter("that holds it"),
-     word_parameter("towards", "where to, of the patient", {"feet", "head", "up", "down", "left", "right"}),
+    {hand_parameter("that holds it"), word_parameter("towards", "where to, of the patient", patient_directions()),
      number_parameter("by_mm", "how far; 20", 0, 200), number_parameter("speed_mm_s", "at most; 8", 0.1, 100),
      number_parameter("pull_N", "it waits while it pulls harder; 3", 0, 50)},
     30,

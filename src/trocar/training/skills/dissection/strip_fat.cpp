@@ -17,6 +17,7 @@ class StripFat final : public Skill {
       : m_hand(given.hand()),
         m_fat(given("fat").body()),
         m_off(given("off").bodies),
+        m_about(given.number("about_mm", 0.0025)),
         m_far(given.number("by_mm", 0.012)),
         m_hardest(given.number("pull_N", 1)),
         m_most(int(given.number("most", 1000))) {}
@@ -36,9 +37,8 @@ class StripFat final : public Skill {
     m_bites = 0;
   }
 
-  /// The outermost that lies on one of the strands, near to where the jaws are.
+  /// The outermost of those about one of the strands, near to where the jaws are.
   int next(Operator& op) {
-    constexpr double kOnIt = 0.0025;   // [m] of its middle from a strand's surface
     constexpr double kAstray = 0.012;  // [m] from where it was drawn: it has come off
     constexpr double kNear = 1.5;      // what the way there counts beside the depth
     const Arms::Arm& arm = op.arm(m_hand);
@@ -50,7 +50,7 @@ class StripFat final : public Skill {
       const Vec3d p = position(fat.fat, state(op), n);
       if (length(p - fat.fat.network.rest[size_t(n)]) > kAstray) continue;
       const NearStrand near = nearest_strand(op.model(), op.state(), p);
-      if (near.apart > kOnIt || std::find(m_off.begin(), m_off.end(), near.strand) == m_off.end()) continue;
+      if (near.apart > m_about || std::find(m_off.begin(), m_off.end(), near.strand) == m_off.end()) continue;
       const double cost = length(p - arm.port) + kNear * length(p - arm.tip);
       if (best < 0 || cost < least) least = cost, best = n;
     }
@@ -154,7 +154,7 @@ class StripFat final : public Skill {
   int m_hand;
   BodyId m_fat;
   std::vector<BodyId> m_off;
-  double m_far, m_hardest;
+  double m_about, m_far, m_hardest;  ///< [m] [m] [N]
   int m_most, m_bites = 0, m_lobule = -1;
   Vec3d m_at, m_outwards, m_along, m_from;
   double m_way = 0;                   ///< [m]
@@ -173,6 +173,7 @@ const SkillKind kStripFat{"strip_fat",
                           {hand_parameter("that has jaws"),
                            {"fat", ArgumentKind::body, "which"},
                            {"off", ArgumentKind::bodies, "strands that are to be bared"},
+                           number_parameter("about_mm", "as far from their surface; 2.5", 0, 50),
                            number_parameter("by_mm", "how far each bite is drawn off; 12", 1, 50),
                            number_parameter("pull_N", "it waits while it pulls harder; 1", 0, 20),
                            number_parameter("most", "bites in one go; all", 1, 10000)},
