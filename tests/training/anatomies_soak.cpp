@@ -72,12 +72,6 @@ class Spill : public testing::TestWithParam<int> {};
 TEST_P(Spill, TheSurgeonGathersEveryStone) { expect_passes("cholecystectomy/spill.json", std::uint64_t(GetParam())); }
 INSTANTIATE_TEST_SUITE_P(Seeds, Spill, testing::Range(0, 5));
 
-class Extract : public testing::TestWithParam<int> {};
-TEST_P(Extract, TheSurgeonTakesTheGallbladderOut) {
-  expect_passes("cholecystectomy/extract.json", std::uint64_t(GetParam()));
-}
-INSTANTIATE_TEST_SUITE_P(Seeds, Extract, testing::Range(0, 5));
-
 class BedAnatomy : public testing::TestWithParam<int> {};
 TEST_P(BedAnatomy, TheSurgeonPeelsTheGallbladderOffTheLiver) {
   expect_passes("cholecystectomy/bed.json", std::uint64_t(GetParam()));
