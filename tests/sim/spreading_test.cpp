@@ -1,6 +1,5 @@
-// Blunt dissection of a gallbladder's bed: what tip and jaws of an instrument push apart comes apart, with the forces
-// that hands use for it. Both begin with a closed tip that goes into the gap at the free edge, where wall and liver lie
-// on each other.
+// Blunt dissection: what the jaws of a dissector spread apart comes apart, what a blunt tip wipes comes off, with the
+// forces that hands use for it: 1 to 3 N for spreading, 0.1 to 0.7 N for wiping.
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +7,7 @@
 
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/bodies/fat.hpp>
 #include <trocar/sim/bodies/views.hpp>
 #include <trocar/sim/stages/step.hpp>
 
@@ -17,65 +17,52 @@ using namespace trocar::sim;
 namespace {
 
 constexpr int kHand = 1;
-constexpr Vec3d kEdge{-0.069, 0.121, -0.081};  ///< [m] of the bed, towards the neck
-constexpr double kFrom = 0.025;                ///< [m] before the edge, where the instrument begins
 
-Model bed_with(const char* instrument) {
-  scene::Description d = scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder_bed/scene.json");
+Model scene_with(const char* name, const char* instrument) {
+  scene::Description d = scene::read_scene(std::string(TROCAR_SOURCE_DIR "/scenes/") + name + "/scene.json");
   d.placements[kHand].instrument = instrument;
   return scene::compile(d);
 }
 
-/// What a hand does: its tip somewhere, jaws as far closed.
-class Work_ {
+/// One instrument in one scene, led by its tip.
+class Dissection {
  public:
-  explicit Work_(const char* instrument)
-      : m_model(bed_with(instrument)), m_state(initial_state(m_model)), m_work(make_work(m_model)) {
-    const interactions::BondSet& bed = m_model.bonds.at(0);
-    for (const interactions::Bond& bond : bed.bonds)
-      if (length(node(bond) - kEdge) < length(node(bed.bonds[m_first]) - kEdge))
-        m_first = std::size_t(&bond - bed.bonds.data());
-    const interactions::Bond& first = bed.bonds[m_first];
-    m_apart = -normalised(first.hold.offset);
-    m_port = m_model.hands[kHand].port;
-    m_edge = node(first) - 0.5 * first.hold.offset;
-    m_along = normalised(m_edge - m_port);
-    m_roll = kinematics::roll_towards(kinematics::inverse(m_port, m_edge, 0), cross(m_along, m_apart));
-    m_tip = m_edge - kFrom * m_along;
-    hold(500);
+  Dissection(const char* scene, const char* instrument)
+      : m_model(scene_with(scene, instrument)),
+        m_state(initial_state(m_model)),
+        m_work(make_work(m_model)),
+        m_port(m_model.hands[kHand].port) {}
+
+  /// The tip before a place on its way from the trocar, jaws closed, their opening direction along `opens`.
+  void aim(Vec3d place, Vec3d opens) {
+    m_along = normalised(place - m_port);
+    m_roll = kinematics::roll_towards(kinematics::inverse(m_port, place, 0), cross(m_along, opens));
+    m_tip = place - 0.025 * m_along;
+    for (int i = 0; i < 150; ++i) tick();
   }
-  Vec3d node(const interactions::Bond& bond) const {
-    return position(m_model.membranes[0].sheet.network, m_state.membranes[0].network, bond.node);
+  void go(Vec3d to, double speed) {
+    const Vec3d from = m_tip;
+    const int ticks = int(length(to - from) / speed / kTick);
+    for (int i = 1; i <= ticks; ++i) m_tip = from + (double(i) / ticks) * (to - from), tick();
+  }
+  /// Opens as far as it goes with that force on the wall and on the organ.
+  void spread(double most, int organ) {
+    for (int i = 0; i < 1000; ++i) {
+      if (std::max(press_on(BodyId::membrane(0)), press_on(BodyId::organ(std::size_t(organ)))) < most)
+        m_handle = std::max(0.0, m_handle - 1.0 / 800);
+      tick();
+      m_on_wall = std::max(m_on_wall, press_on(BodyId::membrane(0)));
+      m_on_organ = std::max(m_on_organ, press_on(BodyId::organ(std::size_t(organ))));
+    }
   }
   void tick() {
     Input input = m_model.start;
     input.tools[kHand] = tool_input(kinematics::inverse(m_port, m_tip, m_roll), float(m_handle));
     ASSERT_TRUE(step(m_model, input, m_state, m_work).fine());
-    m_wall = std::max(m_wall, press_on(BodyId::membrane(0)));
-    m_liver = std::max(m_liver, press_on(BodyId::organ(std::size_t(m_model.organ_index("liver")))));
+    const double* f = m_state.tools[kHand].contact_force;
+    m_pressed = std::max(m_pressed, length(Vec3d{f[0], f[1], f[2]}));
   }
-  void hold(int ticks) {
-    for (int i = 0; i < ticks; ++i) tick();
-  }
-  void go(Vec3d by, double speed) {
-    const Vec3d from = m_tip;
-    const int ticks = int(length(by) / speed / kTick);
-    for (int i = 1; i <= ticks; ++i) m_tip = from + (double(i) / ticks) * by, tick();
-  }
-  /// Opens in two seconds as far as it goes with that force on either side.
-  void spread(double most) {
-    for (int i = 0; i < 2000; ++i) {
-      if (std::max(press_on(BodyId::membrane(0)), press_on(BodyId::organ(std::size_t(m_model.organ_index("liver"))))) <
-          most)
-        m_handle = std::max(0.0, m_handle - 1.0 / 2000);
-      tick();
-    }
-  }
-  double share() const { return interactions::holding_share(m_model.bonds[0], m_state.bonds[0]); }
-  int parted() const {
-    return int(
-        std::count_if(m_state.bonds[0].begin(), m_state.bonds[0].end(), [](const auto& b) { return !b.holds(); }));
-  }
+  /// Of the instrument on a body, along the contacts' normals [N].
   double press_on(BodyId body) const {
     Vec3d sum;
     const interactions::TouchBook& book = m_state.touches[kHand];
@@ -83,42 +70,70 @@ class Work_ {
       if (book.touch[i].body == body) sum += interactions::press_of(book.touch[i]);
     return length(sum);
   }
-  void reset() { m_wall = m_liver = 0; }
 
   Model m_model;
   State m_state;
   Work m_work;
-  std::size_t m_first = 0;
-  Vec3d m_apart, m_port, m_edge, m_along, m_tip;
-  double m_roll = 0, m_handle = 1, m_wall = 0, m_liver = 0;
+  Vec3d m_port, m_along, m_tip;
+  double m_roll = 0, m_handle = 1;
+  double m_pressed = 0, m_on_wall = 0, m_on_organ = 0;  ///< most so far [N]
 };
 
 }  // namespace
 
-TEST(Spreading, X) {
-  Work_ w("maryland");
-  std::printf("first bond at %g %g %g apart %g %g %g\n", w.m_edge.x, w.m_edge.y, w.m_edge.z, w.m_apart.x, w.m_apart.y,
-              w.m_apart.z);
-  for (double deep : {0.0, 0.003, 0.006, 0.010}) {
-    w.go(w.m_edge + deep * w.m_along - w.m_tip, 0.010);
-    std::printf("deep %g share %g parted %d wall %g liver %g\n", deep, w.share(), w.parted(), w.m_wall, w.m_liver);
+TEST(BluntDissection, SpreadJawsPushWallAndLiverApartAndTheBondsBetweenThemPart) {
+  Dissection d("gallbladder_bed", "maryland");
+  const interactions::BondSet& bed = d.m_model.bonds.at(0);
+  const auto node = [&](const interactions::Bond& bond) {
+    return position(d.m_model.membranes[0].sheet.network, d.m_state.membranes[0].network, bond.node);
+  };
+  constexpr Vec3d kInside{-0.072, 0.122, -0.075};
+  const interactions::Bond& near = *std::min_element(bed.bonds.begin(), bed.bonds.end(), [&](auto& a, auto& b) {
+    return length(node(a) - kInside) < length(node(b) - kInside);
+  });
+  const Vec3d gap = node(near) - 0.5 * near.hold.offset;
+  d.aim(gap, normalised(near.hold.offset));
+  d.go(gap + 0.012 * d.m_along, 0.025);
+  EXPECT_EQ(interactions::holding_share(bed, d.m_state.bonds[0]), 1) << "a closed tip goes between them";
+  d.spread(2.5, d.m_model.organ_index("liver"));
+  RecordProperty("wall_N", std::to_string(d.m_on_wall));
+  RecordProperty("liver_N", std::to_string(d.m_on_organ));
+  RecordProperty("share", std::to_string(interactions::holding_share(bed, d.m_state.bonds[0])));
+  for (const double force : {d.m_on_wall, d.m_on_organ}) {
+    EXPECT_GT(force, 1) << "both sides are pushed";
+    EXPECT_LT(force, 3);
   }
-  w.reset();
-  w.spread(2.5);
-  std::printf("spread: share %g parted %d wall %g liver %g handle %g\n", w.share(), w.parted(), w.m_wall, w.m_liver,
-              w.m_handle);
+  EXPECT_LT(interactions::holding_share(bed, d.m_state.bonds[0]), 0.95);
+  EXPECT_TRUE(std::any_of(d.m_state.bonds[0].begin(), d.m_state.bonds[0].end(),
+                          [](const auto& b) { return !b.holds() && b.cause == interactions::BondState::pulled; }));
 }
 
-TEST(Spreading, Y) {
-  Work_ w("suction_irrigator");
-  for (double deep : {0.0, 0.002, 0.004}) {
-    w.go(w.m_edge + deep * w.m_along - w.m_tip, 0.010);
-    std::printf("deep %g share %g parted %d wall %g liver %g\n", deep, w.share(), w.parted(), w.m_wall, w.m_liver);
+TEST(BluntDissection, ABluntTipWipesFatOffTheCysticDuct) {
+  using interactions::Fat;
+  Dissection d("calot", "suction_irrigator");
+  const interactions::FatBody& fat = interactions::part_of<Fat>(d.m_model.objects).list.front();
+  const auto holding_roots = [&] {
+    const auto& roots = interactions::part_of<Fat>(d.m_state.objects).front().roots;
+    return std::count_if(roots.begin(), roots.end(), [](const auto& r) { return r.holds(); });
+  };
+  const auto septa = [&] {
+    double sum = 0;
+    for (int i = 0; i < fat.fat.septa(); ++i)
+      sum += holding(fat.fat, interactions::part_of<Fat>(d.m_state.objects).front().fat, i);
+    return sum / fat.fat.septa();
+  };
+  constexpr Vec3d kOnDuct{-0.046, 0.1085, -0.0986}, kAlong{-0.012, 0.002, 0.001};
+  d.aim(kOnDuct, {0, 1, 0});
+  d.go(kOnDuct, 0.02);
+  const auto before = holding_roots();
+  for (int wipe = 0; wipe < 2; ++wipe) {
+    d.go(d.m_tip + kAlong, 0.02);
+    d.go(d.m_tip - kAlong, 0.02);
   }
-  const Vec3d across = cross(w.m_along, w.m_apart);
-  for (int k = 0; k < 4; ++k) {
-    w.reset();
-    w.go((k % 2 ? -0.012 : 0.012) * across, 0.02);
-    std::printf("wipe %d share %g parted %d wall %g liver %g\n", k, w.share(), w.parted(), w.m_wall, w.m_liver);
-  }
+  RecordProperty("pressed_N", std::to_string(d.m_pressed));
+  RecordProperty("roots", std::to_string(before - holding_roots()));
+  EXPECT_LT(holding_roots(), before) << "what held on the duct does not any more";
+  EXPECT_LT(septa(), 0.995);
+  EXPECT_GT(d.m_pressed, 0.1);
+  EXPECT_LT(d.m_pressed, 0.7);
 }
