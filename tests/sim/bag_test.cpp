@@ -88,7 +88,9 @@ double longest(const BagState& s) {
 
 struct Bagged : small::Table {
   Vec3d tip;
-  Bagged() : Table(box_model()) { tip = kinematics::forward(model.hands[kRight].port, pose_of(input.tools[kRight])).tip; }
+  Bagged() : Table(box_model()) {
+    tip = kinematics::forward(model.hands[kRight].port, pose_of(input.tools[kRight])).tip;
+  }
 
   /// The right hand's tip there, its mouth turned by `turn` from facing up [rad].
   void hold(Vec3d to, double turn) {
@@ -212,8 +214,8 @@ TEST(Bag, ItsMouthDoesNotCloseAroundAShaft) {
   Bagged t;
   t.open();
   t.close(kLeft, 1);
-  t.carry(kLeft, {-0.022, 0.088, -0.02}, kMouth + Vec3d{-0.002, 0, 0.005}, 0.1);
-  t.carry(kLeft, kMouth + Vec3d{-0.002, 0, 0.005}, kMouth + Vec3d{0, 0, -0.03}, 0.1);
+  const Vec3d in = normalised(kMouth - box_model().hands[kLeft].port);
+  t.carry(kLeft, kMouth - 0.05 * in, kMouth + 0.02 * in, 0.1);
   t.close_slowly(kRight, 1, 1000);
   t.steps(2500);
   EXPECT_FALSE(bag(t.state).shut());

@@ -65,24 +65,38 @@ class Finder {
     const RigidModel &a = m_models.list[i], &b = m_models.list[j];
     const double near = near_of(i) + near_of(j), far = a.reach + b.reach + near, touching = a.radius + b.radius + near;
     if (geometry::distance2(m_states[i].x, m_states[j].x) > far * far) return;
+    const bool once = a.pebble.x > 0 && b.pebble.x > 0;  // pebbles are as good as convex: they touch at one place
+    Pair nearest;
     for (const Vec3d& own : a.beads) {
       const Vec3d p = place_of(m_states[i], own);
       if (geometry::distance2(p, m_states[j].x) > (b.reach + touching) * (b.reach + touching)) continue;
       for (const Vec3d& other : b.beads) {
-        const Vec3d off = p - place_of(m_states[j], other);
-        const double away = length(off);
-        if (away > touching) continue;
-        const Vec3d normal = normalised(off, {0, 0, 1});
-        if (RigidContact* c = add(i, p - a.radius * normal, normal, held_off(away - a.radius - b.radius),
-                                  0.5 * (a.friction + b.friction))) {
-          c->other = std::int32_t(j);
-          c->other_arm = p - a.radius * normal - m_states[j].x;
-        }
+        const Pair pair{p, p - place_of(m_states[j], other)};
+        if (pair.away() > touching) continue;
+        if (!once)
+          at_pair(i, j, pair);
+        else if (pair.away() < nearest.away())
+          nearest = pair;
       }
     }
+    if (once && nearest.away() <= touching) at_pair(i, j, nearest);
   }
 
  private:
+  /// Beads of two bodies: the first one's place, and how it lies from the second.
+  struct Pair {
+    Vec3d p, off{1e3, 0, 0};
+    double away() const noexcept { return length(off); }
+  };
+  void at_pair(size_t i, size_t j, const Pair& pair) noexcept {
+    const RigidModel &a = m_models.list[i], &b = m_models.list[j];
+    const Vec3d normal = normalised(pair.off, {0, 0, 1});
+    RigidContact* c = add(i, pair.p - a.radius * normal, normal, held_off(pair.away() - a.radius - b.radius),
+                          0.5 * (a.friction + b.friction));
+    if (!c) return;
+    c->other = std::int32_t(j);
+    c->other_arm = pair.p - a.radius * normal - m_states[j].x;
+  }
   double near_of(size_t i) const noexcept {
     const RigidState& s = m_states[i];
     return kAhead + m_tick * (length(s.v) + m_models.list[i].reach * length(s.w));

@@ -17,6 +17,7 @@ using interactions::BagWork;
 using interactions::Rigid;
 
 constexpr double kNearBag = 0.020;       // [m] of the cloth: farther away nothing is looked at
+constexpr double kTurnsOn = 0.98;        // share of a stone's turning that cloth leaves it in a tick
 constexpr double kWallOfPouch = 0.0005;  // [m] beyond half its thickness, as its triangles bulge between nodes
 
 /// f(model, state, work) of every bag that has come out of its sleeve, or may.
@@ -95,7 +96,11 @@ void move_stones(StepContext& c, const BagModel& m, const BagState& s, const Bag
   for (size_t i = 0; i < size_t(m.rigids); ++i) {
     const Vec3d moved = w.bodies[i].moved;
     const bool touched = !(moved == Vec3d{});
-    if (touched) states[i].x += moved, states[i].v = speed_after(w.bodies[i], kTick);
+    if (touched) {
+      states[i].x += moved;
+      states[i].v = speed_after(w.bodies[i], kTick);
+      states[i].w *= kTurnsOn;
+    }
     if (touched || s.points[i].where == interactions::BagPoint::inside) states[i].still = 0;
   }
 }

@@ -58,6 +58,13 @@ void stop_at_walls(StepContext& c, size_t t, const kinematics::FulcrumPose& want
   }
 }
 
+bool holds_open_bag(const StepContext& c, size_t t) noexcept {
+  if (!c.model.tool(c.state, t).can().bag) return false;
+  for (const interactions::BagState& bag : interactions::part_of<interactions::Bag>(c.state.objects))
+    if (bag.hand == std::int32_t(t) && bag.hoop > interactions::BagState::kShut) return true;
+  return false;
+}
+
 /// One hand follows its input. While it wants another instrument it lets go of the tissue, draws back and changes.
 void move_hand(StepContext& c, size_t t) noexcept {
   const ToolInput& in = c.input.tools[t];
@@ -68,8 +75,9 @@ void move_hand(StepContext& c, size_t t) noexcept {
   if (known && in.instrument != tool.instrument) {
     // An empty hand opens its jaws; a bag's mouth is shut before it is drawn out.
     command = {tool.pose(), c.model.tool(c.state, t).can().bag ? 1.0 : 0.0};
-    if (tool.holds == 0) command.pose.depth = kParked;
-    if (tool.holds == 0 && tool.depth <= kParked) change_instrument(c, t, in.instrument);
+    const bool free = tool.holds == 0 && !holds_open_bag(c, t);
+    if (free) command.pose.depth = kParked;
+    if (free && tool.depth <= kParked) change_instrument(c, t, in.instrument);
   }
   const kinematics::FulcrumPose wanted = command.pose, before = tool.pose();
   // At a wall the way in is of no use: most of the speed goes along it.

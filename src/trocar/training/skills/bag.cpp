@@ -131,7 +131,7 @@ class TakeOutBag final : public Skill {
   Progress work(Operator& op) override {
     constexpr double kInPort = 0.010;  // [m]
     op.want(op.arm(m_hand).tip);
-    op.arms().move_to_depth(m_hand, kInPort, pace::kTravel);
+    op.arms().move_to_depth(m_hand, kInPort, pace::kCareful);  // what is in it comes along
     return bag_state(op).out != 0 ? Progress::done : Progress::working;
   }
   int m_hand;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/training/observe/fat.hpp>
 #include <trocar/training/observe/hands.hpp>
 #include <trocar/training/skills/parameters.hpp>
@@ -32,9 +33,28 @@ class StripFat final : public Skill {
     return interactions::part_of<Fat>(op.state().objects)[m_fat.index()].fat;
   }
 
-  void start(Operator& op, int) override {
-    m_tried.assign(size_t(body(op).fat.lobules()), 0);
+  /// What the jaws did not get hold of is not tried again for the same goal.
+  void start(Operator& op, int tries) override {
+    const size_t lobules = size_t(body(op).fat.lobules());
+    if (tries == 0 || m_missed.size() != lobules) m_missed.assign(lobules, 0);
+    m_tried = m_missed;
     m_bites = 0;
+    m_lobule = -1;
+  }
+
+  /// Would the instrument strike another hand's on its way there?
+  bool is_barred(const Operator& op, Vec3d place) const {
+    constexpr double kRoom = 0.006;  // [m] for half a shaft and a hand that is not quite steady
+    for (int h = 0; h < int(hands(op.model())); ++h) {
+      if (h == m_hand) continue;
+      const interactions::ToolState& tool = op.tool_state(h);
+      const interactions::ToolShape shape = interactions::shape_of(op.tool(h), tool.pose(), tool.aperture);
+      for (const interactions::Capsule& rod : shape.part) {
+        const auto near = geometry::closest_segments(op.arm(m_hand).port, place, rod.a, rod.b);
+        if (length(near.on_second - near.on_first) < rod.radius + kRoom) return true;
+      }
+    }
+    return false;
   }
 
   /// The outermost of those about one of the strands, near to where the jaws are.
@@ -51,6 +71,7 @@ class StripFat final : public Skill {
       if (length(p - fat.fat.network.rest[size_t(n)]) > kAstray) continue;
       const NearStrand near = nearest_strand(op.model(), op.state(), p);
       if (near.apart > m_about || std::find(m_off.begin(), m_off.end(), near.strand) == m_off.end()) continue;
+      if (is_barred(op, p)) continue;
       const double cost = length(p - arm.port) + kNear * length(p - arm.tip);
       if (best < 0 || cost < least) least = cost, best = n;
     }
@@ -131,7 +152,9 @@ class StripFat final : public Skill {
     if (m_steady < kFeels) return;
     m_way = 0;
     m_from = op.arm(m_hand).tip;
-    go(takes_fat_alone(op) ? kDraw : kOpen);
+    const bool taken = takes_fat_alone(op);
+    if (!taken) m_missed[size_t(m_lobule)] = 1;
+    go(taken ? kDraw : kOpen);
   }
   bool takes_fat_alone(const Operator& op) const {
     const interactions::ToolState& tool = op.tool_state(m_hand);
@@ -157,8 +180,8 @@ class StripFat final : public Skill {
   double m_about, m_far, m_hardest;  ///< [m] [m] [N]
   int m_most, m_bites = 0, m_lobule = -1;
   Vec3d m_at, m_outwards, m_along, m_from;
-  double m_way = 0;                   ///< [m]
-  std::vector<std::uint8_t> m_tried;  ///< (lobules)
+  double m_way = 0;                             ///< [m]
+  std::vector<std::uint8_t> m_tried, m_missed;  ///< (lobules)
 };
 
 std::string lacks_strip(const sim::Model& model, const Given& given) {
