@@ -245,7 +245,7 @@ Model pebble_on_pad() {
   s.pebble = {0.007, 0.006, 0.005};
   s.thick = s.pebble.z;
   s.mass = 0.001;
-  s.place = {0.050, 0.006, 0.012};
+  s.place = {0.050, 0, 0.004};
   settings_of(scene::RigidScene{}, d.objects).push_back(s);
   return scene::compile(d);
 }
