@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -29,6 +28,12 @@ void for_fat(const sim::Model& model, const sim::State& state, F&& f) {
 }
 
 using Sectors = std::uint32_t;  // bits
+
+int how_many(Sectors sectors) {
+  int n = 0;
+  for (; sectors != 0; sectors &= sectors - 1) ++n;
+  return n;
+}
 
 /// A place of a strand, and which way its sectors are counted.
 struct Spot {
@@ -122,7 +127,7 @@ BaredStretch::BaredStretch(const sim::Model& model, int strand) : m_model(&model
     Sectors covered = 0;
     for (const FatBody& fat : interactions::part_of<Fat>(model.objects).list)
       for (const Vec3d p : fat.fat.network.rest) covered |= sector_of(spot, p, kWasIn * fat.fat.spacing);
-    m_lay_in_fat.push_back(std::popcount(covered) >= kInFat);
+    m_lay_in_fat.push_back(how_many(covered) >= kInFat);
   }
 }
 
@@ -138,7 +143,7 @@ double BaredStretch::longest(const sim::State& state) const {
           if (!s.fat.lobules[std::size_t(n)].gone())
             covered |= sector_of(spot, position(fat.fat, s.fat, n), kOnIt * fat.fat.spacing);
       });
-    run = m_lay_in_fat[i] && std::popcount(covered) <= kSectors - kBareSectors ? run + 1 : 0;
+    run = m_lay_in_fat[i] && how_many(covered) <= kSectors - kBareSectors ? run + 1 : 0;
     most = std::max(most, run);
   }
   return std::max(0, most - 1) * kStride;
