@@ -177,7 +177,7 @@ TEST(CriticalView, TheFactsNeverHoldWhileALobuleIsLeftInTheWindowsMiddle) {
   EXPECT_LT(t.open(), 0.9);
 }
 
-// The demonstration up to where its hook begins: the gallbladder is held at its neck and drawn with about 1 N.
+// The demonstration up to where its hook begins: the gallbladder is held at its neck and drawn with about 0.8 N.
 TEST(CriticalView, TractionAloneOpensNothing) {
   const Exercise exercise = read_exercise(TROCAR_SOURCE_DIR "/scenes/cholecystectomy/calot.json");
   Triangle t;
@@ -191,7 +191,7 @@ TEST(CriticalView, TractionAloneOpensNothing) {
     const double* pull = t.state.tools[0].pull;
     pulled = std::max(pulled, length(Vec3d{pull[0], pull[1], pull[2]}));
   }
-  EXPECT_GT(pulled, 0.8) << "it was drawn";
+  EXPECT_GT(pulled, 0.7) << "it was drawn";
   double holds = 0;
   for (int i = 0; i < t.body().fat.septa(); ++i) holds += holding(t.body().fat, t.fat().fat, i) / t.body().fat.septa();
   EXPECT_GT(holds, 0.98);
