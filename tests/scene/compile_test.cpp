@@ -219,6 +219,20 @@ TEST(Compile, MoreToolsThanHandsIsALocatedFault) {
   expect_one_fault_here(d, "at most");
 }
 
+TEST(Compile, AHandThatHoldsAPouchHasToBeNearWhereThatIsHeld) {
+  Description d = read_scene(TROCAR_SOURCE_DIR "/scenes/cholecystectomy_operation/scene.json");
+  ASSERT_EQ(d.placements.size(), 3u);
+  EXPECT_TRUE(faults_of(d).empty());
+  Placement& assistant = d.placements[2];
+  assistant.at = kHere;
+  Description far = d, blunt = d;
+  far.placements[2].tip.y -= 0.05;
+  expect_one_fault_here(far, "held in space");
+  blunt.placements[2].instrument = "hook";
+  for (Port& port : blunt.ports) port.diameter = 0.010;
+  expect_one_fault_here(blunt, "an instrument that grips");
+}
+
 TEST(Compile, FaultsOfAllOrgansAreFoundInOnePass) {
   Description d = small::description();
   d.solids[0].anchors.push_back({{0.5, 0, 0}, 0.005, 0, kHere});

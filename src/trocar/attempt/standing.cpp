@@ -36,8 +36,8 @@ Standing stand(const sim::Model& scene, std::uint64_t ticks, const std::function
   sim::Model model = scene;
   model.motion = {};
   model.vessels.bleeder.vessel = -1;
-  for (std::size_t i = 0; i < model.hands.size(); ++i)  // hands away
-    model.start.tools[i].depth = float(model.placed(i).limits.depth_min);
+  for (std::size_t i = 0; i < model.hands.size(); ++i)  // hands away, but for those that hold something up
+    if (model.start.tools[i].handle == 0) model.start.tools[i].depth = float(model.placed(i).limits.depth_min);
   Standing out;
   out.state = sim::initial_state(model);
   sim::Work work = sim::make_work(model);

@@ -250,6 +250,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
     const Tissue* tissue = find_tissue(d, membrane.tissue);
     if (tissue) compile_membrane(membrane, *tissue, d.gravity, model, faults, report);
   }
+  compile_hands(d, model, faults);
   for (const Pouch& pouch : d.pouches) {
     const Tissue* tissue = find_tissue(d, pouch.tissue);
     if (tissue) compile_pouch(pouch, *tissue, d, model, faults, report);
@@ -262,7 +263,6 @@ sim::Model compile(const Description& d, CompileReport* report) {
   compile_energy(d, model, faults);
   compile_motion(d, model, faults);
   compile_marks(d, model, faults);
-  compile_hands(d, model, faults);
   BagScene::expect_hand(settings_of(BagScene{}, d.objects), model, faults);
   if (!faults.empty()) throw core::BadInput(faults);
   compile_elastostatic(d, model, faults, report);

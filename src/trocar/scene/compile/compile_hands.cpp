@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/scene/compile/compile_hands.hpp>
 
@@ -67,8 +69,16 @@ void compile_hands(const Description& d, sim::Model& model, std::vector<core::Fa
     const Instrument* instrument = named(d.instruments, p.instrument);
     const Port* port = named(d.ports, p.port);
     if (!instrument || !port) continue;  // the reader has told
-    model.start.tools[model.hands.size()] = sim::tool_input(kinematics::inverse(port->position, p.tip, p.roll), 0.0f);
-    model.hands.push_back({port->name, port->position, rack_of(d, *instrument, *port)});
+    const bool holds = !p.holds.empty();
+    if (holds && !instrument->can().grip)
+      faults.push_back({p.at, fmt::format("expected an instrument that grips where one holds '{}', got '{}'", p.holds,
+                                          p.instrument)});
+    model.start.tools[model.hands.size()] =
+        sim::tool_input(kinematics::inverse(port->position, p.tip, p.roll), holds ? 1.0f : 0.0f);
+    sim::HandModel& hand = model.hands.emplace_back();
+    hand.name = port->name;
+    hand.port = port->position;
+    hand.rack = rack_of(d, *instrument, *port);
   }
   const Port* port = named(d.ports, d.scope_placement.port);
   model.scope.port = port ? port->position : Vec3d{};

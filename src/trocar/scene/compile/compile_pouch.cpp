@@ -54,6 +54,33 @@ std::vector<double> areas_of_nodes(const std::vector<Vec3d>& positions,
   return area;
 }
 
+/// What is held in space within reach of a hand that begins with this pouch between its jaws is left to that hand.
+/// @return per node: 1 = so left
+std::vector<std::uint8_t> leave_to_hands(const Pouch& pouch, const Description& scene, sim::Model& model,
+                                         tissue::MembraneDescription& d, std::vector<core::Fault>& faults) {
+  constexpr double kJaws = 0.025;  // [m] of a tip: a jaw's length and some
+  std::vector<std::uint8_t> left(d.positions.size(), 0);
+  for (size_t h = 0; h < model.hands.size(); ++h) {
+    const Placement& placed = scene.placements[h];
+    if (placed.holds != pouch.name) continue;
+    sim::HandModel& hand = model.hands[h];
+    hand.membrane = std::int32_t(model.membranes.size());
+    for (size_t i = 0; i < left.size(); ++i) {
+      if (!d.held[i] || length(d.positions[i] - placed.tip) > kJaws) continue;
+      if (hold_near(pouch.held_on, pouch.held_reach, d.positions[i], model).kind != interactions::BorderHold::space)
+        continue;
+      d.held[i] = 0, left[i] = 1;
+      hand.held.push_back(std::int32_t(i));
+    }
+    if (hand.held.empty() || hand.held.size() > size_t(interactions::kMaxHolds))
+      faults.push_back(
+          {placed.at, fmt::format("expected 1 to {} nodes of '{}' that are held in space within {} mm of the "
+                                  "tip, got {}",
+                                  interactions::kMaxHolds, pouch.name, 1000 * kJaws, hand.held.size())});
+  }
+  return left;
+}
+
 constexpr double kMillilitrePerMinuteAndSquareCentimetre = 1e-6 / 60 / 1e-4;  // [m/s]
 
 /// What it takes to tear the weakest organ of those named [J/m^2]; infinite where none can be torn.
@@ -104,11 +131,12 @@ std::vector<interactions::BondSet> bonds_of(const Pouch& pouch, const tissue::Me
 }
 
 /// The wall as it hangs with its bonds whole, which bear what the wall does to them there.
-tissue::MembraneModel build_wall(const tissue::MembraneDescription& d, std::vector<interactions::BondSet>& sets) {
-  if (sets.empty()) return tissue::build(d, sim::kTick);
-  std::vector<std::uint8_t> tied(d.positions.size(), 0);
+/// @param tied  per node: 1 = in a hand
+tissue::MembraneModel build_wall(const tissue::MembraneDescription& d, std::vector<std::uint8_t> tied,
+                                 std::vector<interactions::BondSet>& sets) {
   for (const interactions::BondSet& set : sets)
     for (const interactions::Bond& bond : set.bonds) tied[size_t(bond.node)] = 1;
+  if (std::count(tied.begin(), tied.end(), 1) == 0) return tissue::build(d, sim::kTick);
   tissue::TiedMembrane wall = tissue::build_tied(d, tied, sim::kTick);
   std::vector<Vec3d> pull(d.positions.size());
   for (size_t i = 0, k = 0; i < tied.size(); ++i)
@@ -142,6 +170,7 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, const Description& 
   d.global_damping = kFoldDrag;
   d.gravity = scene.gravity;
   d.enclosure = enclosure_of(pouch.contents);
+  const std::vector<std::uint8_t> in_hands = leave_to_hands(pouch, scene, model, d, faults);
   std::vector<interactions::BondSet> bonds = bonds_of(pouch, d, scene, model, faults);
   sim::MembraneBody out;
   out.name = pouch.name;
@@ -149,7 +178,7 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, const Description& 
   out.tissue = pouch.tissue;
   out.cuttable = pouch.cuttable;
   out.failure_strain = tissue.failure_strain;
-  out.sheet = build_wall(d, bonds);
+  out.sheet = build_wall(d, in_hands, bonds);
   for (int node : out.sheet.held_nodes)
     out.holds.push_back(hold_near(pouch.held_on, pouch.held_reach, d.positions[size_t(node)], model));
   note_drawn_pulls(out);

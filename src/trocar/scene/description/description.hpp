@@ -384,6 +384,7 @@ struct Placement {
   Vec3d tip;  ///< tip position at the start [m]
   double roll = 0;
   core::Location at;
+  std::string holds{};  ///< a pouch that its jaws hold at the start; empty: nothing
 };
 
 struct Description {

@@ -37,6 +37,8 @@ const char* noun(Reference::To to) {
       return "body, wall, instrument, port, cavity, endoscope, arteries or veins";
     case Reference::To::marked:
       return "solid, wall, strand or pouch";
+    case Reference::To::pouch:
+      return "pouch";
   }
   return "";
 }
@@ -120,6 +122,7 @@ std::vector<std::string> Reading::names(Reference::To to) const {
     add_names(description.solids, all), add_names(description.walls, all), add_names(description.strands, all);
     add_names(description.pouches, all);
   }
+  if (to == To::pouch) add_names(description.pouches, all);
   if (to == To::vessel)
     for (const VesselTree& tree : description.vessels) add_names(tree.vessels, all);
   if (to == To::drawn) {

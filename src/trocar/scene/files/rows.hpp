@@ -71,7 +71,7 @@ using Choices = std::vector<std::pair<const char*, E>>;
 
 /// A name that must belong to something by the time all files are read.
 struct Reference {
-  enum class To { tissue, solid, strand, solid_or_strand, carrier, vessel, port, instrument, drawn, look, marked };
+  enum class To { tissue, solid, strand, solid_or_strand, carrier, vessel, port, instrument, drawn, look, marked, pouch };
   To to;
   std::string name;
   core::Location at;

@@ -76,6 +76,9 @@ const Table<Placement>& tool() {
         std::vector<Row<Placement>> rows = placement_rows<Placement>([](auto& p) -> auto& { return p; });
         rows.insert(rows.begin(), needed(R::ref("instrument", Reference::To::instrument, &Placement::instrument,
                                                 "which instrument")));
+        rows.push_back(R::ref("holds", Reference::To::pouch, &Placement::holds,
+                              "a pouch: its jaws begin closed on that end of it which is held in space near its tip, "
+                              "and which nothing else holds then; default nothing"));
         return rows;
       }()};
   return table;

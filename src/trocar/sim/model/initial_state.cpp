@@ -19,6 +19,20 @@ void make_counters(const Model& model, State& s) {
         counters(model.strands[i].failure_strain, size_t(model.strand_bodies[i].nodes())));
 }
 
+/// What a hand holds from the start lies between its jaws as drawn; they close on it in the first tick.
+void take_hold(const Model& model, const HandModel& hand, interactions::ToolState& tool) {
+  if (hand.membrane < 0) return;
+  const interactions::ToolShape shape = interactions::shape_of(hand.rack.front(), tool.pose(), tool.aperture);
+  const tissue::NetworkModel& sheet = model.membranes[size_t(hand.membrane)].sheet.network;
+  for (const std::int32_t node : hand.held) {
+    interactions::Hold& hold = tool.hold[tool.holds++];
+    hold.body = BodyId::membrane(size_t(hand.membrane));
+    hold.element = node;
+    const Vec3d local = interactions::to_jaw(shape, sheet.rest[size_t(node)]);
+    hold.local[0] = float(local.x), hold.local[1] = float(local.y), hold.local[2] = float(local.z);
+  }
+}
+
 }  // namespace
 
 State drawn_bodies(const Model& model) {
@@ -51,6 +65,7 @@ State initial_state(const Model& model) {
     tool.handle = in.handle;
     tool.aperture = 1.0 - double(in.handle);
     tool.clips_left = model.placed(t).clips;
+    take_hold(model, model.hands[t], tool);
     for (size_t i = 0; i < model.hands[t].rack.size(); ++i)
       s.magazine[t * size_t(kMaxRack) + i] = model.hands[t].rack[i].clips;
   }

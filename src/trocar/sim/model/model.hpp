@@ -277,12 +277,15 @@ struct HandModel {
   std::string name;                           ///< of the trocar: "left_lateral"
   Vec3d port;                                 ///< its fulcrum [m]
   std::vector<interactions::ToolModel> rack;  ///< 1..kMaxRack; the first is in the hand at the start
+  std::int32_t membrane = -1;                 ///< that its jaws hold at the start; -1: they hold nothing
+  std::vector<std::int32_t> held;             ///< nodes of it between them then, 1..interactions::kMaxHolds
 
   int find(const std::string& instrument) const;  ///< number in the rack, -1 if it is not there
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("rack", s.rack, core::FieldNote{.sized = true}), v("name", s.name, core::kNotHashed),
+    v("rack", s.rack, core::FieldNote{.sized = true}), v("membrane", s.membrane, core::only_if(s.membrane >= 0)),
+        v("held", s.held, core::only_if(s.membrane >= 0)), v("name", s.name, core::kNotHashed),
         v("port", s.port, core::kNotHashed);
   }
 };
