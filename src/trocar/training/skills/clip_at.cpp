@@ -46,14 +46,14 @@ class ClipAt final : public Skill {
     };
     static constexpr Row kRows[] = {{15, kLeave, "it did not get there"},
                                     {8, kLeave, "the legs did not go around it"},
-                                    {8, kLeave, "the legs did not enclose it in view"},
+                                    {8, kLeave, nullptr},  // what was amiss last
                                     {8, kOpen, "the clip did not close"},
                                     {4, kLeave, nullptr},
                                     {6, kLeave, nullptr}};
     const Row& row = kRows[m_phase];
     if (m_in_phase > row.patience) {
       if (m_phase == kLeave) return leave_taken(op);
-      if (row.why) m_lost = row.why;
+      m_lost = row.why ? row.why : m_phase == kInspect ? m_bad : m_lost;
       go(row.otherwise);
     }
     op.across(m_hand);
@@ -111,15 +111,26 @@ class ClipAt final : public Skill {
     const bool hidden = m_in_phase > 2 && !op.sees_jaws(m_hand);
     const double wanted = kHalfClosed + (hidden ? std::min(0.24, 0.06 * (m_in_phase - 2)) : 0);
     if (!op.arms().grip(m_hand, std::max(wanted, op.arm(m_hand).handle), 1.6)) return Progress::working;
-    m_steady = fits(op) ? m_steady + sim::kTick : 0;
+    m_bad = misfit(op);
+    m_steady = m_bad ? 0 : m_steady + sim::kTick;
     if (m_steady >= 0.15) go(kClose);
     return Progress::working;
   }
 
   Progress close(Operator& op) {
+    constexpr double kTooLate = 0.9;  // of the handle: the clip is being pressed flat
     look(op);
     op.from(m_seen_from);
     aim(op, 0, pace::kTrack);
+    if (op.arm(m_hand).handle < kTooLate) {
+      m_bad = misfit(op);
+      m_steady = m_bad ? m_steady + sim::kTick : 0;
+      if (m_steady > 0.1) {
+        m_lost = m_bad;
+        go(kOpen);
+        return Progress::working;
+      }
+    }
     if (op.arms().grip(m_hand, 1, m_closing) && op.state().clip_count != m_clips_before) go(kOpen);
     return Progress::working;
   }
@@ -197,8 +208,8 @@ class ClipAt final : public Skill {
     return m_seen == "one" ? op.sees_tip(m_hand) : op.sees_jaws(m_hand);
   }
 
-  /// The whole strand between the legs, across, in view.
-  bool fits(Operator& op) const {
+  /// Null where the whole strand lies between the legs, across, in view; else what is amiss.
+  const char* misfit(Operator& op) const {
     constexpr double kSurer = 0.035, kMore = 0.01;  // [rad] and share that are kept from the limits
     const interactions::ToolModel& t = op.tool(m_hand);
     const interactions::ToolState& now = op.tool_state(m_hand);
@@ -210,7 +221,9 @@ class ClipAt final : public Skill {
     const bool enclosed = m_cover <= 0 || (cover >= m_cover + kMore && std::fabs(local.x) < shape.half_gap);
     const double askew = portable::acos(std::min(1.0, square));
     const bool across = askew < m_angle_high - kSurer && (m_angle_low <= 0 || askew > m_angle_low + kSurer);
-    return enclosed && across && sees_enough(op);
+    if (!enclosed) return "not all of it lay between the legs";
+    if (!across) return "it did not lie straight across the legs";
+    return sees_enough(op) ? nullptr : "the legs' tips were not in view as they should be";
   }
 
   int m_hand, m_strand;
@@ -223,7 +236,8 @@ class ClipAt final : public Skill {
   double m_unseen = 0;     ///< for how long the legs' tips have not been seen [s]
   double m_seen_from = 0.06;
   int m_clips_before = 0;
-  const char* m_lost = nullptr;
+  const char* m_lost = nullptr;  ///< why it drew back
+  const char* m_bad = nullptr;   ///< what is amiss with how the strand lies
 };
 
 std::string clip_at_lacks(const sim::Model& model, const Given& given) {
