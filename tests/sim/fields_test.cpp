@@ -292,6 +292,7 @@ Lively lively_small(std::uint64_t ticks) {
 const Model& digestive_model() { return shipped("digestive"); }
 const Model& gallbladder_model() { return shipped("gallbladder"); }
 const Model& calot_model() { return shipped("calot"); }
+const Model& operation_model() { return shipped("cholecystectomy_operation"); }
 
 /// A bag that is open, a stone in it and another one on the liver, cloth on the liver, too.
 const Model& spill_model() { return shipped("cholecystectomy_spill"); }
@@ -424,7 +425,7 @@ TEST(Fields, EveryFieldOfAModelThatIsListedCountsInItsSeal) {
   Changes::Fields changed, listed;
   for (const bool grows : {false, true})
     for (const Model* m : {&everything_model(), &small::model(), &digestive_model(), &gallbladder_model(),
-                           &pegs_model(), &small::statics(), &calot_model(), &spill_model()}) {
+                           &pegs_model(), &small::statics(), &calot_model(), &spill_model(), &operation_model()}) {
       Model model = *m;
       model.vessels.bleeder.vessel = 0;  // what no scene has is hashed as well where it is there
       model.wet.pool_at_start.saline = 1;
