@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 
 #include <trocar/interactions/verbs/clip.hpp>
 #include <trocar/numerics/portable.hpp>
@@ -46,7 +47,7 @@ class ClipAt final : public Skill {
     };
     static constexpr Row kRows[] = {{15, kLeave, "it did not get there"},
                                     {8, kLeave, "the legs did not go around it"},
-                                    {8, kLeave, nullptr},  // what was amiss last
+                                    {13, kLeave, nullptr},  // what was amiss last
                                     {8, kOpen, "the clip did not close"},
                                     {4, kLeave, nullptr},
                                     {6, kLeave, nullptr}};
@@ -196,9 +197,13 @@ class ClipAt final : public Skill {
       const Vec3d begin = op.point(m_strand, 0);
       return op.want({-3 * begin.x, begin.y, begin.z});
     }
-    // From the midline, if the legs' tips stay hidden: then they are seen past the strand, beside the picture's middle.
-    constexpr double kPatience = 3, kAside = 0.03;  // [s] [m]
+    // If the legs' tips stay hidden: from the midline, where they are seen past the strand beside the picture's middle;
+    // then past what hangs before it, from above and from the patient's left.
+    constexpr double kPatience = 3, kAside = 0.03, kLonger = 5, kEach = 3;  // [s] [m] [s] [s]
+    constexpr Vec3d kFrom[] = {{0.16, -0.56, 0.81}, {0.55, -0.45, 0.70}};   // unit vectors
     const Vec3d there = at(op);
+    if (m_unseen > kLonger)
+      return op.camera().view(there, kFrom[size_t((m_unseen - kLonger) / kEach) % std::size(kFrom)], m_seen_from);
     op.want(m_unseen > kPatience ? there - Vec3d{there.x > 0 ? kAside : -kAside, 0, 0} : there);
   }
 
