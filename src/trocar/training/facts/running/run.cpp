@@ -1,4 +1,5 @@
-// Running a gut hand over hand: how far it has gone without a gap, how often the place was lost, and how often jaws took it.
+// Running a gut hand over hand: how far it has gone without a gap, how often the place was lost, and how often jaws
+// took it.
 #include <algorithm>
 #include <array>
 
@@ -112,17 +113,18 @@ std::string refuses_held(const sim::Model& model, const Arguments& a) { return n
 
 }  // namespace
 
-const Fact kRunReached{"run.reached_mm",
-                       run_parameters(),
-                       0,
-                       100'000,
-                       "How far a gut has been run, hand over hand, from its beginning: from a hold within 25 mm of the "
-                       "first station on, each next hold taken while the last one still holds. Where both hands were "
-                       "off, it goes on from a hold within 35 mm of where it had come to.",
-                       anywhere,
-                       &remembering<Reached>,
-                       false,
-                       &refuses_run};
+const Fact kRunReached{
+    "run.reached_mm",
+    run_parameters(),
+    0,
+    100'000,
+    "How far a gut has been run, hand over hand, from its beginning: from a hold within 25 mm of the "
+    "first station on, each next hold taken while the last one still holds. Where both hands were "
+    "off, it goes on from a hold within 35 mm of where it had come to.",
+    anywhere,
+    &remembering<Reached>,
+    false,
+    &refuses_run};
 const Fact kRunLost{"run.lost",
                     run_parameters(),
                     0,
@@ -132,15 +134,9 @@ const Fact kRunLost{"run.lost",
                     &remembering<Lost>,
                     false,
                     &refuses_run};
-const Fact kRunGrasps{"run.grasps",
-                      run_parameters(),
-                      0,
-                      1e6,
-                      "How often jaws have taken the gut, all hands together.",
-                      anywhere,
-                      &remembering<Grasps>,
-                      false,
-                      &refuses_run};
+const Fact kRunGrasps{
+    "run.grasps", run_parameters(),     0,     1e6,         "How often jaws have taken the gut, all hands together.",
+    anywhere,     &remembering<Grasps>, false, &refuses_run};
 const Fact kHandHeldAlong{"hand.held_along_mm",
                           {{"hand", ArgumentKind::hand, "whose jaws"},
                            {"stations", ArgumentKind::marks, "discs on the gut's wall, in their order along it"},

@@ -19,9 +19,7 @@ class SeenShare final : public Observer {
       m_seen += m_looked[i] >= m_time;
     }
   }
-  Value value(const Moment&) const override {
-    return m_marks.empty() ? 0.0 : double(m_seen) / double(m_marks.size());
-  }
+  Value value(const Moment&) const override { return m_marks.empty() ? 0.0 : double(m_seen) / double(m_marks.size()); }
 
  private:
   std::vector<std::int32_t> m_marks;

@@ -77,6 +77,8 @@ class RunAlong final : public Skill {
   Progress work(Operator& op) override {
     note_looks(op);
     const int hand = m_hands[size_t(m_taker)], holder = m_hands[size_t(1 - m_taker)];
+    if (m_phase != kLetGo) give_way(op, holder);
+    if (m_phase == kShow || m_phase == kLetGo) give_way(op, hand);
     switch (m_phase) {
       case kReach:
         return reach(op, hand);
@@ -93,6 +95,30 @@ class RunAlong final : public Skill {
     }
   }
 
+  static constexpr double kTooHard = 1.25;  // of what it may pull
+
+  /// A hand that pulls too hard follows what it holds.
+  void give_way(Operator& op, int hand) const {
+    constexpr double kAhead = 0.01;  // [m]
+    const interactions::ToolState& tool = op.tool_state(hand);
+    if (tool.holds == 0 || norm(tool.pull) < kTooHard * m_most) return;
+    const Vec3d drawn = normalised(Vec3d{tool.pull[0], tool.pull[1], tool.pull[2]});
+    op.arms().move(hand, op.arm(hand).tip + kAhead * drawn, pace::kCareful);
+  }
+  /// Slower beside the other instrument: they shall not strike each other.
+  double pace_beside(const Operator& op, int hand) const {
+    constexpr double kBeside = 0.030, kGently = 0.012;  // [m] [m/s]
+    const Arms::Arm& other = op.arm(m_hands[0] == hand ? m_hands[1] : m_hands[0]);
+    const Vec3d tip = op.arm(hand).tip, shaft = other.tip - other.port;
+    const double along = std::clamp(dot(tip - other.port, shaft) / dot(shaft, shaft), 0.0, 1.0);
+    return length(tip - other.port - along * shaft) < kBeside ? kGently : pace::kTravel;
+  }
+  /// An instrument in the body is looked for before it moves.
+  bool blind(const Operator& op, int hand) const {
+    constexpr double kUnseen = 3;  // [s] to wait for the camera
+    return op.tool_state(hand).depth > reach::kIdle && !op.sees_tip(hand) && m_in_phase < kUnseen;
+  }
+
   /// Where the jaws come down on the gut: on the side of it that faces the trocar, and away from its mesentery.
   Vec3d entrance(const Operator& op, int hand, const Place& p) const {
     const Vec3d back = normalised(op.arm(hand).port - p.middle);
@@ -105,15 +131,20 @@ class RunAlong final : public Skill {
   }
 
   Progress reach(Operator& op, int hand) {
-    constexpr double kLongest = 8;
+    constexpr double kLongest = 12;
     const Place p = wanted(op);
     const Vec3d at = entrance(op, hand, p), in = normalised(p.middle - op.arm(hand).port);
     op.want(op.arm(hand).tip);
-    op.want(at);
     op.from(0.06);
+    if (blind(op, hand)) return Progress::working;
+    if (op.tool_state(hand).holds > 0) {  // of another loop
+      op.arms().grip(hand, 0, 0.8);
+      return Progress::working;
+    }
+    op.want(at);
     const bool open = op.arms().grip(hand, 0, 0.8);
     const bool turned = op.arms().turn_across(hand, p.along);
-    const bool there = op.arms().move(hand, at - reach::kBefore * in, pace::kTravel);
+    const bool there = op.arms().move(hand, at - reach::kBefore * in, pace_beside(op, hand));
     if ((open && turned && there) || m_in_phase > kLongest) go(kEnter);
     return Progress::working;
   }
@@ -136,7 +167,9 @@ class RunAlong final : public Skill {
     op.want(op.arm(hand).tip);
     op.from(0.06);
     if (!op.arms().grip(hand, 0.95, 0.6) || m_in_phase < kFeels) return Progress::working;
-    if (m_stations.held_at(op.state(), size_t(hand)) >= 0) {
+    const double held = m_stations.held_at(op.state(), size_t(hand));
+    constexpr double kBeside = 0.030;  // [m] farther from where it was wanted it is another loop
+    if (held > m_next - kBeside && held < m_next + kBeside) {
       m_from = op.arm(hand).tip;
       m_way = 0;
       go(kLift);
@@ -151,7 +184,9 @@ class RunAlong final : public Skill {
     op.want(op.arm(hand).tip);
     op.from(0.06);
     if (op.tool_state(hand).holds == 0) return again();
-    if (norm(op.tool_state(hand).pull) < m_most) m_way = std::min(m_way + kSpeed * sim::kTick, m_lift);
+    const double pull = norm(op.tool_state(hand).pull);
+    if (pull < m_most) m_way = std::min(m_way + kSpeed * sim::kTick, m_lift);
+    if (pull > kTooHard * m_most) m_way = std::max(m_way - kSpeed * sim::kTick, 0.0);
     const bool there = op.arms().move(hand, m_from + m_way * Vec3d{0, 0, 1}, pace::kTravel);
     if ((there && m_way >= m_lift) || m_in_phase > kLongest) {
       m_shown = -1;
@@ -211,13 +246,14 @@ class RunAlong final : public Skill {
     return Progress::working;
   }
   Progress let_go(Operator& op, int holder) {
-    constexpr double kAway = 0.025, kLongest = 2;
-    const Vec3d out = normalised(op.arm(holder).port - op.arm(holder).tip);
-    if (m_in_phase < 2 * sim::kTick) m_from = op.arm(holder).tip;
-    const bool open = op.arms().grip(holder, 0, 0.4);
-    const bool off = open && op.arms().move(holder, m_from + kAway * out, pace::kTravel);
+    constexpr double kAway = 0.025, kLongest = 6;
     op.want(op.arm(holder).tip);
     op.from(0.06);
+    if (op.tool_state(holder).holds > 0 && blind(op, holder)) return Progress::working;
+    const Vec3d out = normalised(op.arm(holder).port - op.arm(holder).tip);
+    if (op.tool_state(holder).holds > 0) m_from = op.arm(holder).tip;
+    const bool open = op.arms().grip(holder, 0, 0.4);
+    const bool off = open && op.arms().move(holder, m_from + kAway * out, pace_beside(op, holder));
     if (off || m_in_phase > kLongest) swap();
     return Progress::working;
   }
@@ -267,7 +303,8 @@ const SkillKind kRunAlong{
      number_parameter("look_s", "each face of each station is looked at for so long; 0.3", 0, 10),
      number_parameter("deep_mm", "how far the open jaws go on beyond the wall; 8", 0, 30)},
     900,
-    "Runs a gut hand over hand: one hand holds while the other takes the next place and lifts it; then the camera looks "
+    "Runs a gut hand over hand: one hand holds while the other takes the next place and lifts it; then the camera "
+    "looks "
     "at both faces of what lies between, and the first lets go. Taken up again where it was left.",
     lacks_run,
     &making<RunAlong>};
