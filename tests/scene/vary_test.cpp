@@ -245,9 +245,9 @@ TEST(Vary, AStrictureIsNarrowWhereItIsFoundAndFadesOut) {
     narrowest = std::min(narrowest, share);
     changed += share < 1;
   }
-  EXPECT_NEAR(narrowest, 0.7, 0.03);
+  EXPECT_NEAR(narrowest, 0.7, 1e-9);
   EXPECT_GE(changed, 3u);
-  EXPECT_LE(changed, 7u);
+  EXPECT_LE(changed, 5u);  // none of the loops beside it
 }
 
 TEST(Vary, EveryShippedSceneThatVariesCompilesAsAnotherOne) {

@@ -35,8 +35,11 @@ std::vector<std::int32_t> stations(char face) {
   }
   return out;
 }
-int vertex_of(int station) {
-  return bowel().marks[size_t(bowel().targets[size_t(stations('a')[size_t(station)])].index)].vertex[0];
+/// Of the skin, the one nearest to the station.
+int vertex_of(std::int32_t target) {
+  const sim::MarkModel& mark = bowel().marks[size_t(bowel().targets[size_t(target)].index)];
+  const double weights[] = {mark.weight.x, mark.weight.y, mark.weight.z};
+  return mark.vertex[size_t(std::max_element(weights, weights + 3) - weights)];
 }
 
 Argument number(double v) { return {true, -1, v, v, {}, {}}; }
@@ -47,7 +50,7 @@ void hold(sim::State& state, int hand, int station) {
   tool.holds = station < 0 ? 0 : 1;
   if (station < 0) return;
   tool.hold[0].body = BodyId::organ(size_t(gut()));
-  tool.hold[0].element = vertex_of(station);
+  tool.hold[0].element = vertex_of(stations('a')[size_t(station)]);
 }
 
 TEST(Stations, TellHowFarAlongAHoldIsThoughLoopsLieAgainstEachOther) {
@@ -62,8 +65,7 @@ TEST(Stations, TellHowFarAlongAHoldIsThoughLoopsLieAgainstEachOther) {
   // wall
   const std::vector<std::int32_t> far = stations('b');
   for (int k = 2; k + 2 < kStations; ++k) {
-    state.tools[kLeftHand].hold[0].element =
-        bowel().marks[size_t(bowel().targets[size_t(far[size_t(k)])].index)].vertex[0];
+    state.tools[kLeftHand].hold[0].element = vertex_of(far[size_t(k)]);
     EXPECT_NEAR(along.held_at(state, kLeftHand), (k + 1) * kSpacing, 1.01 * kSpacing) << k;
   }
 }

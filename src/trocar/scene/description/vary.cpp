@@ -220,18 +220,26 @@ void bend(Description& d, const Warp& warp) {
   ObjectScenes::for_each([&](auto kind) { kind.bend(settings_of(kind, d.objects), warp); });
 }
 
-/// The lumen about the finding's mark, narrowest in its middle.
+/// The lumen about the finding's mark, narrowest in its middle. Along the organ, not through space: loops lie side by
+/// side.
 void narrow(Description& d, const VariationSetting::Finding& finding) {
-  const auto mark =
-      std::find_if(d.marks.begin(), d.marks.end(), [&](const MarkSetting& m) { return m.name == finding.mark; });
+  const auto is_it = [&](const MarkSetting& m) { return m.name == finding.mark; };
+  const auto mark = std::find_if(d.marks.begin(), d.marks.end(), is_it);
   if (mark == d.marks.end()) return;
   for (Solid& solid : d.solids) {
-    if (solid.name != finding.solid) continue;
-    for (Section& s : solid.sections) {
-      const double girth = std::max(length(s.across), length(s.deep));
-      const double away = std::max(0.0, length(s.centre - mark->place) - girth) / finding.over;
-      const double share = away < 1 ? 1 - finding.narrower * (1 - away * away) * (1 - away * away) : 1;
-      s.across = share * s.across, s.deep = share * s.deep;
+    if (solid.name != finding.solid || solid.sections.empty()) continue;
+    std::vector<double> way{0};
+    std::size_t middle = 0;
+    for (std::size_t i = 0; i < solid.sections.size(); ++i) {
+      const Vec3d here = solid.sections[i].centre;
+      if (i > 0) way.push_back(way.back() + length(here - solid.sections[i - 1].centre));
+      if (length(here - mark->place) < length(solid.sections[middle].centre - mark->place)) middle = i;
+    }
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      const double away = std::fabs(way[i] - way[middle]) / finding.over, left = std::max(0.0, 1 - away * away);
+      Section& s = solid.sections[i];
+      s.across = (1 - finding.narrower * left * left) * s.across;
+      s.deep = (1 - finding.narrower * left * left) * s.deep;
     }
   }
 }

@@ -21,7 +21,8 @@ std::vector<std::int16_t> nearest_source(const tissue::Skin& skin, std::span<con
   using Reached = std::tuple<float, std::int32_t, std::int16_t>;  // way [m], vertex, source
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> front;
   for (size_t i = 0; i < sources.size(); ++i)
-    for (const std::int32_t v : sources[i]->vertex) front.push({0.0f, v, std::int16_t(i)});
+    for (const std::int32_t v : sources[i]->vertex)
+      front.push({length(skin.rest[size_t(v)] - vec_cast<float>(sources[i]->place)), v, std::int16_t(i)});
   std::vector<std::int16_t> nearest(size_t(skin.size()), std::int16_t(-1));
   while (!front.empty()) {
     const auto [way, vertex, source] = front.top();
