@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include <trocar/view/base/finding_drawing.hpp>
 #include <trocar/view/base/listing.hpp>
-#include <trocar/view/bodies/finding_drawing.hpp>
 #include <trocar/view/bodies/tube_drawing.hpp>
 
 namespace trocar::view {

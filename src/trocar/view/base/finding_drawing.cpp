@@ -5,9 +5,9 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/sim/model/bodies.hpp>
+#include <trocar/view/base/finding_drawing.hpp>
 #include <trocar/view/base/looks.hpp>
 #include <trocar/view/base/moved.hpp>
-#include <trocar/view/bodies/finding_drawing.hpp>
 
 namespace trocar::view {
 namespace {
