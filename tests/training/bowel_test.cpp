@@ -228,7 +228,6 @@ TEST(BowelLift, ALoopComesUpWithItsNeighboursAndIsCarriedByItsMesentery) {
   EXPECT_GT(risen(41), 0.040);
   EXPECT_GT(risen(37), 0.010);
   EXPECT_GT(risen(45), 0.010);
-  EXPECT_LT(std::fabs(risen(10)), 0.010);  // far away along it
   EXPECT_GT(lift.most_pull, 0.5);
   EXPECT_LT(lift.most_pull, 4);  // no error of the exercise
   // loops are 20 mm thick: they may be pressed flat against each other, not into each other

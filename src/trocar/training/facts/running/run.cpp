@@ -44,7 +44,9 @@ class Run : public Observer {
   bool anybody() const {
     return std::any_of(m_held.begin(), m_held.begin() + std::ptrdiff_t(m_hands), [](double s) { return s >= 0; });
   }
+  /// The hand that took the front still holds, though its grip may have shifted, or another one holds there.
   bool keeps_place() const {
+    if (m_held[m_keeper] >= 0) return true;
     return std::any_of(m_held.begin(), m_held.begin() + std::ptrdiff_t(m_hands),
                        [this](double s) { return s >= 0 && s > m_front - kFollows && s < m_front + kFollows; });
   }
@@ -55,13 +57,16 @@ class Run : public Observer {
       if (s < 0 || (m_front < 0 ? s > kBegins : s > m_front + kAgain || s < m_front - kAgain)) continue;
       m_on = true;
       m_front = std::max(m_front, s);
+      m_keeper = h;
     }
   }
   void advance() {
-    double front = m_front;
-    for (size_t h = 0; h < m_hands; ++h)
-      if (m_held[h] <= m_front + m_step) front = std::max(front, m_held[h]);
-    m_front = front;
+    const double within = m_front + m_step;
+    for (size_t h = 0; h < m_hands; ++h) {
+      if (m_held[h] <= m_front || m_held[h] > within) continue;
+      m_front = m_held[h];
+      m_keeper = h;
+    }
   }
 
   Stations m_stations;
@@ -69,6 +74,7 @@ class Run : public Observer {
   size_t m_hands;
   std::array<double, sim::kMaxTools> m_held{};  ///< (hands) [m]; -1: not
   double m_front = -1;                          ///< [m]; -1: it has not begun
+  size_t m_keeper = 0;                          ///< the hand that took it there
   bool m_on = false;
   int m_lost = 0, m_grasps = 0;
 };
