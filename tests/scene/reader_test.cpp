@@ -650,6 +650,9 @@ TEST(Reader, AVariationNamesBodiesThatAreThereAndFiguresThatFit) {
                     "expected either \"around\" or \"centre_mm\", got both"}));
   EXPECT_EQ(faults(R"({"regions": [{"around": "cord", "near_mm": 30, "far_mm": @20, "axis": @[0, 0, 0]}]})"),
             (Faults{"expected more than near_mm = 30, got 20", "expected a direction, got none"}));
+  EXPECT_EQ(faults(R"({"findings": [@{"mark": "nub"}], "present": 1})"),
+            one("expected a finding's mark to be one of the scene's, got \"nub\""));
+  EXPECT_EQ(faults(R"({"present": @1})"), one("expected at most as many as there are findings, 0, got 1"));
   EXPECT_EQ(faults(R"(@{"bleeder": true})"), one("expected a bleeder whose hole can vary, got none in this scene"));
 }
 

@@ -2,6 +2,7 @@
 // allowed, at rest as drawn.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -203,8 +204,54 @@ TEST(Vary, APlaceOfBleedingIsChosenOnlyWhereThatIsDeclared) {
   for (const int times : chosen) EXPECT_GT(times, 0);
 }
 
+TEST(Vary, OfFindingsTheSeedLeavesAsManyAsAreDeclaredAndNothingElseChanges) {
+  const Description drawn_bowel = read_scene(TROCAR_SOURCE_DIR "/scenes/bowel/scene.json");
+  const std::size_t all = drawn_bowel.variation->findings.size();
+  std::map<std::string, int> found;
+  const auto lesions = [&](const Description& d) {
+    std::vector<std::string> names;
+    for (const MarkSetting& m : d.marks)
+      if (m.name.rfind("lesion_", 0) == 0) names.push_back(m.name);
+    return names;
+  };
+  ASSERT_EQ(lesions(drawn_bowel).size(), all);
+  for (std::uint64_t seed = 0; seed <= 40; ++seed) {
+    Description d = drawn_bowel, without = drawn_bowel;
+    vary(d, seed);
+    for (const std::string& name : lesions(d)) ++found[name];
+    EXPECT_EQ(lesions(d).size(), 2u) << seed;
+    if (seed == 0) {
+      EXPECT_EQ(lesions(d), (std::vector<std::string>{"lesion_nub", "lesion_stricture"}));
+    }
+    without.variation->findings.clear();
+    vary(without, seed);
+    EXPECT_EQ(named(d.solids, "jejunum").sections[3].centre, named(without.solids, "jejunum").sections[3].centre);
+  }
+  EXPECT_EQ(found.size(), all);
+}
+
+TEST(Vary, AStrictureIsNarrowWhereItIsFoundAndFadesOut) {
+  const Description drawn_bowel = read_scene(TROCAR_SOURCE_DIR "/scenes/bowel/scene.json");
+  Description d = drawn_bowel;
+  vary(d, 0);
+  const std::vector<Section>&now = named(d.solids, "jejunum").sections,
+        &before = named(drawn_bowel.solids, "jejunum").sections;
+  double narrowest = 1;
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const double share = length(now[i].across) / length(before[i].across);
+    EXPECT_NEAR(length(now[i].deep) / length(before[i].deep), share, 1e-12);
+    EXPECT_EQ(now[i].centre, before[i].centre);
+    narrowest = std::min(narrowest, share);
+    changed += share < 1;
+  }
+  EXPECT_NEAR(narrowest, 0.7, 1e-9);
+  EXPECT_GE(changed, 3u);
+  EXPECT_LE(changed, 5u);  // none of the loops beside it
+}
+
 TEST(Vary, EveryShippedSceneThatVariesCompilesAsAnotherOne) {
-  for (const char* name : {"cutting", "gallbladder", "digestive", "cholecystectomy"}) {
+  for (const char* name : {"cutting", "gallbladder", "digestive", "cholecystectomy", "bowel"}) {
     Description d = read_scene(std::string(TROCAR_SOURCE_DIR "/scenes/") + name + "/scene.json");
     const std::uint64_t as_drawn = compile(d).hash;
     vary(d, 2);

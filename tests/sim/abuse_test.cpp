@@ -110,6 +110,22 @@ TEST(Abuse, AFilledGallbladderBearsItAndKeepsItsContents) {
   for (const abuse::Left& left : r.left) EXPECT_LT(left.share, 0.01) << left.name << " " << left.distance << " m";
 }
 
+/// Loops lie loosely: they need not come back to where they lay to the tenth of a millimetre, but as loops, and whole.
+TEST(Abuse, SmallBowelBearsRoughHandsAndSettlesNearItsPlace) {
+  const sim::Model model = abuse::untearable(shipped("bowel"));
+  abuse::Attack attack(model, 11);
+  const abuse::Round r = attack.round(abuse::number_of(model, "jejunum"), 4, 4000);
+  EXPECT_EQ(r.organ, "jejunum");
+  std::printf("%d grasps, at most %.3f J and %.1f N, %.2f %% (%.2f mm) off after the rest\n", r.grasps, r.most_energy,
+              r.most_force, 100 * r.worst().share, 1000 * r.worst().distance);
+  EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
+  EXPECT_GT(r.grasps, 0);
+  EXPECT_GT(r.most_energy, 1e-3) << "[J] something was done to it";
+  EXPECT_LT(r.most_energy, 5) << "[J]";
+  EXPECT_TRUE(r.let_go);
+  for (const abuse::Left& left : r.left) EXPECT_LT(left.distance, 0.010) << left.name;
+}
+
 /// Shreds beside a shaft that goes through an organ once flew off three times as fast tick by tick.
 TEST(Abuse, AnInstrumentDrivenThroughALiverLeavesNumbersFinite) {
   const sim::Model& model = shipped("gallbladder");

@@ -77,6 +77,8 @@ void compile_marks(const Description& d, sim::Model& model, std::vector<core::Fa
     mark.name = setting.name;
     mark.label = setting.label;
     mark.colour = setting.colour;
+    mark.look = setting.look;
+    mark.high = setting.high;
     mark.place = setting.place;
     mark.normal = normalised(setting.normal, mark.normal);
     mark.half = 0.5 * setting.size;

@@ -222,6 +222,8 @@ struct MarkSetting {
   double s = 0;          ///< of a stripe: its middle's arc length [m]
   double size = 0.005;   ///< diameter of a disc, width of a stripe [m]
   std::string label, colour;
+  std::string look;  ///< of a disc on an organ: tissue that is changed there, in place of paint
+  double high = 0;   ///< by how much such tissue stands out [m]
   core::Location at;
 };
 inline constexpr std::array<const char*, 7> kMarkColours{"white", "yellow", "orange", "green", "blue", "black", "none"};
@@ -336,8 +338,18 @@ struct VariationSetting {
     std::vector<std::string> of;  ///< solids, strands, pouches
     double radius = 0;            ///< half axes and radii, relative
   };
+  /// Something that is found in some patients: a mark, and what goes with it.
+  struct Finding {
+    std::string mark;
+    std::string solid;    ///< is narrow there; empty: none
+    double narrower = 0;  ///< its half axes in the middle, relative
+    double over = 0.020;  ///< as far to either side, fading out [m]
+    core::Location at;
+  };
   std::vector<Region> regions;
   std::vector<Girth> girths;
+  std::vector<Finding> findings;
+  int present = 0;        ///< so many of the findings are there
   double stiffness = 0;   ///< of every tissue, relative
   double foundation = 0;  ///< of every strand's hold, relative
   bool bleeder = false;   ///< which of its holes opens

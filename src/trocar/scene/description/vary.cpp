@@ -220,10 +220,53 @@ void bend(Description& d, const Warp& warp) {
   ObjectScenes::for_each([&](auto kind) { kind.bend(settings_of(kind, d.objects), warp); });
 }
 
+/// The lumen about the finding's mark, narrowest in its middle. Along the organ, not through space: loops lie side by
+/// side.
+void narrow(Description& d, const VariationSetting::Finding& finding) {
+  const auto is_it = [&](const MarkSetting& m) { return m.name == finding.mark; };
+  const auto mark = std::find_if(d.marks.begin(), d.marks.end(), is_it);
+  if (mark == d.marks.end()) return;
+  for (Solid& solid : d.solids) {
+    if (solid.name != finding.solid || solid.sections.empty()) continue;
+    std::vector<double> way{0};
+    std::size_t middle = 0;
+    for (std::size_t i = 0; i < solid.sections.size(); ++i) {
+      const Vec3d here = solid.sections[i].centre;
+      if (i > 0) way.push_back(way.back() + length(here - solid.sections[i - 1].centre));
+      if (length(here - mark->place) < length(solid.sections[middle].centre - mark->place)) middle = i;
+    }
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      const double away = std::fabs(way[i] - way[middle]) / finding.over, left = std::max(0.0, 1 - away * away);
+      Section& s = solid.sections[i];
+      s.across = (1 - finding.narrower * left * left) * s.across;
+      s.deep = (1 - finding.narrower * left * left) * s.deep;
+    }
+  }
+}
+
+/// Leaves so many of the findings as the scene says, drawn without putting back. Of its own numbers, so that all else
+/// is drawn as if there were none.
+void find(Description& d, std::uint64_t seed) {
+  std::vector<VariationSetting::Finding> left = d.variation->findings;
+  core::Random random(seed ^ 0xf1d1'465eull);
+  for (int i = 0; i < d.variation->present && i < int(d.variation->findings.size()); ++i) {
+    const std::size_t which =
+        seed == 0 ? 0 : std::min(left.size() - 1, std::size_t(random.uniform() * double(left.size())));
+    if (left[which].narrower > 0) narrow(d, left[which]);
+    left.erase(left.begin() + std::ptrdiff_t(which));
+  }
+  for (const VariationSetting::Finding& absent : left)
+    d.marks.erase(
+        std::remove_if(d.marks.begin(), d.marks.end(), [&](const MarkSetting& m) { return m.name == absent.mark; }),
+        d.marks.end());
+}
+
 }  // namespace
 
 void vary(Description& d, std::uint64_t seed) {
-  if (seed == 0 || !d.variation) return;
+  if (!d.variation) return;
+  if (!d.variation->findings.empty()) find(d, seed);
+  if (seed == 0) return;
   const VariationSetting& most = *d.variation;
   core::Random random(seed);
   const Warp warp = drawn_warp(d, random);

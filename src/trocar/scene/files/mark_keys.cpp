@@ -32,7 +32,7 @@ void check_mark(const JsonObject& o, MarkSetting& m, Context&) {
   if (m.colour.empty()) m.colour = kMarkColours.front();
   if (!readable(m.label)) o.fault("label", fmt::format("expected at most three digits, got \"{}\"", m.label));
   if (!m.stripe) return check_disc(o, m);
-  for (const char* key : {"place_mm", "normal", "diameter_mm", "label"})
+  for (const char* key : {"place_mm", "normal", "diameter_mm", "label", "look", "high_mm"})
     if (o.names(key)) o.fault(key, "expected none of a stripe (at_mm), which goes around its strand, got one");
 }
 
@@ -59,6 +59,9 @@ const Table<MarkSetting>& mark() {
                 return m.stripe ? std::optional<JsonValue>(json_number(in_file(units::mm, m.size))) : std::nullopt;
               }),
        R::text("label", &M::label, "written on a disc: at most three digits, default none"),
+       R::ref("look", Reference::To::look, &M::look,
+              "of a disc on a solid: how tissue is changed there, in place of paint; default none"),
+       R::number("high_mm", units::mm, &M::high, 0, 20, "by how much such tissue stands out, default {}").only(is_disc),
        R::own(
            keys::choice("colour", {kMarkColours.begin(), kMarkColours.end()}, "none: it is not drawn; default white"),
            [](const JsonObject& o, M& m, Context&) { m.colour = o.text("colour"); },

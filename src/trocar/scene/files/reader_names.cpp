@@ -101,6 +101,15 @@ void Reading::check_together() {
   for (const MarkSetting& mark : description.marks) check_mark(mark);
   if (description.variation && description.variation->bleeder && !description.bleeder)
     tell(m_faults, {description.variation->at, "expected a bleeder whose hole can vary, got none in this scene"});
+  if (description.variation)
+    for (const VariationSetting::Finding& finding : description.variation->findings) check_finding(finding);
+}
+
+void Reading::check_finding(const VariationSetting::Finding& finding) {
+  const auto is_it = [&](const MarkSetting& mark) { return mark.name == finding.mark; };
+  if (std::none_of(description.marks.begin(), description.marks.end(), is_it))
+    tell(m_faults,
+         {finding.at, fmt::format("expected a finding's mark to be one of the scene's, got \"{}\"", finding.mark)});
 }
 
 bool Reading::crowded() {

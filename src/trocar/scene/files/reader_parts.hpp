@@ -103,6 +103,7 @@ class Reading {
   void check_tool(const Placement& tool);
   void check_wave(const WaveSetting& wave);
   void check_mark(const MarkSetting& mark);
+  void check_finding(const VariationSetting::Finding& finding);
 
   /// Where a sheet or membrane ends on a strand that may not be known yet.
   struct SheetEnd {

@@ -55,6 +55,24 @@ const Table<V::Girth>& girth() {
   return table;
 }
 
+const Table<V::Finding>& finding() {
+  using R = Rows<V::Finding>;
+  static const Table<V::Finding> table{
+      "finding",
+      "Something that is found in some patients and not in others: a mark, and what goes with it.",
+      {needed(R::name("mark", &V::Finding::mark, "the mark, which is left out where it is not found")),
+       R::ref("solid", Reference::To::solid, &V::Finding::solid, "a lofted organ that is narrow there, default none"),
+       R::number("narrower", units::one, &V::Finding::narrower, 0, 0.6, "its half axes, relative; default {}"),
+       R::number("over_mm", units::mm, &V::Finding::over, 1, 200, "as far to either side, fading out; default {}")}};
+  return table;
+}
+
+void check_variation(const JsonObject& o, V& v, Context&) {
+  if (v.present > int(v.findings.size()))
+    o.fault("present",
+            fmt::format("expected at most as many as there are findings, {}, got {}", v.findings.size(), v.present));
+}
+
 }  // namespace
 
 const Table<VariationSetting>& variation() {
@@ -66,7 +84,11 @@ const Table<VariationSetting>& variation() {
        R::objects("girths", girth, &V::girths, 0, "how thick they are"),
        R::number("stiffness", units::one, &V::stiffness, 0, 0.9, "of every tissue, relative; default {}"),
        R::number("foundation", units::one, &V::foundation, 0, 0.9, "of every strand's hold, relative; default {}"),
-       R::flag("bleeder", &V::bleeder, "which of the bleeder's holes opens; default {}: the first")}};
+       R::flag("bleeder", &V::bleeder, "which of the bleeder's holes opens; default {}: the first"),
+       R::objects("findings", finding, &V::findings, 0, "what is found in some patients"),
+       R::integer("present", &V::present, 0, 64,
+                  "so many of the findings are there, drawn by the seed; with seed 0 the first; default {}")},
+      check_variation};
   return table;
 }
 

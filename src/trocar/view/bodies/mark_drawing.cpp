@@ -61,7 +61,10 @@ MarkDrawing::MarkDrawing(const sim::Model& model, int mark, render::Backend& bac
       m_mark(&model.marks[std::size_t(mark)]),
       m_backend(&backend),
       m_material(painted(dye(m_mark->colour))) {
-  if (!m_mark->is_stripe()) make_disc();
+  if (FindingDrawing::draws(model, *m_mark))
+    m_finding.emplace(model, *m_mark, backend);
+  else if (!m_mark->is_stripe())
+    make_disc();
 }
 
 void MarkDrawing::make_disc() {
@@ -125,6 +128,7 @@ void MarkDrawing::place_stripe(const TubeDrawing& tube) {
 }
 
 void MarkDrawing::update(const sim::State& state, std::span<const TubeDrawing> tubes) {
+  if (m_finding) return m_finding->update(state);
   if (m_mark->is_stripe())
     place_stripe(tubes[std::size_t(m_mark->body)]);
   else
@@ -132,6 +136,7 @@ void MarkDrawing::update(const sim::State& state, std::span<const TubeDrawing> t
 }
 
 void MarkDrawing::list(std::size_t part, const Listing& to) const {
+  if (m_finding) return m_finding->list(part, to);
   if (m_mark->colour == "none") return;
   if (!m_there) return;
   render::DrawItem drawn;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include <trocar/view/base/finding_drawing.hpp>
 #include <trocar/view/base/listing.hpp>
 #include <trocar/view/bodies/tube_drawing.hpp>
 
@@ -28,7 +29,8 @@ class MarkDrawing {
   std::vector<Vec3f> m_flat;  ///< of a disc: right, up [m]
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;
-  bool m_there = false;  ///< false: what it was on is cut there
+  std::optional<FindingDrawing> m_finding;  ///< changed tissue, in place of all that
+  bool m_there = false;                     ///< false: what it was on is cut there
   Vec3d m_place, m_normal;
   std::uint64_t m_version = 0;  ///< of the tube that it was made on
 };

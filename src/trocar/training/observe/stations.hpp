@@ -1,0 +1,36 @@
+// Stations along a gut: marks on its wall at even distances, by which a surgeon says how far along something is. Which
+// one a place of the wall belongs to follows from the way along the skin as drawn, not through space: loops lie against
+// each other, and the neighbour's wall is nearer than the own gut's middle.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trocar/sim/model/state.hpp>
+
+namespace trocar::training {
+
+class Stations {
+ public:
+  Stations() = default;
+  /// @param marks    targets of discs on one organ, in their order along it
+  /// @param spacing  from one to the next; the first is so far from the beginning [m]
+  Stations(const sim::Model& model, std::span<const std::int32_t> marks, double spacing);
+
+  BodyId body() const { return m_body; }
+  int count() const { return m_count; }
+  /// How far along the hand's jaws hold it [m]; -1: they hold none of it.
+  double held_at(const sim::State& state, size_t hand) const;
+
+ private:
+  BodyId m_body;
+  int m_count = 0;
+  double m_spacing = 0;
+  std::vector<std::int16_t> m_station;  ///< (skin vertices) the nearest along the skin
+};
+
+/// Why these marks are no stations, for people; empty: they are.
+std::string no_stations(const sim::Model& model, std::span<const std::int32_t> marks);
+
+}  // namespace trocar::training

@@ -1,0 +1,312 @@
+#include <algorithm>
+#include <optional>
+
+#include <trocar/sim/stages/visibility.hpp>
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/observe/marks.hpp>
+#include <trocar/training/observe/stations.hpp>
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// A gut hand over hand: one hand holds and shows, the other takes the next place, lifts that, and only then the first
+/// lets go. Between two steps the camera looks at either face of what lies between the hands.
+class RunAlong final : public Skill {
+ public:
+  RunAlong(const sim::Model& model, const Given& given)
+      : m_side{given("stations").marks, given("others").marks},
+        m_stations(model, m_side[0], given.number("spacing_mm", 0.01)),
+        m_spacing(given.number("spacing_mm", 0.01)),
+        m_hands{given.hand(), given("other_hand").index},
+        m_first(given.number("from_mm", 0.02)),
+        m_to(given.number("to_mm", 0.3)),
+        m_step(given.number("step_mm", 0.06)),
+        m_lift(given.number("lift_mm", 0.035)),
+        m_most(given.number("pull_N", 2)),
+        m_look(given.number("look_s", 0.3)),
+        m_deep(given.number("deep_mm", 0.008)) {
+    for (auto& looked : m_looked) looked.assign(m_side[0].size(), 0.0);
+  }
+
+ private:
+  enum Phase { kReach, kEnter, kClose, kLift, kShow, kLetGo };
+
+  /// A cross-section of the gut at a station, as it lies.
+  struct Place {
+    Vec3d middle, out, along;  ///< [m]; unit, away from its mesentery; unit, onwards
+    double radius = 0;         ///< [m]
+  };
+  Vec3d side(const Operator& op, size_t which, int station) const {
+    return place_of_mark(op.model(), op.state(), m_side[which][size_t(station)]);
+  }
+  Place place(const Operator& op, double s) const {
+    const int last = int(m_side[0].size()) - 1;
+    const int k = std::clamp(int(s / m_spacing + 0.5) - 1, 0, last);
+    const Vec3d a = side(op, 0, k), b = side(op, 1, k);
+    const int before = std::max(0, k - 1), after = std::min(last, k + 1);
+    const Vec3d on = side(op, 0, after) + side(op, 1, after) - side(op, 0, before) - side(op, 1, before);
+    constexpr double kSine = 0.866, kCosine = 0.5;  // the marks lie 60 degrees to either side
+    Place p;
+    p.along = normalised(on);
+    p.radius = 0.5 * length(a - b) / kSine;
+    const auto na = normal_of_mark(op.model(), op.state(), m_side[0][size_t(k)]);
+    const auto nb = normal_of_mark(op.model(), op.state(), m_side[1][size_t(k)]);
+    p.out = normalised(na.value_or(Vec3d{0, 0, 1}) + nb.value_or(Vec3d{0, 0, 1}), {0, 0, 1});
+    p.middle = 0.5 * (a + b) - kCosine * p.radius * p.out;
+    return p;
+  }
+
+  /// It goes on from what is held: a run that was interrupted is taken up again.
+  void start(Operator& op, int tries) override {
+    m_offset = tries;
+    const double held0 = m_stations.held_at(op.state(), size_t(m_hands[0]));
+    const double held1 = m_stations.held_at(op.state(), size_t(m_hands[1]));
+    if (held0 >= 0 || held1 >= 0) {
+      m_taker = held0 > held1 ? 1 : 0;
+      m_at = std::max(held0, held1);
+      m_next = std::min(m_at + m_step, m_to);
+    } else {
+      m_taker = 0;
+      m_next = m_at > 0 ? m_at : m_first;
+    }
+    m_attempt = 0;
+  }
+
+  Progress work(Operator& op) override {
+    note_looks(op);
+    const int hand = m_hands[size_t(m_taker)], holder = m_hands[size_t(1 - m_taker)];
+    if (m_phase != kLetGo) give_way(op, holder);
+    if (m_phase == kShow || m_phase == kLetGo) give_way(op, hand);
+    switch (m_phase) {
+      case kReach:
+        return reach(op, hand);
+      case kEnter:
+        return enter(op, hand);
+      case kClose:
+        return close(op, hand);
+      case kLift:
+        return lift(op, hand);
+      case kShow:
+        return show(op, hand, holder);
+      default:
+        return let_go(op, holder);
+    }
+  }
+
+  static constexpr double kTooHard = 1.25;  // of what it may pull
+
+  /// A hand that pulls too hard follows what it holds.
+  void give_way(Operator& op, int hand) const {
+    constexpr double kAhead = 0.01;  // [m]
+    const interactions::ToolState& tool = op.tool_state(hand);
+    if (tool.holds == 0 || norm(tool.pull) < kTooHard * m_most) return;
+    const Vec3d drawn = normalised(Vec3d{tool.pull[0], tool.pull[1], tool.pull[2]});
+    op.arms().move(hand, op.arm(hand).tip + kAhead * drawn, pace::kCareful);
+  }
+  /// Slower beside the other instrument: they shall not strike each other.
+  double pace_beside(const Operator& op, int hand) const {
+    constexpr double kBeside = 0.030, kGently = 0.012;  // [m] [m/s]
+    const Arms::Arm& other = op.arm(m_hands[0] == hand ? m_hands[1] : m_hands[0]);
+    const Vec3d tip = op.arm(hand).tip, shaft = other.tip - other.port;
+    const double along = std::clamp(dot(tip - other.port, shaft) / dot(shaft, shaft), 0.0, 1.0);
+    return length(tip - other.port - along * shaft) < kBeside ? kGently : pace::kTravel;
+  }
+  /// An instrument in the body is looked for before it moves.
+  bool blind(const Operator& op, int hand) const {
+    constexpr double kUnseen = 3;  // [s] to wait for the camera
+    return op.tool_state(hand).depth > reach::kIdle && !op.sees_tip(hand) && m_in_phase < kUnseen;
+  }
+
+  /// Where the jaws come down on the gut: on the side of it that faces the trocar, and away from its mesentery.
+  Vec3d entrance(const Operator& op, int hand, const Place& p) const {
+    const Vec3d back = normalised(op.arm(hand).port - p.middle);
+    const Vec3d across = back - dot(back, p.along) * p.along;
+    return p.middle + p.radius * normalised(across + p.out, p.out);
+  }
+  Place wanted(const Operator& op) const {
+    constexpr double kBeside[] = {0, 0.006, -0.006, 0.012};  // [m]
+    return place(op, m_next + kBeside[size_t(m_attempt + m_offset) % 4]);
+  }
+
+  Progress reach(Operator& op, int hand) {
+    constexpr double kLongest = 12;
+    const Place p = wanted(op);
+    const Vec3d at = entrance(op, hand, p), in = normalised(p.middle - op.arm(hand).port);
+    op.want(op.arm(hand).tip);
+    op.from(0.06);
+    if (blind(op, hand)) return Progress::working;
+    if (op.tool_state(hand).holds > 0) {  // of another loop
+      op.arms().grip(hand, 0, 0.8);
+      return Progress::working;
+    }
+    op.want(at);
+    const bool open = op.arms().grip(hand, 0, 0.8);
+    const bool turned = op.arms().turn_across(hand, p.along);
+    const bool there = op.arms().move(hand, at - reach::kBefore * in, pace_beside(op, hand));
+    if ((open && turned && there) || m_in_phase > kLongest) go(kEnter);
+    return Progress::working;
+  }
+  Progress enter(Operator& op, int hand) {
+    constexpr double kPressed = 0.9, kLongest = 4, kDeeper = 0.002;  // [N] [s] [m]
+    const Place p = wanted(op);
+    const Vec3d in = normalised(p.middle - op.arm(hand).port);
+    op.want(op.arm(hand).tip);
+    op.want(p.middle);
+    op.from(0.06);
+    op.arms().turn_across(hand, p.along);
+    const bool there =
+        op.arms().move(hand, entrance(op, hand, p) + (m_deep + kDeeper * m_attempt) * in, pace::kCareful);
+    if (there || norm(op.tool_state(hand).contact_force) > kPressed || m_in_phase > kLongest) go(kClose);
+    return Progress::working;
+  }
+  Progress close(Operator& op, int hand) {
+    constexpr double kFeels = 0.9;
+    constexpr int kMost = 6;
+    op.want(op.arm(hand).tip);
+    op.from(0.06);
+    if (!op.arms().grip(hand, 0.95, 0.6) || m_in_phase < kFeels) return Progress::working;
+    const double held = m_stations.held_at(op.state(), size_t(hand));
+    constexpr double kBeside = 0.030;  // [m] farther from where it was wanted it is another loop
+    if (held > m_next - kBeside && held < m_next + kBeside) {
+      m_from = op.arm(hand).tip;
+      m_way = 0;
+      go(kLift);
+      return Progress::working;
+    }
+    if (++m_attempt >= kMost) return fail("the jaws have not taken the gut");
+    go(kReach);
+    return Progress::working;
+  }
+  Progress lift(Operator& op, int hand) {
+    constexpr double kSpeed = 0.025, kLongest = 4;  // [m/s] [s]
+    op.want(op.arm(hand).tip);
+    op.from(0.06);
+    if (op.tool_state(hand).holds == 0) return again();
+    const double pull = norm(op.tool_state(hand).pull);
+    if (pull < m_most) m_way = std::min(m_way + kSpeed * sim::kTick, m_lift);
+    if (pull > kTooHard * m_most) m_way = std::max(m_way - kSpeed * sim::kTick, 0.0);
+    const bool there = op.arms().move(hand, m_from + m_way * Vec3d{0, 0, 1}, pace::kTravel);
+    if ((there && m_way >= m_lift) || m_in_phase > kLongest) {
+      m_shown = -1;
+      go(kShow);
+    }
+    return Progress::working;
+  }
+  Progress again() {
+    go(kReach);
+    return Progress::working;
+  }
+
+  void note_looks(const Operator& op) {
+    for (size_t which = 0; which < 2; ++which)
+      for (size_t i = 0; i < m_side[which].size(); ++i) {
+        double& looked = m_looked[which][i];
+        if (looked >= m_look) continue;
+        looked = sim::visible(op.model(), op.state(), m_side[which][i]) ? looked + sim::kTick : 0;
+      }
+  }
+  /// The next mark up to what is held that has not been looked at, after the one that was tried last; -1: none.
+  int unseen(double from, double to) const {
+    const int count = int(m_side[0].size());
+    for (int i = m_shown + 1; i < 2 * count; ++i) {
+      const double s = (i % count + 1) * m_spacing;
+      if (s >= from && s <= to && m_looked[size_t(i / count)][size_t(i % count)] < m_look) return i;
+    }
+    return -1;
+  }
+  Progress show(Operator& op, int hand, int holder) {
+    constexpr double kLongest = 2.2, kBack = 0.04;  // [s] at a mark; [m] what lies before is looked at again
+    const double held = m_stations.held_at(op.state(), size_t(hand));
+    if (held < 0) return again();
+    const double from = std::max(0.0, m_at - kBack), to = held + 0.5 * m_spacing;
+    if (m_in_phase > kLongest && m_target >= 0) {
+      m_shown = m_target;
+      m_target = -1;
+      m_in_phase = 0;
+    }
+    const int count = int(m_side[0].size());
+    if (m_target < 0 || m_looked[size_t(m_target / count)][size_t(m_target % count)] >= m_look) {
+      m_target = unseen(from, to);
+      m_in_phase = 0;
+    }
+    if (m_target >= 0) {
+      const int mark = m_side[size_t(m_target / count)][size_t(m_target % count)];
+      op.camera().view(place_of_mark(op.model(), op.state(), mark), normal_of_mark(op.model(), op.state(), mark), 0.07);
+      return Progress::working;
+    }
+    m_at = held;
+    if (m_at >= m_to - 0.5 * m_spacing) return Progress::done;
+    if (op.tool_state(holder).holds == 0) {
+      swap();
+      return Progress::working;
+    }
+    go(kLetGo);
+    return Progress::working;
+  }
+  Progress let_go(Operator& op, int holder) {
+    constexpr double kAway = 0.025, kLongest = 6;
+    op.want(op.arm(holder).tip);
+    op.from(0.06);
+    if (op.tool_state(holder).holds > 0 && blind(op, holder)) return Progress::working;
+    const Vec3d out = normalised(op.arm(holder).port - op.arm(holder).tip);
+    if (op.tool_state(holder).holds > 0) m_from = op.arm(holder).tip;
+    const bool open = op.arms().grip(holder, 0, 0.4);
+    const bool off = open && op.arms().move(holder, m_from + kAway * out, pace_beside(op, holder));
+    if (off || m_in_phase > kLongest) swap();
+    return Progress::working;
+  }
+  void swap() {
+    m_taker = 1 - m_taker;
+    m_next = std::min(m_at + m_step, m_to);
+    m_attempt = 0;
+    go(kReach);
+  }
+
+  std::array<std::vector<std::int32_t>, 2> m_side;
+  Stations m_stations;
+  double m_spacing;
+  std::array<int, 2> m_hands;
+  double m_first, m_to, m_step, m_lift, m_most, m_look, m_deep;  ///< [m] [m] [m] [m] [N] [s] [m]
+  std::array<std::vector<double>, 2> m_looked;                   ///< (stations) [s]
+  size_t m_taker = 0;
+  int m_attempt = 0, m_offset = 0, m_shown = -1, m_target = -1;
+  double m_at = -1, m_next = 0, m_way = 0;  ///< [m] how far it has been run; the next hold; of a lift
+  Vec3d m_from;
+};
+
+std::string lacks_run(const sim::Model& model, const Given& given) {
+  const Argument &a = given("stations"), &b = given("others");
+  if (const std::string why = no_stations(model, a.marks); !why.empty()) return why;
+  if (const std::string why = no_stations(model, b.marks); !why.empty()) return why;
+  if (a.marks.size() != b.marks.size()) return "as many stations on one side as on the other";
+  const std::string first = lacks_tool(model, given.hand(), &interactions::Abilities::grip);
+  return first.empty() ? lacks_tool(model, given("other_hand").index, &interactions::Abilities::grip) : first;
+}
+
+}  // namespace
+
+const SkillKind kRunAlong{
+    "run_along",
+    "run the gut",
+    {hand_parameter("that takes it first"),
+     {"other_hand", ArgumentKind::hand, "that takes it next"},
+     {"stations", ArgumentKind::marks, "discs on its wall, in their order along it, 60 degrees to one side"},
+     {"others", ArgumentKind::marks, "the same on its other side"},
+     number_parameter("spacing_mm", "from one station to the next; 10", 1, 100),
+     number_parameter("from_mm", "where it is taken first; 20", 0, 5000),
+     number_parameter("to_mm", "how far; 300", 0, 100'000),
+     number_parameter("step_mm", "from hold to hold; 60", 10, 100),
+     number_parameter("lift_mm", "how far each hold is lifted; 35", 0, 100),
+     number_parameter("pull_N", "it lifts no further while it pulls harder; 2", 0.1, 10),
+     number_parameter("look_s", "each face of each station is looked at for so long; 0.3", 0, 10),
+     number_parameter("deep_mm", "how far the open jaws go on beyond the wall; 8", 0, 30)},
+    900,
+    "Runs a gut hand over hand: one hand holds while the other takes the next place and lifts it; then the camera "
+    "looks "
+    "at both faces of what lies between, and the first lets go. Taken up again where it was left.",
+    lacks_run,
+    &making<RunAlong>};
+
+}  // namespace trocar::training
