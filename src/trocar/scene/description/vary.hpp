@@ -15,8 +15,8 @@ namespace trocar::scene {
 
 /// Deterministic to the bit: the same description and seed give the same result everywhere. Figures are drawn in the
 /// order of the declaration: each region's scale, shift along x, y, z, length and turn (as far as they are declared),
-/// stiffness of the tissues, foundation of the strands, the bleeder, girths. Which findings are there is drawn apart from
-/// these, and for seed 0, too: the first ones.
+/// stiffness of the tissues, foundation of the strands, the bleeder, girths. Which findings are there is drawn apart
+/// from these, and for seed 0, too: the first ones.
 void vary(Description& description, std::uint64_t seed);
 
 }  // namespace trocar::scene
