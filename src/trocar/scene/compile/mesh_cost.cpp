@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/geometry/tets/stuffing.hpp>
+#include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile_parts.hpp>
 #include <trocar/scene/compile/mesh_cost.hpp>
 #include <trocar/tissue/tets/tet_springs.hpp>
@@ -21,7 +22,7 @@ double volume_of_cells(const geometry::TetMesh& mesh) {
 
 /// Two nodes to a cube: rounded to tenths of a millimetre.
 double cube_for(const geometry::TetMesh& mesh) {
-  const double exact = std::cbrt(2 * volume_of_cells(mesh) / double(mesh.points.size()));
+  const double exact = portable::exp(portable::log(2 * volume_of_cells(mesh) / double(mesh.points.size())) / 3);
   return std::max(1.0, std::round(1e4 * exact)) * 1e-4;
 }
 
