@@ -433,6 +433,19 @@ TEST(Valves, WhatWasHeldWhenTheInstrumentWasChosenFlowsOnlyWhenPressedAnew) {
   EXPECT_TRUE(session.give(anew).suck);
 }
 
+TEST(MouseKeyboard, WhoLetsBothButtonsGoAtOnceHasLockedTheJawsAndOpenedNoMenu) {
+  Session session;
+  session.squeeze(20);
+  HandSample both;
+  both.left_button = both.right_button = true;
+  EXPECT_FALSE(session.give(both).rack);
+  EXPECT_FALSE(session.give({}).rack);
+  EXPECT_TRUE(session.state.ratchet[0]);
+  const float handle = session.state.handle[0];
+  session.rest(20);
+  EXPECT_EQ(session.state.handle[0], handle);
+}
+
 TEST(Electrode, WhatClosesJawsCoagulatesWithAHookAndWhatLocksThemCuts) {
   Session session;
   session.state.electrode[0] = true;

@@ -274,6 +274,7 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
   if (went_down(Button::left_stick, sample, state.last)) state.fine = !state.fine;
   const Scaled s = scaled(settings, sample, state);
   const bool tapped = right_tapped(settings, sample, state);
+  const bool with_left = sample.left_button || state.last.left_button;  // who lets both go at once locks, too
   const bool trigger =
       sample.gamepad.left_trigger > kTriggerPressed && !(state.last.gamepad.left_trigger > kTriggerPressed);
   const bool valves = state.led != kScope && state.valves[state.led];
@@ -281,7 +282,7 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
   HandCommand command;
   command.led = state.led;
   command.rack = sample.pressed.has(Key::x) || (sample.middle_button && !state.last.middle_button) ||
-                 went_down(Button::y, sample, state.last) || (tapped && !valves && !sample.left_button);
+                 went_down(Button::y, sample, state.last) || (tapped && !valves && !with_left);
   command.insert = sample.pressed.has(Key::v) || went_down(Button::x, sample, state.last);
   command.wipe = sample.held.has(Key::t) || sample.pressed.has(Key::t) || sample.gamepad.has(Button::b);
   command.declare = sample.held.has(Key::k) || sample.pressed.has(Key::k);
@@ -290,7 +291,7 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
   if (state.led == kScope) {
     command.scope = scope_motion(settings, sample, s);
   } else {
-    if (jaws && (sample.pressed.has(Key::space) || trigger || (tapped && sample.left_button))) toggle_ratchet(state);
+    if (jaws && (sample.pressed.has(Key::space) || trigger || (tapped && with_left))) toggle_ratchet(state);
     HandSample steered = sample;
     steered.right_button &= !valves;
     command.tip = tip_motion(settings, steered, s);

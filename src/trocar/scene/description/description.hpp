@@ -211,6 +211,7 @@ struct Pouch {
   Contents contents;
   bool cuttable = true;
   bool free = false;  ///< nothing holds it: it lies where it is put
+  std::string duct;   ///< the strand whose lumen opens into it; empty: none
   core::Location at, spacing_at;
 };
 
