@@ -6,6 +6,7 @@
 
 #include <trocar/core/files.hpp>
 #include <trocar/geometry/formats/tet_files.hpp>
+#include <trocar/scene/compile/mesh_cost.hpp>
 
 namespace trocar::app {
 
@@ -34,6 +35,21 @@ Json as_json(const geometry::TetFacts& f) {
   return out;
 }
 
+/// What slivers would cost in a soft organ; empty where that is little.
+std::string slivers(const geometry::TetMesh& mesh) {
+  scene::Tissue liver;  // as scenes/tissues.json has it
+  liver.young = 5400;
+  liver.density = 1060;
+  liver.p1 = 2;
+  liver.p2 = 100;
+  liver.strain_cap = 0.1;
+  liver.damping_ms = 6;
+  const scene::MeshCost now = scene::cost_of(mesh, liver);
+  if (now.substeps < scene::kManySubsteps) return {};
+  const std::optional<scene::Refill> refill = scene::refill_of(mesh, liver, now);
+  return refill ? "as a liver " + scene::in_words(mesh, now, *refill) : std::string{};
+}
+
 }  // namespace
 
 bool is_mesh_file(const fs::path& path) {
@@ -56,6 +72,7 @@ Json describe_mesh(const fs::path& path, double unit) {
   for (const geometry::Mended& m : repaired.mended) out["repairs"].push_back(geometry::in_words(m));
   out["left_as_is"] = geometry::left_as_is(repaired.mesh);
   if (!repaired.mended.empty()) out["repaired"] = as_json(mended);
+  if (const std::string costs = slivers(repaired.mesh); !costs.empty()) out["left_as_is"].push_back(costs);
   out["verdict"] = out["repairs"].empty() && out["left_as_is"].empty() ? "good" : "to mend";
   return out;
 }

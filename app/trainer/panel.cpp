@@ -125,9 +125,20 @@ const char* valves_of(const PanelContent& c, int h) {
   return side == c.both->mouse ? "left button: suction, right: water" : "D: suction, A: water";
 }
 
+const char* switches_of(const PanelContent& c, int h) {
+  if (!c.both) return c.gamepad ? "right trigger: coagulate, left: cut" : "G or left button: coagulate, Space: cut";
+  const int side = c.both->pair[devices::kLeft] == h ? devices::kLeft : devices::kRight;
+  if (c.gamepad)
+    return side == devices::kLeft ? "left trigger: coagulate, cross left: cut"
+                                  : "right trigger: coagulate, cross right: cut";
+  return side == c.both->mouse ? "left button: coagulate, N: cut" : "G: coagulate, Space: cut";
+}
+
 /// Two buttons that no other instrument has.
-void draw_valves(const PanelContent& c, int h) {
-  if (leads(c, h) && attempt::has_valves(c.lesson.model, c.now.state, h)) ui::text(valves_of(c, h), ui::kOrange);
+void draw_buttons(const PanelContent& c, int h) {
+  if (!leads(c, h)) return;
+  if (attempt::has_valves(c.lesson.model, c.now.state, h)) ui::text(valves_of(c, h), ui::kOrange);
+  if (attempt::is_bare_electrode(c.lesson.model, c.now.state, h)) ui::text(switches_of(c, h), ui::kOrange);
 }
 
 /// Where the fluids are, two to a line.
@@ -153,7 +164,7 @@ void draw_hands(const PanelContent& c) {
   for (int h = 0; h < attempt::hand_count(c.lesson.model); ++h) {
     draw_hand(c, h);
     draw_slowly(c, h);
-    draw_valves(c, h);
+    draw_buttons(c, h);
   }
   if (!c.hands) return ui::text("led by " + c.input, ui::kGrey);
   const bool scope = c.both ? c.both->looking : c.hands->led == devices::kScope;

@@ -214,6 +214,22 @@ TEST(BothHandsPad, OfASuctionIrrigatorTheTriggerSucksAndTheCrossGivesWater) {
   EXPECT_FALSE(pair.hands.state.ratchet[1]);
 }
 
+TEST(BothHandsPad, AHookCoagulatesByItsTriggerWhileItIsLedAndTheOtherJawsClose) {
+  Pair pair;
+  pair.hands.state.electrode[1] = true;
+  Gamepad pad;
+  pad.left_trigger = pad.right_trigger = 1;
+  pad.right_x = 1;
+  const HandCommands burning = pair.give(pad);
+  EXPECT_TRUE(of(1, burning).blue && !of(1, burning).yellow);
+  EXPECT_GT(of(1, burning).tip.right, 0) << "the thumb stays on its stick";
+  EXPECT_FALSE(of(0, burning).blue);
+  EXPECT_GT(pair.handle(0), 0.0f) << "jaws beside it close";
+  EXPECT_EQ(pair.handle(1), 0.0f);
+  EXPECT_TRUE(of(1, pair.give(pad_with({Button::right}))).yellow);
+  EXPECT_FALSE(pair.hands.state.ratchet[1]);
+}
+
 TEST(BothHandsPad, BothShouldersLeadTheEndoscopeAndBothHandsKeepPoseAndGrip) {
   Pair pair;
   Gamepad pad;

@@ -433,6 +433,59 @@ TEST(Valves, WhatWasHeldWhenTheInstrumentWasChosenFlowsOnlyWhenPressedAnew) {
   EXPECT_TRUE(session.give(anew).suck);
 }
 
+TEST(MouseKeyboard, WhoLetsBothButtonsGoAtOnceHasLockedTheJawsAndOpenedNoMenu) {
+  Session session;
+  session.squeeze(20);
+  HandSample both;
+  both.left_button = both.right_button = true;
+  EXPECT_FALSE(session.give(both).rack);
+  EXPECT_FALSE(session.give({}).rack);
+  EXPECT_TRUE(session.state.ratchet[0]);
+  const float handle = session.state.handle[0];
+  session.rest(20);
+  EXPECT_EQ(session.state.handle[0], handle);
+}
+
+TEST(Electrode, WhatClosesJawsCoagulatesWithAHookAndWhatLocksThemCuts) {
+  Session session;
+  session.state.electrode[0] = true;
+  session.rest(1);
+  HandSample mouse = Session::moving(30, 0);
+  mouse.left_button = true;
+  const HandCommand coagulating = session.give(mouse);
+  EXPECT_TRUE(coagulating.blue && !coagulating.yellow);
+  EXPECT_GT(coagulating.tip.right, 0) << "it is led on meanwhile";
+  EXPECT_EQ(session.state.handle[0], 0) << "nothing closes";
+  EXPECT_FALSE(session.give({}).blue);
+  EXPECT_TRUE(session.give(Session::holding(Key::g)).blue);
+  EXPECT_TRUE(session.give(Session::holding(Key::space)).yellow);
+  HandSample pad;
+  pad.gamepad.right_trigger = 1;
+  pad.gamepad.left_x = 1;
+  const HandCommand pulled = session.give(pad);
+  EXPECT_TRUE(pulled.blue && pulled.tip.right > 0);
+  pad.gamepad.right_trigger = 0;
+  pad.gamepad.left_trigger = 1;
+  EXPECT_TRUE(session.give(pad).yellow);
+  EXPECT_FALSE(session.state.ratchet[0]);
+  HandSample rolling = Session::moving(30, 0);
+  rolling.right_button = true;
+  EXPECT_NE(session.give(rolling).roll, 0) << "a hook's foot is turned as jaws are";
+}
+
+TEST(Electrode, WhatWasHeldWhenTheHookWasChosenBurnsOnlyWhenPressedAnew) {
+  Session session;
+  session.state.electrode[1] = true;
+  session.squeeze(3);
+  HandSample still_held = Session::with(Key::two);
+  still_held.left_button = true;
+  EXPECT_FALSE(session.give(still_held).blue);
+  session.rest(1);
+  HandSample anew;
+  anew.left_button = true;
+  EXPECT_TRUE(session.give(anew).blue);
+}
+
 TEST(Wipe, IsAskedForWhoeverIsLed) {
   Session session;
   EXPECT_TRUE(session.give(Session::holding(Key::t)).wipe);

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <trocar/geometry/formats/tet_files.hpp>
+#include <trocar/geometry/tets/stuffing.hpp>
 #include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/compile/mesh_cost.hpp>
 #include <trocar/scene/files/reader.hpp>
 
 #include "../sim/small_scene.hpp"
@@ -120,6 +122,103 @@ TEST(TetSolid, AMeshIsANetworkOrCanBeCutAndWeighsWhatItsVolumeDoes) {
     EXPECT_EQ(body->nodes, 5);
     EXPECT_NEAR(body->mass, 1050 * 2 * 8e-6 / 6, 1e-6 * 1050 * 2 * 8e-6 / 6) << "density times volume";
   }
+}
+
+/// A ball of well-shaped cells, 30 mm across.
+geometry::TetMesh ball() {
+  const geometry::Field field{
+      [](Vec3d p) { return 0.015 - length(p); }, {{-0.016, -0.016, -0.016}, {0.016, 0.016, 0.016}}, 1};
+  return geometry::stuffed(field, 0.004);
+}
+
+/// The cell that is nearest to the middle, in four: a node in it, next to a corner, is their fourth.
+geometry::TetMesh with_slivers(geometry::TetMesh mesh) {
+  std::size_t inner = 0;
+  const auto middle = [&](std::size_t c) {
+    Vec3d sum;
+    for (const int node : mesh.cells[c]) sum += mesh.points[std::size_t(node)] / 4.0;
+    return sum;
+  };
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    if (length(middle(c)) < length(middle(inner))) inner = c;
+  const std::array<int, 4> cell = mesh.cells[inner];
+  const Vec3d corner = mesh.points[std::size_t(cell[0])];
+  mesh.points.push_back(corner + 0.0003 * (middle(inner) - corner));
+  for (std::size_t k = 1; k < 4; ++k) mesh.cells.push_back(cell), mesh.cells.back()[k] = int(mesh.points.size()) - 1;
+  mesh.cells[inner][0] = int(mesh.points.size()) - 1;
+  return mesh;
+}
+
+Solid solid_of(const geometry::TetMesh& mesh, double refill = 0) {
+  Solid s;
+  s.tets = TetSource{};
+  s.tets->file = "ball.msh";
+  s.tets->mesh = mesh;
+  s.tets->refill = refill;
+  s.anchors.push_back({{0, 0, 0}, 0.05, 100, {}});
+  return s;
+}
+
+TEST(TetSolid, AMeshWithSliversIsToldWithWhatItCostsAndTheKeyThatMendsIt) {
+  const Tissue soft = small::tissue("soft", 30e3);
+  const geometry::TetMesh good = ball(), bad = with_slivers(good);
+  ASSERT_TRUE(geometry::inspect(bad).sound());
+  const MeshCost as_it_is = cost_of(bad, soft), without = cost_of(good, soft);
+  EXPECT_GT(as_it_is.substeps, 100) << "one cell in " << bad.cells.size();
+  EXPECT_LT(without.substeps, kManySubsteps);
+  const std::optional<Refill> refill = refill_of(bad, soft, as_it_is);
+  ASSERT_TRUE(refill);
+  EXPECT_NEAR(refill->cube, 0.004, 0.001);
+  EXPECT_LT(4 * refill->cost.substeps, as_it_is.substeps);
+  EXPECT_FALSE(refill_of(good, soft, without)) << "nothing to mend";
+
+  CompileReport report;
+  compile(with(solid_of(bad)), &report);
+  const auto of_slivers = [](const CompileReport& r) {
+    return std::count_if(r.doubts.begin(), r.doubts.end(),
+                         [](const core::Fault& f) { return f.message.find("slivers") != std::string::npos; });
+  };
+  ASSERT_EQ(of_slivers(report), 1);
+  for (const core::Fault& f : report.doubts)
+    if (f.message.find("slivers") != std::string::npos) {
+      EXPECT_NE(f.message.find("\"refill_mm\": "), std::string::npos) << f.message;
+      EXPECT_NE(f.message.find(" sub-steps, about "), std::string::npos) << f.message;
+    }
+  CompileReport of_good;
+  compile(with(solid_of(good)), &of_good);
+  EXPECT_EQ(of_slivers(of_good), 0);
+}
+
+const char* const kSceneOfOrgan = R"({"format": 1, "name": "one", "organs": ["organ.json"],
+  "tissues": [{"name": "liver", "density_kg_m3": 1060, "young_Pa": 5400, "source": "ours"}],
+  "instruments": [{"name": "grasper", "kind": "grasper"}],
+  "ports": [{"name": "a", "position_mm": [0, 0, 200], "diameter_mm": 10}, {"name": "b", "position_mm": [50, 0, 200]}],
+  "tools": [{"instrument": "grasper", "port": "b", "tip_mm": [50, 0, 150]}],
+  "scope": {"port": "a", "tip_mm": [0, 0, 150]}})";
+
+TEST(TetSolid, ASurfaceIsFilledAnewByAKey) {
+  Organ o;
+  const geometry::TetMesh bad = with_slivers(ball());
+  o.folder.write("slivers.msh", geometry::to_gmsh(bad, 0.001));
+  const auto mesh_with = [&](const std::string& keys) {
+    const std::filesystem::path organ = o.file(R"("mesh": {"file": "slivers.msh")" + keys + "}");
+    const std::filesystem::path scene = o.folder.write("scene.json", kSceneOfOrgan);
+    return read_scene(scene).solids.at(0).tets.value();
+  };
+  EXPECT_EQ(mesh_with("").mesh.cells.size(), bad.cells.size()) << "as it is";
+  const TetSource filled = mesh_with(R"(, "refill_mm": 3.5)");
+  EXPECT_DOUBLE_EQ(filled.refill, 0.0035);
+  const geometry::TetFacts facts = geometry::inspect(filled.mesh), before = geometry::inspect(bad);
+  EXPECT_LT(before.smallest_dihedral, 1);
+  EXPECT_GT(facts.smallest_dihedral, kSliver);
+  EXPECT_EQ(facts.odd_edges, 0);
+  EXPECT_NEAR(facts.volume, before.volume, 0.03 * before.volume);
+  EXPECT_TRUE(filled.doubts.empty()) << filled.doubts.front();
+  const TetSource coarse = mesh_with(R"(, "refill_mm": 12)");
+  ASSERT_EQ(coarse.doubts.size(), 1u) << geometry::inspect(coarse.mesh).volume / before.volume;
+  EXPECT_NE(coarse.doubts[0].find("a smaller \"refill_mm\" keeps more"), std::string::npos) << coarse.doubts[0];
+  expect_one(o.faults(R"("mesh": {"file": "two.msh", "refill_mm": 60})"), "smaller cells expected");
+  expect_one(o.faults(R"("mesh": {"file": "two.msh", "refill_mm": -1})"), "refill_mm");
 }
 
 }  // namespace

@@ -27,6 +27,11 @@ bool has_valves(const sim::Model& model, const sim::State& state, int h) {
   return held_by(model, state, h).can().irrigate;
 }
 
+bool is_bare_electrode(const sim::Model& model, const sim::State& state, int h) {
+  const interactions::Abilities& can = held_by(model, state, h).can();
+  return can.coagulate && !can.grip;
+}
+
 std::string flow_in_words(const sim::State& state, int h) {
   const std::uint8_t valves = state.valves[size_t(h)];
   std::string out = (valves & sim::kIrrigates) != 0 ? "water" : "";

@@ -19,6 +19,8 @@ const interactions::ToolModel& held_by(const sim::Model& model, const sim::State
 
 /// Does it hold a suction-irrigator?
 bool has_valves(const sim::Model& model, const sim::State& state, int h);
+/// An electrode without jaws.
+bool is_bare_electrode(const sim::Model& model, const sim::State& state, int h);
 /// What flows through that hand's suction-irrigator: "water, suction: gas", or empty.
 std::string flow_in_words(const sim::State& state, int h);
 /// The account of the fluids in mL, a line each: bled, irrigated; where they are, which adds up to these. None in

@@ -76,17 +76,29 @@ void HandPilot::take(int instrument) {
   m_inserting[size_t(hand)] = false;
 }
 
+/// Who is meant to come into the view: the led one; one that waits in its trocar before one that is in already.
+int HandPilot::waiting(int led, const sim::State& state) const {
+  const auto waits = [&](int h) { return state.tools[size_t(h)].depth < 3 * kParked; };
+  if (led == devices::kScope || waits(led)) return led;
+  for (int h = 0; h < int(m_model.hands.size()); ++h)
+    if (waits(h) && (h == m_hands.pair[0] || h == m_hands.pair[1]) && leads_both()) return h;
+  return led;
+}
+
 void HandPilot::insert(int hand) {
   if (hand != devices::kScope) m_inserting[size_t(hand)] = true;
 }
 
 const sim::Input& HandPilot::lead(const devices::HandSample& sample, const sim::State& state) {
-  for (int h = 0; h < hand_count(m_model); ++h) m_hands.state.valves[size_t(h)] = has_valves(m_model, state, h);
+  for (int h = 0; h < hand_count(m_model); ++h) {
+    m_hands.state.valves[size_t(h)] = has_valves(m_model, state, h);
+    m_hands.state.electrode[size_t(h)] = is_bare_electrode(m_model, state, h);
+  }
   const kinematics::ScopeFrame view = sim::scope_of(m_model, state);
   m_asks_for_rack = false;
   m_input.pedals = take_panel_keys();
   for (const devices::HandCommand& command : devices::lead(m_settings, sample, m_hands)) {
-    if (command.insert) insert(command.led);
+    if (command.insert) insert(waiting(command.led, state));
     if (command.led == devices::kScope)
       move_scope(command.scope, view);
     else if (command.led < int(m_model.hands.size()))

@@ -51,6 +51,7 @@ class HandPilot {
   void set(const devices::HandSettings& settings);  ///< the number of instruments stays
 
  private:
+  int waiting(int led, const sim::State& state) const;
   void insert(int hand);
   void place_sides();
   void move_tool(const devices::HandCommand& command, const kinematics::ScopeFrame& view, const sim::State& state);

@@ -17,8 +17,8 @@ constexpr HelpLine kHelpBoth[] = {
     {Device::mouse, "side buttons", "mouse: left hand, right hand, endoscope"},
     {Device::gamepad, "left, right stick", "tip of the left, of the right hand"},
     {Device::gamepad, "with its shoulder held", "up, down: deeper, back; sideways: roll"},
-    {Device::gamepad, "left, right trigger", "close the left, the right jaws; suction"},
-    {Device::gamepad, "cross left, right", "lock, unlock the left, the right jaws; water"},
+    {Device::gamepad, "left, right trigger", "close the left, the right jaws; suction; a hook coagulates"},
+    {Device::gamepad, "cross left, right", "lock, unlock the left, the right jaws; water; a hook cuts"},
     {Device::gamepad, "cross up, down", "another hand in place of the one last used"},
     {Device::gamepad, "both shoulders held",
      "left stick: where the endoscope looks; right: along it, roll; cross: post"},
@@ -254,6 +254,7 @@ HandCommand lead_one(const HandSettings& settings, const HandSample& share, int 
   side.handle = all.handle;
   side.ratchet = all.ratchet;
   side.valves = all.valves;
+  side.electrode = all.electrode;
   side.fine = all.fine;
   const HandCommand command = lead(settings_of_share(settings), share, side);
   all.handle = side.handle;

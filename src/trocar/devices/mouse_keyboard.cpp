@@ -25,6 +25,7 @@ constexpr HelpLine kHelp[] = {
     {Device::keyboard, "V", "bring the instrument into the view"},
     {Device::keyboard, "R F", "light post of an oblique endoscope"},
     {Device::keyboard, "A D", "suction-irrigator: water, suction, as long as it is held"},
+    {Device::keyboard, "G, Space", "of a hook: coagulate, cut, as long as it is held"},
     {Device::keyboard, "T", "wipe the lens; it takes eight seconds"},
     {Device::keyboard, "K", "declare that it is shown: the critical view"},
     {Device::keyboard, "B N", "foot switch: blue, coagulates; yellow, cuts; as long as it is held"},
@@ -35,6 +36,7 @@ constexpr HelpLine kHelp[] = {
     {Device::mouse, "right drag", "roll the instrument, or the endoscope's picture"},
     {Device::mouse, "left held, right click", "lock the jaws; the same again: unlock"},
     {Device::mouse, "left, right button", "of a suction-irrigator: suction, water"},
+    {Device::mouse, "left button", "of a hook: coagulate, as long as it is held"},
     {Device::mouse, "middle or right click", "choose hand, both hands, instrument, fine motion, pause"},
     {Device::mouse, "side buttons", "lead the previous, the next hand"},
     {Device::gamepad, "left stick", "tip sideways, up and down; endoscope: where it looks"},
@@ -42,7 +44,7 @@ constexpr HelpLine kHelp[] = {
     {Device::gamepad, "right stick", "up, down: deeper, back; sideways: roll"},
     {Device::gamepad, "right trigger", "close the jaws as far as it is pulled; endoscope: light post"},
     {Device::gamepad, "left trigger", "lock, unlock the jaws; endoscope: light post the other way"},
-    {Device::gamepad, "right, left trigger", "of a suction-irrigator: suction, water"},
+    {Device::gamepad, "right, left trigger", "of a suction-irrigator: suction, water; of a hook: coagulate, cut"},
     {Device::gamepad, "B", "wipe the lens"},
     {Device::gamepad, "A, right stick pressed", "foot switch: blue, coagulates; yellow, cuts"},
     {Device::gamepad, "shoulders", "lead the previous, the next hand, the endoscope among them"},
@@ -204,6 +206,17 @@ void open_valves(const HandSample& sample, HandState& state, HandCommand& comman
   command.irrigate = irrigate;
 }
 
+/// What closes jaws coagulates with an electrode that has none, what locks jaws cuts.
+void press_switches(const HandSample& sample, HandState& state, HandCommand& command) {
+  const Gamepad& pad = sample.gamepad;
+  const bool coagulate = squeezes(sample) || pad.right_trigger > kTriggerPressed;
+  const bool cut = sample.held.has(Key::space) || pad.left_trigger > kTriggerPressed;
+  state.waiting &= coagulate || cut;
+  if (state.waiting) return;
+  command.blue |= coagulate;
+  command.yellow |= cut;
+}
+
 /// The left button or G closes progressively, the right trigger as far as it is pulled; let go, the handle opens unless
 /// the ratchet holds it.
 void move_handle(const HandSettings& settings, const HandSample& sample, float seconds, HandState& state) {
@@ -261,13 +274,15 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
   if (went_down(Button::left_stick, sample, state.last)) state.fine = !state.fine;
   const Scaled s = scaled(settings, sample, state);
   const bool tapped = right_tapped(settings, sample, state);
+  const bool with_left = sample.left_button || state.last.left_button;  // who lets both go at once locks, too
   const bool trigger =
       sample.gamepad.left_trigger > kTriggerPressed && !(state.last.gamepad.left_trigger > kTriggerPressed);
-  const bool jaws = state.led == kScope || !state.valves[state.led];
+  const bool valves = state.led != kScope && state.valves[state.led];
+  const bool jaws = state.led == kScope || !(valves || state.electrode[state.led]);
   HandCommand command;
   command.led = state.led;
   command.rack = sample.pressed.has(Key::x) || (sample.middle_button && !state.last.middle_button) ||
-                 went_down(Button::y, sample, state.last) || (tapped && jaws && !sample.left_button);
+                 went_down(Button::y, sample, state.last) || (tapped && !valves && !with_left);
   command.insert = sample.pressed.has(Key::v) || went_down(Button::x, sample, state.last);
   command.wipe = sample.held.has(Key::t) || sample.pressed.has(Key::t) || sample.gamepad.has(Button::b);
   command.declare = sample.held.has(Key::k) || sample.pressed.has(Key::k);
@@ -276,15 +291,17 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
   if (state.led == kScope) {
     command.scope = scope_motion(settings, sample, s);
   } else {
-    if (jaws && (sample.pressed.has(Key::space) || trigger || (tapped && sample.left_button))) toggle_ratchet(state);
+    if (jaws && (sample.pressed.has(Key::space) || trigger || (tapped && with_left))) toggle_ratchet(state);
     HandSample steered = sample;
-    steered.right_button &= jaws;
+    steered.right_button &= !valves;
     command.tip = tip_motion(settings, steered, s);
     command.roll = roll_of(settings, steered, s);
     if (jaws)
       move_handle(settings, sample, s.seconds, state);
-    else
+    else if (valves)
       open_valves(sample, state, command);
+    else
+      press_switches(sample, state, command);
   }
   state.last = sample;
   return command;

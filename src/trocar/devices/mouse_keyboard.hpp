@@ -177,6 +177,9 @@ struct HandState {
   std::array<bool, kMaxHands> ratchet{};  ///< holds the handle when it is released
   /// Set by the program: this instrument has valves in place of jaws, so that what closes jaws opens them.
   std::array<bool, kMaxHands> valves{};
+  /// ... this one is bare metal without jaws, a hook: what closes jaws coagulates, what locks them cuts, while it is
+  /// held. A thumb on a stick, a hand on arrow keys could press no foot switch meanwhile.
+  std::array<bool, kMaxHands> electrode{};
   bool opening = false;   ///< the led handle was let go: it opens. A hand that was only chosen keeps its grip.
   bool fine = false;      ///< every motion is a fine one, as with Shift held
   bool waiting = false;   ///< what was already squeezed when this one was chosen must be let go first

@@ -60,12 +60,12 @@ bool wakes(const RigidModels& models, const Rigid::States& states, size_t i, con
 
 /// Who wakes one may have been woken by a third.
 void find_awake(const RigidModels& models, const Rigid::States& states, RigidWork& work) noexcept {
-  for (size_t i = 0; i < states.size(); ++i) work.awake[i] = states[i].still < kSleeps;
+  for (size_t i = 0; i < states.size(); ++i) work.awake[i] = !states[i].inside() && states[i].still < kSleeps;
   for (const RigidBed& bed : work.beds) work.awake[size_t(bed.body)] = true;  // tissue never lies quite still
   for (bool more = true; more;) {
     more = false;
     for (size_t i = 0; i < states.size(); ++i)
-      if (!work.awake[i] && wakes(models, states, i, work)) {
+      if (!work.awake[i] && !states[i].inside() && wakes(models, states, i, work)) {
         work.awake[i] = true;
         more = true;
       }
@@ -144,7 +144,8 @@ void note_holds(double h, RigidWork& work) noexcept {
 
 Rigid::States Rigid::start(const Models& models) {
   States states;
-  for (const RigidModel& m : models.list) states.push_back({m.place, m.turn, {0, 0, 0}, {0, 0, 0}, 0});
+  for (const RigidModel& m : models.list)
+    states.push_back({m.place, m.turn, {0, 0, 0}, {0, 0, 0}, m.inside >= 0 ? -1.0 : 0.0});
   return states;
 }
 

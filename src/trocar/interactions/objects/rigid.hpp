@@ -38,6 +38,7 @@ struct RigidModel {
   double reach = 0;          ///< of the farthest bead's surface from its middle [m]
   double friction = 0;       ///< Coulomb's coefficient
   bool closed = false;       ///< the last bead's neighbour is the first
+  std::int32_t inside = -1;  ///< the membrane that it lies in at the start; -1: none
   Vec3d pebble{0, 0, 0};     ///< of a pebble: half its diameters along its axes [m]; zero: a ring or a line
   std::vector<Vec3d> beads;  ///< middles, from its own [m]
   std::vector<Vec3d> grips;  ///< places of its surface that jaws hold [m]
@@ -49,7 +50,8 @@ struct RigidModel {
     v("name", s.name, core::kNotHashed), v("look", s.look, core::kNotHashed), v("mass", s.mass),
         v("inertia", s.inertia), v("radius", s.radius), v("reach", s.reach), v("friction", s.friction),
         v("closed", s.closed), v("pebble", s.pebble, core::only_if(s.pebble.x > 0)), v("beads", s.beads),
-        v("grips", s.grips), v("place", s.place), v("turn", s.turn);
+        v("grips", s.grips), v("place", s.place), v("turn", s.turn),
+        v("inside", s.inside, core::only_if(s.inside >= 0));
   }
 };
 struct RigidModels {
@@ -68,6 +70,9 @@ struct RigidState {
   Quatd q;           ///< its own axes -> the scene's
   Vec3d v, w;        ///< [m/s], [rad/s] about the scene's axes
   double still = 0;  ///< for how long it has lain still; it sleeps then until something comes near that moves [s]
+
+  /// `still` below 0: it lies in a pouch, moves with that and meets nothing.
+  bool inside() const noexcept { return still < 0; }
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>

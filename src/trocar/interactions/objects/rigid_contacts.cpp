@@ -201,7 +201,7 @@ void find_contacts(const RigidModels& models, const Rigid::States& states, doubl
   for (size_t i = 0; i < states.size(); ++i) {
     if (work.awake[i]) finder.at_walls(i), finder.at_rods(i);
     for (size_t j = i + 1; j < states.size(); ++j)
-      if (work.awake[i] || work.awake[j]) finder.at_other(i, j);
+      if ((work.awake[i] || work.awake[j]) && !states[i].inside() && !states[j].inside()) finder.at_other(i, j);
   }
   finder.at_beds();
 }

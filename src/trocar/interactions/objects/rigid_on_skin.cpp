@@ -41,7 +41,7 @@ void rest_on_skin(const RigidModels& models, const Rigid::States& states, const 
   for (size_t i = 0; i < states.size(); ++i) {
     const RigidModel& m = models.list[i];
     const Vec3d middle = states[i].x;
-    if (!surface.pose->bounds.reaches(middle, m.reach + kBedAhead)) continue;
+    if (states[i].inside() || !surface.pose->bounds.reaches(middle, m.reach + kBedAhead)) continue;
     const int near = nearest_vertex_near(surface, middle, m.reach + kFarthestContact);
     if (near < 0 || surface.torn(near)) continue;
     for (size_t b = 0; b < m.beads.size(); ++b)

@@ -6,6 +6,8 @@
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile_doubts.hpp>
+#include <trocar/scene/compile/mesh_cost.hpp>
+#include <trocar/sim/model/bodies.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -62,6 +64,29 @@ void tell_inside(const Inside& found, const core::Location& at, const std::strin
                        what, 1e3 * found.depth, found.name, 1e3 * found.at.x, 1e3 * found.at.y, 1e3 * found.at.z)});
 }
 
+/// Sub-steps of a solid organ as it was built; 0: there is none of this name.
+int substeps_of(const sim::Model& model, const std::string& name) {
+  return sim::visit(
+      model, sim::body_of(model, name), 0,
+      sim::Overloaded{[&](sim::SolidRef r) { return model_of(model, r).network.substeps; },
+                      [&](sim::CuttableRef r) { return model_of(model, r).body.substeps; }, [](auto) { return 0; }});
+}
+
+void find_slivers(const Description& d, const Solid& solid, const sim::Model& model, std::vector<core::Fault>& doubts) {
+  if (solid.tets->label > 0 || solid.tets->refill > 0) return;
+  const int substeps = substeps_of(model, solid.name);
+  if (substeps < kManySubsteps) return;
+  for (const Tissue& tissue : d.tissues) {
+    if (tissue.name != solid.tissue) continue;
+    MeshCost now = cost_of(solid.tets->mesh, tissue);
+    now.substeps = substeps;  // with its anchors and fibres
+    now.tick = tick_of(now.springs, substeps);
+    if (const std::optional<Refill> refill = refill_of(solid.tets->mesh, tissue, now))
+      doubts.push_back({solid.at, fmt::format("the mesh '{}' of '{}' has {}", solid.tets->file, solid.name,
+                                              in_words(solid.tets->mesh, now, *refill))});
+  }
+}
+
 void find_tips(const Description& d, const sim::Model& model, std::vector<core::Fault>& doubts) {
   size_t hand = 0;
   for (const Placement& p : d.placements) {
@@ -84,11 +109,13 @@ void find_tips(const Description& d, const sim::Model& model, std::vector<core::
 }  // namespace
 
 void find_doubts(const Description& d, const sim::Model& model, std::vector<core::Fault>& doubts) {
-  for (const Solid& solid : d.solids)
-    if (solid.tets)
-      for (const std::string& doubt : solid.tets->doubts)
-        doubts.push_back(
-            {solid.at, fmt::format("the mesh '{}' of '{}' is not sound; {}", solid.tets->file, solid.name, doubt)});
+  for (const Solid& solid : d.solids) {
+    if (!solid.tets) continue;
+    for (const std::string& doubt : solid.tets->doubts)
+      doubts.push_back(
+          {solid.at, fmt::format("the mesh '{}' of '{}' is not sound; {}", solid.tets->file, solid.name, doubt)});
+    find_slivers(d, solid, model, doubts);
+  }
   find_tips(d, model, doubts);
 }
 

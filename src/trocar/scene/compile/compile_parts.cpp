@@ -79,7 +79,9 @@ bool few_substeps(const Solid& solid, int substeps, std::vector<core::Fault>& fa
   if (substeps <= tissue::kMostSubsteps) return true;
   faults.push_back({solid.at, "expected '" + solid.name + "' to need at most " + std::to_string(tissue::kMostSubsteps) +
                                   " sub-steps a tick, got " + std::to_string(substeps) +
-                                  " (larger cells, a softer tissue or a smaller strain_cap need fewer)"});
+                                  (solid.tets && solid.tets->label == 0 && !(solid.tets->refill > 0)
+                                       ? " (\"refill_mm\" fills its surface with cells that need fewer)"
+                                       : " (larger cells, a softer tissue or a smaller strain_cap need fewer)")});
   return false;
 }
 

@@ -146,6 +146,20 @@ tissue::MembraneModel build_wall(const tissue::MembraneDescription& d, std::vect
   return std::move(wall.model);
 }
 
+/// The duct opens into it with the end that is nearer to its wall.
+void find_duct(const Pouch& pouch, const std::vector<Vec3d>& wall, const sim::Model& model, sim::MembraneBody& out) {
+  if (pouch.duct.empty()) return;
+  out.duct = model.strand_index(pouch.duct);
+  if (out.duct < 0) return;
+  const std::vector<Vec3d>& rest = model.strand_bodies[size_t(out.duct)].model.rest;
+  const auto away = [&wall](Vec3d end) {
+    double least = 1e9;
+    for (const Vec3d& p : wall) least = std::min(least, length(p - end));
+    return least;
+  };
+  out.duct_at_start = away(rest.front()) < away(rest.back());
+}
+
 }  // namespace
 
 void compile_pouch(const Pouch& pouch, const Tissue& tissue, const Description& scene, sim::Model& model,
@@ -185,6 +199,7 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, const Description& 
   out.skin = skin_of(out.sheet);
   out.pinch_reach = kPinchReach * pouch.spacing;
   out.depth.assign(size_t(out.sheet.nodes()), 0.0f);
+  find_duct(pouch, d.positions, model, out);
   if (report) add_report(out, *report);
   model.membranes.push_back(std::move(out));
   std::move(bonds.begin(), bonds.end(), std::back_inserter(model.bonds));

@@ -70,6 +70,7 @@ struct Anchor {
 struct TetSource {
   std::string file;                 ///< as named, relative to the file that names it
   double unit = 1e-3;               ///< of a mesh's coordinates [m]
+  double refill = 0;                ///< cubes with whose tetrahedra a mesh's surface is filled anew [m]; 0: as it is
   int label = 0;                    ///< of voxels; 0: a mesh
   int smoothing = 1;                ///< of the label's steps, in passes
   Vec3d place;                      ///< where the file's origin goes [m]
@@ -210,6 +211,7 @@ struct Pouch {
   Contents contents;
   bool cuttable = true;
   bool free = false;  ///< nothing holds it: it lies where it is put
+  std::string duct;   ///< the strand whose lumen opens into it; empty: none
   core::Location at, spacing_at;
 };
 

@@ -296,7 +296,11 @@ const Table<Pouch>& pouch() {
          return p.contents.kind != Contents::nothing;
        }),
        R::flag("cuttable", &Pouch::cuttable, "default {}"),
-       R::flag("free", &Pouch::free, "nothing holds it: it lies where it is put; default {}")},
+       R::flag("free", &Pouch::free, "nothing holds it: it lies where it is put; default {}"),
+       R::ref(
+           "duct", Reference::To::strand, &Pouch::duct,
+           "the strand whose lumen opens into it, with the end that is nearer: parted without a clip, it lets out what "
+           "is inside; default: none")},
       check_pouch};
   return table;
 }

@@ -47,6 +47,8 @@ const Table<TetSource>& tet_mesh() {
       "mesh",
       "Tetrahedra from a file: Gmsh .msh or legacy VTK.",
       {file_row(), R::number("unit_mm", units::mm, &TetSource::unit, 1e-6, 1e6, "unit of its coordinates, default {}"),
+       R::number("refill_mm", units::mm, &TetSource::refill, 0, 100,
+                 "its surface is filled anew with tetrahedra in cubes of this size, default {}: the file's cells"),
        place_row()}};
   return table;
 }

@@ -13,6 +13,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
+double volume_of(const geometry::TetMesh& mesh) {
+  double sum = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) sum += geometry::volume(mesh, int(c));
+  return sum;
+}
+
+/// The mesh's surface filled anew: what was said of its cells is said of none that are left. Throws
+/// std::invalid_argument where the surface is open, or finer than the cubes.
+void refill(TetSource& source) {
+  constexpr double kKept = 0.95;  // of its volume; what is thinner than a cube and a half is lost
+  const double before = volume_of(source.mesh);
+  geometry::TetMesh filled = geometry::stuffed(geometry::surface_of(source.mesh).mesh, source.refill,
+                                               {.most_cells = kMaxSolidCells, .largest_part = true});
+  const double after = volume_of(filled);
+  source.doubts.clear();
+  if (after < kKept * before || after > before / kKept)
+    source.doubts.push_back(fmt::format("filled anew it holds {:.3g} of {:.3g} ml: a smaller \"refill_mm\" keeps more",
+                                        1e6 * after, 1e6 * before));
+  source.mesh = std::move(filled);
+}
+
 void take(const JsonObject& o, TetSource source, Solid& s) {
   if (source.mesh.cells.empty()) return o.fault("file", "expected cells with a volume, got flat ones only");
   if (source.mesh.points.size() > std::size_t(kMaxSolidNodes) || source.mesh.cells.size() > std::size_t(kMaxSolidCells))
@@ -63,9 +84,12 @@ void Reading::mesh_of(const JsonObject& o, TetSource source, const fs::path& fol
     for (const geometry::Mended& m : repaired.mended) source.doubts.push_back("mended: " + geometry::in_words(m));
     for (const std::string& left : geometry::left_as_is(repaired.mesh)) source.doubts.push_back("not mended: " + left);
     source.mesh = std::move(repaired.mesh);
+    if (source.refill > 0) refill(source);
   } catch (const core::BadInput& e) {
     for (const core::Fault& f : e.faults()) tell(m_faults, f);
     return;
+  } catch (const std::invalid_argument& e) {
+    return o.fault("refill_mm", fmt::format("expected cubes that fill the mesh's surface, got: {}", e.what()));
   }
   take(o, std::move(source), s);
 }

@@ -29,7 +29,10 @@ const Shape& rigid_shape() {
        keys::number("thick_mm", 0.5, 50, "diameter of what a ring or a line is made of"),
        needed(keys::number("mass_g", 0.05, 1000, "")),
        keys::number("friction", 0, 2, "Coulomb's coefficient on walls, instruments and others, default 0.3"),
-       needed(keys::vec3("at_mm", -kFar, kFar, "its middle, at the start")),
+       keys::vec3("at_mm", -kFar, kFar, "its middle, at the start; needed but for a stone in a pouch"),
+       keys::text(
+           "in",
+           "of a pebble: the pouch that it lies in, until a hole is wide enough for it to fall out; default none"),
        keys::vec3("axis", -1, 1, "of the ring, default (0, 0, 1); of others: their frame's z")}};
   return shape;
 }
@@ -109,6 +112,18 @@ RigidModel compiled(const RigidSetting& s) {
   return m;
 }
 
+/// In the middle of a pouch's volume as drawn.
+void put_in(const RigidSetting& s, const sim::Model& model, RigidModel& m, std::vector<core::Fault>& faults) {
+  const int pouch = model.membrane_index(s.pouch);
+  if (pouch < 0 || !model.membranes[std::size_t(pouch)].sheet.closed()) {
+    faults.push_back({s.at, "expected the name of a pouch that '" + s.name + "' lies in, got \"" + s.pouch + "\""});
+    return;
+  }
+  m.inside = pouch;
+  const tissue::MembraneModel& sheet = model.membranes[std::size_t(pouch)].sheet;
+  m.place = tissue::enclosed_volume(sheet.triangles, sheet.network.rest, {}).centre;
+}
+
 }  // namespace
 
 Key RigidScene::row() {
@@ -129,6 +144,7 @@ RigidSetting RigidScene::read(const JsonObject& o) {
   s.friction = o.number("friction", s.friction);
   s.place = o.vec3("at_mm") / 1000.0;
   s.axis = o.vec3("axis", s.axis);
+  s.pouch = o.text("in", "");
   s.at = o.at();
   s.text = o.value();
   const int shapes = int(o.names("outer_mm")) + int(o.names("line_mm")) + int(o.names("pebble_mm"));
@@ -142,6 +158,10 @@ RigidSetting RigidScene::read(const JsonObject& o) {
     o.fault("pebble_mm", "expected the widest diameter first and the smallest last, got another order");
   if (s.outer > 0 && s.outer < 2.5 * s.thick)
     o.fault("outer_mm", "expected a ring with a hole, at least 2.5 times as wide as it is thick, got a narrower one");
+  if (o.names("in") && !o.names("pebble_mm")) o.fault("in", "expected a pebble in a pouch, got another shape");
+  if (o.names("in") == o.names("at_mm"))
+    o.fault(o.at(), "expected at_mm for what lies free, and for this alone, got " +
+                        std::string(o.names("in") ? "it for what lies in a pouch" : "none"));
   if (!(length(s.axis) > 1e-6)) o.fault("axis", "expected a direction, got none");
   return s;
 }
@@ -151,12 +171,13 @@ void RigidScene::bend(std::vector<Setting>& settings, const std::function<Vec3d(
     if (s.pebble.x > 0) s.place = warp(s.place);
 }
 
-void RigidScene::compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>&) {
+void RigidScene::compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>& faults) {
   if (settings.empty()) return;
   interactions::RigidModels& out = interactions::part_of<interactions::Rigid>(model.objects);
   double thickest = 0;
   for (const RigidSetting& s : settings) {
     out.list.push_back(compiled(s));
+    if (!s.pouch.empty()) put_in(s, model, out.list.back(), faults);
     thickest = std::max(thickest, s.thick);
   }
   std::vector<const tissue::Skin*> walls;

@@ -24,6 +24,7 @@ struct RigidSetting {
   double friction = 0.3;     ///< Coulomb's coefficient
   Vec3d place;               ///< of its middle [m]
   Vec3d axis{0, 0, 1};       ///< of a ring; of others: where its z points
+  std::string pouch;         ///< what it lies in; empty: it lies free
   core::Location at;
   JsonValue text;  ///< as it was read
 };

@@ -58,7 +58,7 @@ void look_at_rigids(const StepContext& c, const BagModel& m, BagWork& w) noexcep
          0.5 * (models[i].radius + models[i].reach),
          std::max(interactions::kLightest, m.mass / models[i].mass),
          false};
-    b.near = w.bounds.reaches(b.x, kNearBag);
+    b.near = !states[i].inside() && w.bounds.reaches(b.x, kNearBag);
     if (is_held(c, BodyId(BodyKind::rigid, i))) b.light = 0;
   }
 }
@@ -95,7 +95,7 @@ void move_stones(StepContext& c, const BagModel& m, const BagState& s, const Bag
   auto& states = interactions::part_of<Rigid>(c.state.objects);
   for (size_t i = 0; i < size_t(m.rigids); ++i) {
     const Vec3d moved = w.bodies[i].moved;
-    const bool touched = !(moved == Vec3d{});
+    const bool touched = !(moved == Vec3d{}) && !states[i].inside();
     if (touched) {
       states[i].x += moved;
       states[i].v = speed_after(w.bodies[i], kTick);

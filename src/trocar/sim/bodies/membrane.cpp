@@ -3,6 +3,7 @@
 #include <trocar/sim/bodies/carrying.hpp>
 #include <trocar/sim/bodies/containment.hpp>
 #include <trocar/sim/bodies/membrane.hpp>
+#include <trocar/sim/bodies/spilling.hpp>
 #include <trocar/sim/bodies/turns.hpp>
 #include <trocar/tissue/failure/overstretch.hpp>
 
@@ -61,6 +62,7 @@ void advance(StepContext& c, MembraneRef r) noexcept {
   c.work.membrane_reports[i] = tissue::advance(m.sheet, c.work.targets[i], loads.sorted, loads.reaction,
                                                c.state.membranes[i], c.work.membrane_work[i]);
   c.work.leaks[i] = tissue::leak(m.sheet, c.state.torn[i], c.work.membrane_work[i], c.state.membranes[i]);
+  c.work.leaks[c.model.membranes.size() + i] = leak_by_duct(c, r);
   carry_along(c, {r.id(), c.work.sheets[i].surface, c.state.torn[i], m.sheet.network.fixed, m.sheet.thickness,
                   c.work.sheet_gaps.data() + i, c.model.membranes.size(), c.state.membranes[i].network.nodes});
 }

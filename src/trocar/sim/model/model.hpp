@@ -163,9 +163,12 @@ struct MembraneBody {
   std::vector<float> depth;                     ///< (nodes) way from the strand's surface, as drawn [m]
   std::vector<interactions::BorderHold> holds;  ///< (held nodes)
   double failure_strain = 0;                    ///< 0: it never tears
+  std::int32_t duct = -1;                       ///< of a pouch: the strand whose lumen opens into it; -1: none
+  bool duct_at_start = false;                   ///< with the strand's beginning; else with its end
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
+    v("duct", s.duct, core::only_if(s.duct >= 0)), v("duct_at_start", s.duct_at_start, core::only_if(s.duct >= 0));
     v("sheet", s.sheet), v("skin", s.skin), v("strand", s.strand), v("cuttable", s.cuttable), v("depth", s.depth),
         v("pinch_reach", s.pinch_reach), v("failure_strain", s.failure_strain), v("holds", s.holds),
         v("name", s.name, core::kNotHashed), v("look", s.look, core::kNotHashed),

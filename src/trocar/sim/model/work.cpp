@@ -116,7 +116,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
   w.sheets.resize(model.membranes.size());
   w.sheet_gaps.resize(model.hands.size() * model.membranes.size());
   w.membrane_reports.resize(model.membranes.size());
-  w.leaks.resize(model.membranes.size());
+  w.leaks.resize(2 * model.membranes.size());
   order_bodies(model, w);
   return w;
 }

@@ -53,7 +53,7 @@ struct Work {
   std::vector<interactions::NetworkLoads> membrane_loads;
   std::vector<tissue::MembraneWork> membrane_work;
   std::vector<const tissue::MembraneModel*> membrane_models;  ///< (membranes) of the Model
-  std::vector<tissue::Leak> leaks;                            ///< (membranes) of this tick
+  std::vector<tissue::Leak> leaks;                            ///< (2 membranes) of this tick: by the wall, by the duct
   interactions::ObjectWork objects;
   std::vector<std::vector<tissue::BorderPull>> pulls;  ///< (membranes)(held nodes)
   std::vector<std::vector<Vec3d>> targets;             ///< (membranes)(held nodes)

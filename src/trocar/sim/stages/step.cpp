@@ -2,6 +2,7 @@
 #include <trocar/sim/bodies/bodies.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
 #include <trocar/sim/bodies/fat.hpp>
+#include <trocar/sim/bodies/spilling.hpp>
 #include <trocar/sim/stages/advancing.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 #include <trocar/sim/stages/contacts.hpp>
@@ -58,6 +59,7 @@ constexpr Stage kStages[] = {
     {"advance strands", advance_strands},
     {"advance organs", advance_organs},
     {"advance membranes", advance_membranes},
+    {"let stones fall", let_stones_fall},
     {"advance objects", advance_objects},
     {"hold in bags", hold_in_bags},
     {"contain", contain},

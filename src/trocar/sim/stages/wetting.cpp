@@ -34,13 +34,15 @@ void lay_out_bleeding(StepContext& c) noexcept {
 
 // What follows are in the last places: with so many wounds that they are taken it leaves with those.
 
-/// What runs out of pouches, as bile. @return the next free place, counted down
+/// What runs out of pouches by their walls and by their ducts, as bile. @return the next free place, counted down
 size_t lay_out_leaks(StepContext& c, size_t place) noexcept {
+  const size_t membranes = c.model.membranes.size();
   for (size_t i = 0; i < c.work.leaks.size() && place > 0; ++i) {
-    if (c.model.membranes[i].sheet.enclosure.kind == tissue::Enclosure::none) continue;
+    const MembraneBody& m = c.model.membranes[i % membranes];
+    if (m.sheet.enclosure.kind == tissue::Enclosure::none || (i >= membranes && m.duct < 0)) continue;
     fluids::Outlet& o = c.work.wounds[--place];
     const tissue::Leak& leak = c.work.leaks[i];
-    if (leak.picolitres == 0 || c.model.membranes[i].sheet.enclosure.kind == tissue::Enclosure::gas) continue;
+    if (leak.picolitres == 0 || m.sheet.enclosure.kind == tissue::Enclosure::gas) continue;
     o.flow.bile += leak.picolitres;
     if (o.area > 0) continue;
     o.position = vec_cast<float>(leak.place);

@@ -58,19 +58,32 @@ double bounded(double out, double pressure, const Enclosure& e, const EnclosureS
   return std::min(out, s.left * e.volume);
 }
 
-}  // namespace
-
-Leak leak(const MembraneModel& m, std::span<const std::uint8_t> parted, const MembraneWork& w,
-          MembraneState& s) noexcept {
-  if (s.enclosure.leaking == 0 || !(m.enclosure.density > 0)) return {};
-  const Hole hole = hole_of(m, parted, s);
+Leak run_out(const Hole& hole, const MembraneModel& m, const MembraneWork& w, MembraneState& s) noexcept {
   Leak out{hole.area, hole.middle, hole.normal, 0};
   const double pressure = pressure_at(hole, m, w, s);
   if (!(pressure > 0) || !(hole.area > 0)) return out;
   const double flow = kContraction * hole.area * std::sqrt(2 * pressure / m.enclosure.density);
   out.picolitres = std::int64_t(bounded(flow * m.tick, pressure, m.enclosure, s.enclosure) / kPicolitre);
-  s.enclosure.left = std::max(s.enclosure.left - kPicolitre * double(out.picolitres) / m.enclosure.volume, 0.0);
+  take_out(m, kPicolitre * double(out.picolitres), s);
   return out;
+}
+
+}  // namespace
+
+void take_out(const MembraneModel& m, double volume, MembraneState& s) noexcept {
+  s.enclosure.left = std::max(s.enclosure.left - volume / m.enclosure.volume, 0.0);
+}
+
+Leak leak_through(const MembraneModel& m, double area, Vec3d place, Vec3d direction, const MembraneWork& w,
+                  MembraneState& s) noexcept {
+  if (!(area > 0) || !(m.enclosure.density > 0)) return {};
+  return run_out({area, place, direction}, m, w, s);
+}
+
+Leak leak(const MembraneModel& m, std::span<const std::uint8_t> parted, const MembraneWork& w,
+          MembraneState& s) noexcept {
+  if (s.enclosure.leaking == 0 || !(m.enclosure.density > 0)) return {};
+  return run_out(hole_of(m, parted, s), m, w, s);
 }
 
 }  // namespace trocar::tissue

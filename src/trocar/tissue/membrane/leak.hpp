@@ -28,5 +28,14 @@ struct Leak {
 /// @param parted (triangles) 1 = cut open
 Leak leak(const MembraneModel& model, std::span<const std::uint8_t> parted, const MembraneWork& work,
           MembraneState& state) noexcept;
+/// The same through an opening that is not in the wall: the lumen of a tube that leads out of it and is open.
+/// @param area       of the lumen [m^2]
+/// @param place      of the tube's open end: the pressure is that of its height [m]
+/// @param direction  out of it, unit
+Leak leak_through(const MembraneModel& model, double area, Vec3d place, Vec3d direction, const MembraneWork& work,
+                  MembraneState& state) noexcept;
+
+/// Takes `volume` [m^3] of what is inside away, as a stone does that falls out.
+void take_out(const MembraneModel& model, double volume, MembraneState& state) noexcept;
 
 }  // namespace trocar::tissue

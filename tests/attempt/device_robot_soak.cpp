@@ -1,0 +1,25 @@
+// The hepatocystic triangle dissected by who has one gamepad, and by who has mouse and keyboard: both hands at once.
+#include <gtest/gtest.h>
+
+#include "device_robot.hpp"
+
+namespace trocar::attempt::robots {
+namespace {
+
+constexpr double kLongest = 1200;  // [s]
+
+template <class Fingers>
+void dissects() {
+  const Done done = do_with<Fingers>("cholecystectomy/calot", kLongest);
+  EXPECT_TRUE(done.finished);
+  EXPECT_TRUE(done.score.passed) << done.score.total;
+  EXPECT_EQ(done.account.exchanges, 2);
+  EXPECT_GT(done.account.share(done.account.both), 1) << "[%] of the ticks";
+}
+
+TEST(DeviceRobot, DissectsTheTriangleWithOneGamepadBothHandsAtOnce) { dissects<PadFingers>(); }
+
+TEST(DeviceRobot, DissectsTheTriangleWithMouseAndKeyboardBothHandsAtOnce) { dissects<MouseAndKeysFingers>(); }
+
+}  // namespace
+}  // namespace trocar::attempt::robots
