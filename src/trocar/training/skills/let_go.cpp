@@ -4,22 +4,41 @@
 namespace trocar::training {
 namespace {
 
-/// Opens, and holds nothing up any more.
+/// Opens, and holds nothing up any more. Where it shall draw back first, the jaws open only as far as what they hold
+/// comes free: wide open inside a fold of it they would take that along.
 class LetGo final : public Skill {
  public:
-  LetGo(const sim::Model&, const Given& given) : m_hand(given.hand()) {}
+  LetGo(const sim::Model&, const Given& given) : m_hand(given.hand()), m_back(given.number("back_mm", 0)) {}
 
  private:
+  enum Phase { kLoosen, kBack, kOpen };
+
+  void start(Operator& op, int) override { m_depth = op.tool_state(m_hand).depth - m_back; }
   Progress work(Operator& op) override {
+    constexpr double kLoose = 0.7;  // of the handle
     op.posture(m_hand).end();
     op.want(op.arm(m_hand).tip);
-    return op.arms().grip(m_hand, 0, 0.4) ? Progress::done : Progress::working;
+    if (m_back <= 0 || m_phase == kOpen) return op.arms().grip(m_hand, 0, 0.4) ? Progress::done : Progress::working;
+    if (m_phase == kLoosen) {
+      if (op.arms().grip(m_hand, kLoose, 0.4)) go(kBack);
+    } else if (op.arms().move_to_depth(m_hand, m_depth, pace::kCareful)) {
+      go(kOpen);
+    }
+    return Progress::working;
   }
   int m_hand;
+  double m_back, m_depth = 0;  ///< [m]
 };
 
 }  // namespace
 
-const SkillKind kLetGo{"let_go", "let go", {hand_parameter()}, 4, "Opens the jaws.", nothing, &making<LetGo>};
+const SkillKind kLetGo{
+    "let_go",
+    "let go",
+    {hand_parameter(), number_parameter("back_mm", "how far it draws back before the jaws open wide; 0", 0, 200)},
+    6,
+    "Opens the jaws.",
+    nothing,
+    &making<LetGo>};
 
 }  // namespace trocar::training
