@@ -33,6 +33,7 @@ struct Marked {
                        .size = 0.004,
                        .label = "",
                        .colour = "white",
+                       .look = "",
                        .at = {}});
     d.marks.push_back({.name = "stripe",
                        .on = "tube",
@@ -43,6 +44,7 @@ struct Marked {
                        .size = 0.001,
                        .label = "",
                        .colour = "black",
+                       .look = "",
                        .at = {}});
     return scene::compile(d);
   }
