@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <trocar/scene/compile/compile.hpp>
+#include <trocar/tissue/tets/tet_springs.hpp>
 
 namespace trocar::scene {
 
@@ -14,6 +15,9 @@ std::vector<int> along_curve(const std::vector<Vec3d>& points);
 /// space by the springs returned, whose stiffnesses add up to the anchor's.
 std::vector<tissue::Anchor> anchor_nodes(const Solid& solid, const std::vector<Vec3d>& positions,
                                          std::vector<std::uint8_t>& fixed, std::vector<core::Fault>& faults);
+
+/// The tissue's law for tetrahedra, without fibres and undamped.
+tissue::TetMaterial tet_material(const Tissue& tissue) noexcept;
 
 /// Spring damping that costs the time step little: a seventh of the undamped limit, but no more than the tissue's own.
 double damping_time(const tissue::NetworkDescription& undamped, double wanted);

@@ -46,13 +46,7 @@ double mean_edge(const geometry::TetMesh& mesh) {
 }
 
 tissue::TetMaterial material_of(const Solid& solid, const Tissue& tissue) {
-  tissue::TetMaterial m;
-  m.youngs_modulus = tissue.young;
-  m.poisson = tissue.poisson;
-  m.density = tissue.density;
-  m.p1 = tissue.p1;
-  m.p2 = tissue.p2;
-  m.cap = tissue.strain_cap;
+  tissue::TetMaterial m = tet_material(tissue);
   m.fibre = solid.fibre;
   m.fibre_ratio = solid.fibre_ratio;
   return m;
@@ -165,6 +159,17 @@ void add_cuttable(const Solid& solid, Draft& d, sim::Model& model, std::vector<c
 }
 
 }  // namespace
+
+tissue::TetMaterial tet_material(const Tissue& tissue) noexcept {
+  tissue::TetMaterial m;
+  m.youngs_modulus = tissue.young;
+  m.poisson = tissue.poisson;
+  m.density = tissue.density;
+  m.p1 = tissue.p1;
+  m.p2 = tissue.p2;
+  m.cap = tissue.strain_cap;
+  return m;
+}
 
 void compile_tets(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim::Model& model,
                   std::vector<core::Fault>& faults, CompileReport* report) try {

@@ -7,7 +7,6 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile_parts.hpp>
 #include <trocar/scene/compile/mesh_cost.hpp>
-#include <trocar/tissue/tets/tet_springs.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -31,14 +30,7 @@ double cube_for(const geometry::TetMesh& mesh) {
 double tick_of(int springs, int substeps) noexcept { return kSpringTime * double(springs) * double(substeps); }
 
 MeshCost cost_of(const geometry::TetMesh& mesh, const Tissue& tissue) {
-  tissue::TetMaterial m;
-  m.youngs_modulus = tissue.young;
-  m.poisson = tissue.poisson;
-  m.density = tissue.density;
-  m.p1 = tissue.p1;
-  m.p2 = tissue.p2;
-  m.cap = tissue.strain_cap;
-  tissue::NetworkDescription n = tissue::tet_network(mesh.points, mesh.cells, m).network;
+  tissue::NetworkDescription n = tissue::tet_network(mesh.points, mesh.cells, tet_material(tissue)).network;
   n.global_damping = 1.0;
   const double damping = damping_time(n, tissue.damping_ms * 1e-3);
   for (tissue::SpringDescription& s : n.springs) s.damping = damping * s.k;
