@@ -197,6 +197,50 @@ TEST_F(ExerciseFile, AFileThatIsNotThereIsSaid) {
   EXPECT_THROW(read_exercise("/nowhere/exercise.json"), core::BadInput);
 }
 
+// ---- steps that common rules bring along ----------------------------------------------------------------------------
+
+class CommonSteps : public ExerciseFile {
+ protected:
+  /// With a file of one step more, included.
+  Exercise read_with(const std::string& step, Faults& found) {
+    change("\"includes\": [", "\"includes\": [\"part.json\", ");
+    scene::MemoryFiles files = *files_with(m_text);
+    files[kPart] =
+        R"({"format": 3, "title": "A part", "limits": {"part_s": {"value": 2, "source": "ours"}}, "steps": [)" + step +
+        "]}";
+    return read_exercise(kChanged, found, &files);
+  }
+  static constexpr const char* kPart = "scenes/changed/part.json";
+  static constexpr const char* kStep =
+      R"({"step": "part", "title": "A part", "when": {"fact": "blood.flow_mL_min", "max": 1}, "for_s": "$part_s"})";
+};
+
+TEST_F(CommonSteps, StandBeforeTheExercisesOwn) {
+  const Exercise base = read_exercise(kChanged, files_with(m_text));
+  Faults found;
+  const Exercise e = read_with(kStep, found);
+  ASSERT_TRUE(found.empty()) << found[0].message;
+  ASSERT_EQ(e.steps.size(), base.steps.size() + 1);
+  EXPECT_EQ(e.steps[0].name, "part");
+  EXPECT_EQ(e.steps[1].name, base.steps[0].name);
+}
+
+TEST_F(CommonSteps, HaveFaultsWhereTheyStand) {
+  Faults found;
+  read_with(R"({"step": "part", "title": "A part", "when": {"fact": "hand.grabs"}, "for_s": "$part_s"})", found);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].at.file, kPart);
+}
+
+TEST_F(CommonSteps, AreEachThereOnce) {
+  Faults found;
+  read_with(
+      R"({"step": "cut", "title": "A part", "when": {"fact": "blood.flow_mL_min", "max": 1}, "for_s": "$part_s"})",
+      found);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].message.find("each step once"), std::string::npos) << found[0].message;
+}
+
 // ---- an exercise that is like another one ---------------------------------------------------------------------------
 
 class LikeAnother : public ExerciseFile {

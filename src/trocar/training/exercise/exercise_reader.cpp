@@ -41,7 +41,7 @@ class ExerciseReader {
     RuleFiles rules(m_exercise, m_faults);
     includes(rules);
     rules.read({said("limits").o, said("sets").o, said("errors").o}, true);
-    steps();
+    own_steps();
     const JsonObject& detailed = said("details").o;
     for (const JsonObject& d : detailed.objects("details"))
       m_exercise.details.push_back({d.value(), detailed.at().file});
@@ -154,21 +154,26 @@ class ExerciseReader {
       if (document.root.kind == JsonValue::Kind::broken) continue;
       const JsonObject common(document.root, common_rules_shape(), document.file, m_faults);
       rules.read({common, common, common}, false);
+      steps(common);
     }
   }
 
-  void steps() {
-    const JsonObject& o = said("steps").o;
+  void steps(const JsonObject& o) {
     const std::string file = o.at().file;
-    double weights = 0;
     for (const JsonObject& s : o.objects("steps")) {
       StepText text{s.text("step"),        s.text("title"),    s.text("hint"),   s.text("for_each"),
                     s.number("weight", 1), s.flag("optional"), {s.value(), file}};
       if (m_exercise.step(text.name)) s.fault("step", "expected each step once, got \"" + text.name + "\" again");
-      weights += text.weight;
       m_exercise.steps.push_back(std::move(text));
     }
-    if (o.has("steps") && weights <= 0) o.fault("steps", "expected a weight above 0, got none");
+  }
+  /// They come after those of included files.
+  void own_steps() {
+    const JsonObject& o = said("steps").o;
+    steps(o);
+    const auto weighs = [](const StepText& s) { return s.weight > 0; };
+    if (o.has("steps") && std::none_of(m_exercise.steps.begin(), m_exercise.steps.end(), weighs))
+      o.fault("steps", "expected a weight above 0, got none");
   }
 
   void bounds() {

@@ -113,12 +113,13 @@ const Shape& exercise_shape() {
 
 const Shape& common_rules_shape() {
   static const Shape shape{"common rules",
-                           "Limits and errors that exercises include and may make stricter.",
+                           "Limits, steps and errors that exercises include; errors and limits they may make stricter.",
                            {keys::text("$schema", "where editors find this kind of file's schema"), keys::format(3),
                             needed(keys::text("title", "for people")),
                             keys::any("limits", "as of an exercise, with the way in which each is stricter"),
                             keys::any("sets", "as of an exercise; an exercise may have its own instead"),
-                            keys::objects("errors", error_shape, 1, "as of an exercise"),
+                            keys::objects("steps", step_shape, 0, "as of an exercise, before its own; default none"),
+                            keys::objects("errors", error_shape, 0, "as of an exercise, default none"),
                             keys::texts("sources", "the publications that are named")}};
   return shape;
 }
