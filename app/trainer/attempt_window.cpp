@@ -17,6 +17,10 @@
 #include "shell/display_panel.hpp"
 #include "shell/layout_panel.hpp"
 #include "shell/ui.hpp"
+#include "trainer/guidance.hpp"
+#include "trainer/panel.hpp"
+#include "trainer/rack.hpp"
+#include "trainer/result.hpp"
 
 namespace trocar::app {
 

@@ -8,10 +8,11 @@
 #include <trocar/attempt/attempt_log.hpp>
 #include <trocar/attempt/hand_pilot.hpp>
 #include <trocar/attempt/live.hpp>
+#include <trocar/training/exercise/outlook.hpp>
 
 #include "shell/panes.hpp"
+#include "trainer/choice.hpp"
 #include "trainer/feedback.hpp"
-#include "trainer/panel.hpp"
 #include "trainer/trainer_window.hpp"
 
 namespace trocar::app {

@@ -1,5 +1,9 @@
 #include "trainer/feedback.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
 #include <trocar/attempt/hand_names.hpp>
 
 namespace trocar::app {
@@ -29,6 +33,11 @@ const Kind kKinds[] = {
 };
 
 }  // namespace
+
+std::string clock_text(double seconds) {
+  const int whole = int(std::max(0.0, seconds));
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
 
 const Notice* Feedback::push(Notice notice) {
   if (m_notices.size() >= kMost) m_notices.erase(m_notices.begin());

@@ -43,6 +43,9 @@ class Feedback {
   std::vector<Notice> m_notices;
 };
 
+/// Seconds of an attempt as minutes and seconds, "2:07".
+std::string clock_text(double seconds);
+
 /// Tells when to warn of a pull that comes near its limit: at once, then every so often as long as it lasts.
 class PullWarning {
  public:

@@ -11,7 +11,7 @@
 
 #include "shell/mirror.hpp"
 #include "shell/ui.hpp"
-#include "trainer/panel.hpp"
+#include "trainer/guidance.hpp"
 #include "trainer/start_screen.hpp"
 
 namespace trocar::app {
