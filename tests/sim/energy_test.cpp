@@ -426,7 +426,7 @@ TEST(Energy, WhatIsCoagulatedGivesWayLessUnderTheSameWire) {
   for (const Scar& scar : burnt.scars) {
     const size_t s = size_t(scar.spring);
     const double k = tissue::spring_stiffness(small::energy().solids[0].network, scar.spring);
-    heavier += 2 * 2 * (double(scar.stiff) - 1) * k * kTick * kTick;
+    heavier += 2 * 4 * (double(scar.stiff) - 1) * k * kTick * kTick;
     before += std::fabs(raw.more[s] - raw.less[s]);
     after += std::fabs(burnt.more[s] - burnt.less[s]);
     stiff += double(scar.stiff) / double(burnt.scars.size());

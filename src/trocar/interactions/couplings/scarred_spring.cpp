@@ -3,6 +3,11 @@
 #include <trocar/interactions/couplings/scarred_spring.hpp>
 
 namespace trocar::interactions {
+namespace {
+
+constexpr double kHeld = 4;  // 2 lets a curved wall with stiff and raw springs side by side shake for ever
+
+}  // namespace
 
 void pull_scarred(const tissue::NodeView& nodes, const ScarredSpring& s, double tick, NetworkLoads& loads) noexcept {
   const Vec3d apart = nodes.position(s.b) - nodes.position(s.a);
@@ -10,7 +15,7 @@ void pull_scarred(const tissue::NodeView& nodes, const ScarredSpring& s, double 
   if (!(s.k > 0) || now < 0.25 * s.l) return;
   const Vec3d along = apart / now, mean = 0.5 * (nodes.velocity(s.a) + nodes.velocity(s.b));
   const double k = s.k * (s.stiff - 1), force = k * now - s.k * (s.stiff * s.share - 1) * s.l;
-  const double holds = 2 * k * tick, holds_across = 2 * std::fabs(force) / now * tick;
+  const double holds = kHeld * k * tick, holds_across = kHeld * std::fabs(force) / now * tick;
   const auto pull = [&](int own, double inwards) {
     tissue::NodeLoad load;
     load.node = own;
