@@ -88,14 +88,23 @@ class PutInBag final : public Skill {
     } else if (m_phase == kIn) {
       if (op.arms().move(m_hand, mouth - m_deep * up, pace::kCareful)) go(kLetGo);
     } else if (m_phase == kLetGo) {
-      if (op.arms().grip(m_hand, 0, 0.5) && m_in_phase > 0.7) go(kBack);
+      loosen(op);
     } else if (m_phase == kBack) {
+      op.arms().grip(m_hand, m_loose, 0.5);
       if (op.arms().move(m_hand, over, pace::kCareful)) go(kFalls);
     } else {
+      op.arms().grip(m_hand, 0, 0.5);
       if (share_inside(op) >= m_least) return Progress::done;
       if (m_in_phase > 1.5) return fail("it has not all come in");
     }
     return Progress::working;
+  }
+  /// Only as far as it comes free: jaws that open wide in a fold take that along.
+  void loosen(Operator& op) {
+    constexpr double kMore = 0.08;  // of the handle
+    const bool wide = op.arms().grip(m_hand, 0, 0.5);
+    m_loose = std::max(0.0, op.arm(m_hand).handle - kMore);
+    if (wide || op.tool_state(m_hand).holds == 0) go(kBack);
   }
   double share_inside(const Operator& op) const {
     const interactions::BagShare share = share_in(bag_model(op), bag_state(op), m_body);
@@ -104,6 +113,7 @@ class PutInBag final : public Skill {
 
   int m_hand;
   double m_deep, m_above, m_least;
+  double m_loose = 0;  ///< of the handle, with which it draws back
   BodyId m_body;
 };
 

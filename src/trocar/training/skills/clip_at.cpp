@@ -47,7 +47,7 @@ class ClipAt final : public Skill {
     };
     static constexpr Row kRows[] = {{15, kLeave, "it did not get there"},
                                     {8, kLeave, "the legs did not go around it"},
-                                    {13, kLeave, nullptr},  // what was amiss last
+                                    {20, kLeave, nullptr},  // what was amiss last
                                     {8, kOpen, "the clip did not close"},
                                     {4, kLeave, nullptr},
                                     {6, kLeave, nullptr}};
@@ -119,14 +119,14 @@ class ClipAt final : public Skill {
   }
 
   Progress close(Operator& op) {
-    constexpr double kTooLate = 0.9;  // of the handle: the clip is being pressed flat
+    constexpr double kTooLate = 0.95, kUnsure = 0.04;  // of the handle: the clip is being pressed flat; [s]
     look(op);
     op.from(m_seen_from);
     aim(op, 0, pace::kTrack);
     if (op.arm(m_hand).handle < kTooLate) {
       m_bad = misfit(op);
       m_steady = m_bad ? m_steady + sim::kTick : 0;
-      if (m_steady > 0.1) {
+      if (m_steady > kUnsure) {
         m_lost = m_bad;
         go(kOpen);
         return Progress::working;
@@ -165,9 +165,11 @@ class ClipAt final : public Skill {
   /// the lower leg may be seen behind the strand. With a sound clip on the strand already, as far from it as they
   /// should be apart.
   double place(Operator& op, int tries) const {
+    return m_fixed >= 0 ? m_fixed : clear_of_clips(op, wanted_place(op, tries));
+  }
+  double wanted_place(Operator& op, int tries) const {
     constexpr double kElsewhere[] = {0, 0.7, -0.7};  // of what the ranges leave
     const double shift = 0.5 * kElsewhere[tries % 3];
-    if (m_fixed >= 0) return m_fixed;
     if (m_within.given && m_apart.given)
       if (const double other = sound_clip(op); other >= 0) {
         const double apart = 0.5 * (m_apart.low + m_apart.high) + shift * (m_apart.high - m_apart.low);
@@ -176,6 +178,22 @@ class ClipAt final : public Skill {
       }
     if (m_within.given) return 0.5 * (m_within.low + m_within.high) + shift * (m_within.high - m_within.low);
     return 0.5 * m_length;
+  }
+
+  /// The nearest place where the legs cross none that are there, good or bad.
+  double clear_of_clips(Operator& op, double wanted) const {
+    constexpr double kClear = 0.0024, kStride = 0.0002, kFarthest = 0.005;  // [m]
+    const auto is_clear = [&](double s) {
+      const auto crosses = [&](const interactions::Clip& c) {
+        return c.strand == m_strand && std::fabs(c.s - s) < kClear;
+      };
+      const auto& clips = op.state().clips;
+      return s > 0 && s < m_length && std::none_of(clips.begin(), clips.begin() + op.state().clip_count, crosses);
+    };
+    for (double off = 0; off < kFarthest; off += kStride)
+      for (const double s : {wanted + off, wanted - off})
+        if (is_clear(s)) return s;
+    return wanted;
   }
 
   double sound_clip(Operator& op) const {
@@ -198,9 +216,10 @@ class ClipAt final : public Skill {
       return op.want({-3 * begin.x, begin.y, begin.z});
     }
     // If the legs' tips stay hidden: from the midline, where they are seen past the strand beside the picture's middle;
-    // then past what hangs before it, from above and from the patient's left.
+    // then past what hangs before it: from above, from the patient's left, from the right, straight from in front.
     constexpr double kPatience = 3, kAside = 0.03, kLonger = 5, kEach = 3;  // [s] [m] [s] [s]
-    constexpr Vec3d kFrom[] = {{0.16, -0.56, 0.81}, {0.55, -0.45, 0.70}};   // unit vectors
+    constexpr Vec3d kFrom[] = {
+        {0.16, -0.56, 0.81}, {0.55, -0.45, 0.70}, {-0.30, -0.45, 0.84}, {0.10, -0.25, 0.96}};  // unit vectors
     const Vec3d there = at(op);
     if (m_unseen > kLonger)
       return op.camera().view(there, kFrom[size_t((m_unseen - kLonger) / kEach) % std::size(kFrom)], m_seen_from);
