@@ -131,7 +131,8 @@ inline sim::Model untearable(sim::Model model) {
 /// What must hold of blood, water, smoke and heat whatever hands and feet do; empty: all of it does.
 inline std::string broken(const sim::Model& m, const sim::State& s) {
   if (m.wet.there && !audit(m.wet.model, s.fluids)) return "the account does not balance";
-  if (m.wet.there && s.fluids.ledger.in[size_t(fluids::Source::kBled)].blood > s.flow.bled)
+  const std::int64_t out = s.fluids.ledger.in[size_t(fluids::Source::kBled)].blood;
+  if (m.wet.there && out - m.wet.pool_at_start.blood > s.flow.bled)  // what lay there had run out before
     return "more blood than the vessels let out";
   const auto sound = [](float x) { return std::fabs(x) < 1e3f; };  // not a number is not
   const fluids::DropletState& d = s.fluids.droplets;
