@@ -112,6 +112,7 @@ struct Round {
   double most_force = 0;             ///< on any instrument, one tick [N]
   int grasps = 0, exchanges = 0, slips = 0, tears = 0;
   bool let_go = true;      ///< no instrument held or touched anything during the rest's second half
+  bool held = false;       ///< jaws held something then
   std::vector<Left> left;  ///< of every body, after the rest
   const Left& worst() const {
     return *std::max_element(left.begin(), left.end(), [](const Left& a, const Left& b) { return a.share < b.share; });
@@ -198,7 +199,10 @@ class Attack {
     for (int t = 0; t < rest; ++t) {
       tick(r);
       if (t > rest / 2)
-        for (size_t h = 0; h < m_hands.size(); ++h) r.let_go = r.let_go && free_of_tissue(m_state.tools[h]);
+        for (const interactions::ToolState& tool : m_state.tools) {
+          r.let_go = r.let_go && free_of_tissue(tool);
+          r.held = r.held || tool.holds > 0;
+        }
     }
     r.energy_left = energy(m_model, m_state) - m_rest_energy;
     for (size_t b = 0; b < m_bodies.size(); ++b) r.left.push_back(shape_left(b));
