@@ -112,6 +112,7 @@ struct Round {
   double most_force = 0;             ///< on any instrument, one tick [N]
   int grasps = 0, exchanges = 0, slips = 0, tears = 0;
   bool let_go = true;      ///< no instrument held or touched anything during the rest's second half
+  bool held = false;       ///< jaws held something then
   std::vector<Left> left;  ///< of every body, after the rest
   const Left& worst() const {
     return *std::max_element(left.begin(), left.end(), [](const Left& a, const Left& b) { return a.share < b.share; });
@@ -131,7 +132,8 @@ inline sim::Model untearable(sim::Model model) {
 /// What must hold of blood, water, smoke and heat whatever hands and feet do; empty: all of it does.
 inline std::string broken(const sim::Model& m, const sim::State& s) {
   if (m.wet.there && !audit(m.wet.model, s.fluids)) return "the account does not balance";
-  if (m.wet.there && s.fluids.ledger.in[size_t(fluids::Source::kBled)].blood > s.flow.bled)
+  const std::int64_t out = s.fluids.ledger.in[size_t(fluids::Source::kBled)].blood;
+  if (m.wet.there && out - m.wet.pool_at_start.blood > s.flow.bled)  // what lay there had run out before
     return "more blood than the vessels let out";
   const auto sound = [](float x) { return std::fabs(x) < 1e3f; };  // not a number is not
   const fluids::DropletState& d = s.fluids.droplets;
@@ -197,7 +199,10 @@ class Attack {
     for (int t = 0; t < rest; ++t) {
       tick(r);
       if (t > rest / 2)
-        for (size_t h = 0; h < m_hands.size(); ++h) r.let_go = r.let_go && free_of_tissue(m_state.tools[h]);
+        for (const interactions::ToolState& tool : m_state.tools) {
+          r.let_go = r.let_go && free_of_tissue(tool);
+          r.held = r.held || tool.holds > 0;
+        }
     }
     r.energy_left = energy(m_model, m_state) - m_rest_energy;
     for (size_t b = 0; b < m_bodies.size(); ++b) r.left.push_back(shape_left(b));

@@ -1,6 +1,7 @@
 // Hands that pull, burn, cut, spill and change instruments at random in the scenes of the gallbladder, ten simulated
 // minutes each. Whatever they do: numbers stay finite, no joule appears from nowhere, the fluids' account is exact to
 // the picolitre, and when they let go no body is left in a knot: what holds together hangs together as it was drawn.
+// Jaws that have opened hold nothing then; what a hook's foot has caught, or a tube in a tear, comes off in a round.
 // TROCAR_ABUSE_SECONDS does less of it.
 #include <cstdio>
 #include <cstdlib>
@@ -104,6 +105,7 @@ TEST_P(DigestiveAbuse, LeavesNumbersFiniteTheAccountExactAndNoBodyInAKnot) {
   const sim::Model& model = shipped(GetParam());
   abuse::Attack attack(model, 11, true);
   int done = 0;
+  bool let_go = true;
   const std::vector<size_t> order = order_of(model);
   for (size_t round = 0; attack.ticks() < ticks(); ++round) {
     const abuse::Round r = attack.round(order[round % order.size()], 5, 2500);
@@ -113,7 +115,9 @@ TEST_P(DigestiveAbuse, LeavesNumbersFiniteTheAccountExactAndNoBodyInAKnot) {
     SCOPED_TRACE(r.organ + " in round " + std::to_string(round));
     ASSERT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
     EXPECT_LT(r.most_energy, kMostEnergy) << "[J]";
-    EXPECT_TRUE(r.let_go);
+    EXPECT_FALSE(r.held);
+    EXPECT_TRUE(r.let_go || let_go);
+    let_go = r.let_go;
     EXPECT_LE(drawn.share, kMostPull) << drawn.worst << ", " << drawn.most;
     ASSERT_EQ(abuse::broken(model, attack.state()), "");
   }

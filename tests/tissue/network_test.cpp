@@ -438,6 +438,56 @@ TEST(VolumeProtection, ACornerThatSpringsHoldOnTheFarSideOfItsCellComesBack) {
   }
 }
 
+/// A block of a liver's coarse cells, held below, whose middle a blunt tip presses down and stays there.
+struct PressedLiver {
+  BoxLattice box = box_lattice(8, 8, 4, 0.009);
+  NetworkModel model;
+  NetworkState state;
+  NetworkWork work;
+  std::vector<NodeLoad> tip;
+  std::vector<Vec3f> felt;
+  double rest = 0, put_in = 0;  ///< energy as drawn, work of the tip [J]
+
+  PressedLiver() {
+    NetworkDescription d =
+        lattice_network(box.corners, box.cells, {},
+                        {.youngs_modulus = 5400, .density = 1060, .p1 = 2, .p2 = 100, .cap = 0.1, .damping_time = 6e-3})
+            .network;
+    for (int j = 0; j <= 8; ++j)
+      for (int i = 0; i <= 8; ++i) d.fixed[size_t(box.corner(i, j, 0))] = kHeld;
+    model = build(d, 1e-3);
+    state = rest_state(model);
+    work = make_work(model);
+    for (int j = 3; j <= 5; ++j)
+      for (int i = 3; i <= 5; ++i) tip.push_back({.node = box.corner(i, j, 4), .k = 1500, .dir = {0, 0, 1}, .d = 0.3f});
+    felt.resize(tip.size());
+    rest = held();
+  }
+  double held() const {
+    const NetworkEnergy e = energy(model, state);
+    return e.kinetic + e.elastic - rest;
+  }
+  bool step(double depth, double speed) {
+    for (NodeLoad& l : tip) l.x0 = vec_cast<float>(box.corners[size_t(l.node)] - Vec3d{0, 0, depth});
+    const bool fine = advance(model, tip, felt, state, work, nullptr, Hands::on).first_bad < 0;
+    for (const Vec3f& f : felt) put_in -= 1e-3 * speed * double(f.z);
+    return fine;
+  }
+};
+
+TEST(VolumeProtection, CoarseCellsThatAreKeptPressedFeedNoMotion) {
+  PressedLiver liver;
+  const double deep = 0.024, speed = deep / 0.1;
+  double most = 0;
+  for (int t = 0; t < 2000; ++t) {
+    ASSERT_TRUE(t < 100 ? liver.step(speed * 1e-3 * t, speed) : liver.step(deep, 0));
+    most = std::max(most, liver.held());
+  }
+  EXPECT_GT(liver.state.open_tets, 10u) << "cells have collapsed, or this test proves nothing";
+  EXPECT_LT(most, liver.put_in) << "[J]";
+  EXPECT_LT(energy(liver.model, liver.state).kinetic, 0.05 * liver.put_in);
+}
+
 TEST(VolumeProtection, AFoldIsNotDrivenHomeWhileHandsAreOn) {
   PushedCorner body(1);
   NetworkWork w = make_work(body.model);

@@ -9,11 +9,11 @@ namespace trocar::interactions {
 namespace {
 
 constexpr double kClear = 0.00005;   // [m] before the needle's end
-constexpr double kFarthest = 0.003;  // [m] that a node is driven at a time
+constexpr double kFarthest = 0.003;  // [m] that nodes are driven in a tick
 constexpr double kLeastFree = 0.1;   // share of a triangle's free nodes in the place that is pierced
 constexpr double kRounding = 1e-7;   // [m]
 constexpr int kMostCarried = 128;
-constexpr int kMostRounds = 16, kMostDrives = 4;
+constexpr int kMostRounds = 16;
 
 /// A point seen from the needle: how far behind its end, and off its line.
 struct Seen {
@@ -239,13 +239,17 @@ class Zone {
   }
 
   /// All of a triangle that can go has gone with the needle, and it is pierced still, as the rest of it is held: what
-  /// can go is driven on before the needle's end.
+  /// can go is driven on before the needle's end, if that is near. It is not where jaws hold the rest and the triangle
+  /// has come astride of them: a corner that had to go as far as their end would be torn through its neighbours.
   bool drive(const std::array<int, 3>& t, const Hit& hit) noexcept {
     double free = 0;
     for (std::size_t k = 0; k < 3; ++k) free += held(t[k]) ? 0.0 : hit.weights[int(k)];
-    if (free < kLeastFree || m_drives++ == kMostDrives) return false;
-    if (m_drives == 1) m_reach += kFarthest;
-    const Vec3f on = vec_cast<float>(std::min(kFarthest, (hit.deep + kClear) / free) * m_needle.dir1);
+    if (free < kLeastFree) return false;
+    const double far = (hit.deep + kClear) / free;
+    if (far > kFarthest - m_driven) return false;
+    if (m_driven == 0) m_reach += kFarthest;
+    m_driven += far;
+    const Vec3f on = vec_cast<float>(far * m_needle.dir1);
     for (const int v : t) {
       if (held(v)) continue;
       tissue::NodeState& n = node(v);
@@ -262,7 +266,8 @@ class Zone {
   const double m_tick;
   NearList m_near;
   std::array<Taken, kMostCarried> m_taken;
-  int m_count = 0, m_drives = 0;
+  int m_count = 0;
+  double m_driven = 0;  // [m]
 };
 
 Needle needle_of(Vec3d from0, Vec3d end0, Vec3d from1, Vec3d end1) noexcept {
