@@ -5,6 +5,7 @@
 
 #include <trocar/core/hash.hpp>
 #include <trocar/core/random.hpp>
+#include <trocar/geometry/surfaces/loft.hpp>
 #include <trocar/geometry/volumes/embed.hpp>
 #include <trocar/geometry/volumes/lattice.hpp>
 #include <trocar/numerics/portable.hpp>
@@ -26,6 +27,52 @@ double filled_volume(const Lattice& lattice) {
   for (double fill : lattice.cell_fill) sum += fill * lattice.cell * lattice.cell * lattice.cell;
   return sum;
 }
+/// A tube 20 mm thick in a hairpin, its legs 1 mm from each other, and how far along it each vertex is.
+struct Hairpin {
+  TriMesh mesh;
+  std::vector<double> along;
+
+  Hairpin() {
+    std::vector<Section> sections;
+    const auto add = [&](Vec3d centre, Vec3d across) { sections.push_back({centre, across, {0, 0, 0.010}}); };
+    for (int k = 0; k < 12; ++k) add({0.008 * k, 0, 0}, {0, 0.010, 0});
+    for (int k = 1; k < 6; ++k) {
+      const double turn = portable::pi * (k / 6.0 - 0.5), c = portable::cos(turn), s = portable::sin(turn);
+      add({0.088 + 0.0105 * c, 0.0105 + 0.0105 * s, 0}, {-0.010 * c, -0.010 * s, 0});
+    }
+    for (int k = 11; k >= 0; --k) add({0.008 * k, 0.021, 0}, {0, -0.010, 0});
+    double way = 0;
+    for (std::size_t i = 1; i < sections.size(); ++i) way += length(sections[i].centre - sections[i - 1].centre);
+    const Tessellation drawn = tessellate_with_parameters(loft(sections), 0.0025);
+    mesh = drawn.mesh;
+    for (const auto& uv : drawn.parameters) along.push_back(way * uv[1]);
+  }
+  /// The lattice whose parts hang together up to `apart` along it.
+  Lattice filled(double apart) const {
+    LatticeOptions options;
+    options.along = along;
+    options.apart = apart;
+    return make_lattice(mesh, 0.006, options);
+  }
+};
+/// Do cells of the two legs share a node, away from the bend?
+bool welded(const Lattice& lattice) {
+  std::vector<Vec3d> middle(lattice.cells.size());
+  for (std::size_t c = 0; c < lattice.cells.size(); ++c)
+    for (const int n : lattice.cells[c]) middle[c] += 0.125 * lattice.nodes[n];
+  const auto on_leg = [&](std::size_t c, bool second) {
+    return middle[c].x > 0.01 && middle[c].x < 0.05 && (middle[c].y > 0.0105) == second;
+  };
+  std::set<int> first;
+  for (std::size_t c = 0; c < lattice.cells.size(); ++c)
+    if (on_leg(c, false)) first.insert(lattice.cells[c].begin(), lattice.cells[c].end());
+  for (std::size_t c = 0; c < lattice.cells.size(); ++c)
+    if (on_leg(c, true))
+      for (const int n : lattice.cells[c])
+        if (first.count(n)) return true;
+  return false;
+}
+
 Mat3d some_turn() { return to_mat3(quat_from_axis_angle(Vec3d{1, 2, 3}, 0.7)); }
 
 }  // namespace
@@ -108,6 +155,46 @@ TEST(Lattice, TwoBodiesAreTwoPiecesAndAHollowOneKeepsItsHole) {
   options.least_fill = 0.0;
   const Lattice lattice = make_lattice(hollow, 0.003, options);
   EXPECT_NEAR(filled_volume(lattice) / volume(hollow), 1, 0.01);
+}
+
+TEST(Lattice, LoopsBesideEachOtherDoNotHangTogether) {
+  const Hairpin hairpin;
+  const Lattice plain = make_lattice(hairpin.mesh, 0.006), looped = hairpin.filled(0.045);
+  EXPECT_TRUE(welded(plain)) << "a gap of 1 mm between cells of 6 mm";
+  EXPECT_GT(looped.nodes.size(), plain.nodes.size() + 20);
+  EXPECT_EQ(pieces(looped), 1) << "by way of the bend";
+  EXPECT_NEAR(filled_volume(looped) / volume(hairpin.mesh), 1, 0.03);
+  for (std::size_t c = 0; c < looped.cells.size(); ++c) {
+    std::set<int> nodes(looped.cells[c].begin(), looped.cells[c].end());
+    EXPECT_EQ(nodes.size(), 8u);
+    const Vec3d place{double(looped.places[c][0]), double(looped.places[c][1]), double(looped.places[c][2])};
+    EXPECT_LT(length(looped.in_cells(looped.nodes[looped.cells[c][0]]) - place), 1e-9);
+  }
+  // what shares a node is near along the body, too
+  std::vector<double> low(looped.nodes.size(), 1), high(looped.nodes.size(), 0);
+  for (std::size_t c = 0; c < looped.cells.size(); ++c)
+    for (const int n : looped.cells[c]) {
+      low[n] = std::min(low[n], looped.cell_along[c]);
+      high[n] = std::max(high[n], looped.cell_along[c]);
+    }
+  for (std::size_t n = 0; n < looped.nodes.size(); ++n) EXPECT_LT(high[n] - low[n], 0.06) << n;
+  // and the skin follows its own loop
+  const Embedding skin = embed(looped, hairpin.mesh.positions, hairpin.along);
+  for (std::size_t i = 0; i < skin.cells.size(); ++i)
+    EXPECT_LE(std::fabs(looped.cell_along[skin.cells[i]] - hairpin.along[i]), 0.045);
+  EXPECT_LT(skin.farthest, 0.006);
+}
+
+TEST(Lattice, ABodyThatDoesNotComeNearItselfIsFilledAsWithoutWaysAlong) {
+  const Hairpin hairpin;
+  const Lattice plain = make_lattice(hairpin.mesh, 0.006), one = hairpin.filled(1.0);
+  EXPECT_EQ(one.cells, plain.cells);
+  EXPECT_EQ(one.nodes.size(), plain.nodes.size());
+  EXPECT_EQ(one.cell_fill, plain.cell_fill);
+  EXPECT_TRUE(one.cell_along.empty());
+  LatticeOptions options;
+  options.along = std::span<const double>(hairpin.along).first(3);
+  EXPECT_THROW(make_lattice(hairpin.mesh, 0.006, options), std::invalid_argument);
 }
 
 TEST(Lattice, OpenMeshesAndNonsenseCellsAreRefused) {

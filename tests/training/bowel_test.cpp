@@ -161,6 +161,26 @@ TEST(Run, FacesCountWhenTheyHaveBeenSeenWithoutABreak) {
   EXPECT_DOUBLE_EQ(share(), 2.0 / kStations);  // what was seen stays so
 }
 
+TEST(Stations, WhatJawsHoldOfTwoLoopsBeginsAndEndsFarApart) {
+  const Stations along(bowel(), stations('a'), kSpacing);
+  sim::State state = sim::initial_state(bowel());
+  interactions::ToolState& tool = state.tools[kLeftHand];
+  EXPECT_FALSE(along.held_span(state, kLeftHand));
+  const auto hold_also = [&](int station) {
+    interactions::Hold& h = tool.hold[tool.holds++];
+    h = {};
+    h.body = along.body();
+    h.element = vertex_of(stations('a')[size_t(station)]);
+  };
+  hold_also(11);
+  hold_also(12);
+  EXPECT_NEAR(along.held_span(state, kLeftHand)->from, 0.120, 1e-9);
+  EXPECT_NEAR(along.held_span(state, kLeftHand)->to, 0.130, 1e-9);
+  hold_also(22);  // the next loop: half way between the two is nothing that is held
+  EXPECT_NEAR(along.held_span(state, kLeftHand)->from, 0.120, 1e-9);
+  EXPECT_NEAR(along.held_span(state, kLeftHand)->to, 0.230, 1e-9);
+}
+
 // ---- the gut itself
 // ---------------------------------------------------------------------------------------------------
 
@@ -186,7 +206,12 @@ struct Lift {
   sim::Work work = sim::make_work(bowel());
   double most_pull = 0, nearest = 1;
 
-  Lift(int station, double up) {
+  Lift(int station, double up, const char* parted = nullptr) {
+    if (parted) {
+      const size_t band = size_t(bowel().strand_index(parted));
+      std::vector<std::uint8_t>& alive = state.strands[band].alive;
+      alive[alive.size() / 2] = 0;
+    }
     PlanTask take = PlanTask::of(kTakeHold), draw = PlanTask::of(kDraw);
     take.set_index("hand", kLeftHand).set_index("mark", stations('b')[size_t(station)]).set("deep_mm", 0.007);
     draw.set_index("hand", kLeftHand)
@@ -228,11 +253,27 @@ TEST(BowelLift, ALoopComesUpWithItsNeighboursAndIsCarriedByItsMesentery) {
   EXPECT_GT(risen(41), 0.040);
   EXPECT_GT(risen(37), 0.010);
   EXPECT_GT(risen(45), 0.010);
+  // and its neighbours are those along it: the loops beside it, and the gut's beginning, stay
+  EXPECT_LT(std::fabs(risen(10)), 0.004);
+  EXPECT_LT(std::fabs(risen(20)), 0.010);
   EXPECT_GT(lift.most_pull, 0.5);
   EXPECT_LT(lift.most_pull, 4);  // no error of the exercise
   // loops are 20 mm thick: they may be pressed flat against each other, not into each other
   EXPECT_GT(nearest_loops(before), 0.016);
   EXPECT_GT(lift.nearest, 0.013);
+}
+
+TEST(BowelLift, ABandDrawsTheNextLoopAlongUntilItIsCut) {
+  const std::vector<Vec3d> before = middles(sim::initial_state(bowel()));
+  const Lift tied(12, 0.040), freed(12, 0.040, "band_loops");
+  ASSERT_TRUE(tied.fine && freed.fine);
+  ASSERT_GT(tied.state.tools[kLeftHand].holds, 0);
+  ASSERT_GT(freed.state.tools[kLeftHand].holds, 0);
+  const auto risen = [&](const Lift& lift, int k) { return middles(lift.state)[size_t(k)].z - before[size_t(k)].z; };
+  EXPECT_GT(risen(tied, 12), 0.020);
+  EXPECT_GT(risen(freed, 12), 0.020);
+  EXPECT_GT(risen(tied, 22), risen(freed, 22) + 0.005);
+  EXPECT_GT(tied.most_pull, freed.most_pull);
 }
 
 }  // namespace

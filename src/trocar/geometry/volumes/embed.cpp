@@ -22,15 +22,25 @@ double distance2_to(Vec3d q, std::array<int, 3> place) {
   return sum;
 }
 
-void look_at(const Lattice& lattice, Vec3d q, std::array<int, 3> place, Nearest& best) {
-  const int cell = lattice.cell_of(place[0], place[1], place[2]);
-  if (cell < 0) return;
-  const double d2 = distance2_to(q, place);
-  if (best.cell < 0 || d2 < best.distance2 || (d2 == best.distance2 && cell < best.cell)) best = {cell, d2};
+// Of a point's own loop: how far along the body it is; no matter where that is not known.
+struct OfLoop {
+  const double* along = nullptr;
+
+  bool has(const Lattice& lattice, int cell) const {
+    return !along || lattice.cell_along.empty() || std::fabs(lattice.cell_along[cell] - *along) <= lattice.apart;
+  }
+};
+
+void look_at(const Lattice& lattice, Vec3d q, std::array<int, 3> place, OfLoop loop, Nearest& best) {
+  for (int cell = lattice.cell_of(place[0], place[1], place[2]); cell >= 0; cell = lattice.other_of(cell)) {
+    if (!loop.has(lattice, cell)) continue;
+    const double d2 = distance2_to(q, place);
+    if (best.cell < 0 || d2 < best.distance2 || (d2 == best.distance2 && cell < best.cell)) best = {cell, d2};
+  }
 }
 
 // Shells of places around the one that is nearest to q, until no farther shell can be nearer.
-Nearest nearest_cell(const Lattice& lattice, Vec3d q) {
+Nearest nearest_cell(const Lattice& lattice, Vec3d q, OfLoop loop) {
   std::array<int, 3> centre;
   for (int k = 0; k < 3; ++k) centre[k] = static_cast<int>(std::floor(std::clamp(q[k], 0.0, lattice.dims[k] - 0.5)));
   Nearest best;
@@ -42,7 +52,7 @@ Nearest nearest_cell(const Lattice& lattice, Vec3d q) {
       for (int j = -r; j <= r; ++j) {
         const bool whole_row = std::abs(k) == r || std::abs(j) == r;
         for (int i = -r; i <= r; i += whole_row || r == 0 ? 1 : 2 * r)
-          look_at(lattice, q, {centre[0] + i, centre[1] + j, centre[2] + k}, best);
+          look_at(lattice, q, {centre[0] + i, centre[1] + j, centre[2] + k}, loop, best);
       }
   }
   return best;
@@ -50,12 +60,13 @@ Nearest nearest_cell(const Lattice& lattice, Vec3d q) {
 
 }  // namespace
 
-Embedding embed(const Lattice& lattice, std::span<const Vec3d> points) {
+Embedding embed(const Lattice& lattice, std::span<const Vec3d> points, std::span<const double> along) {
   if (lattice.cells.empty()) throw std::invalid_argument("embed: a lattice with cells expected");
   Embedding result;
-  for (const Vec3d& p : points) {
-    const Vec3d q = lattice.in_cells(p);
-    const Nearest nearest = nearest_cell(lattice, q);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3d q = lattice.in_cells(points[i]);
+    const Nearest nearest = nearest_cell(lattice, q, {along.empty() ? nullptr : &along[i]});
+    if (nearest.cell < 0) throw std::invalid_argument("embed: cells along the whole body expected");
     const auto& place = lattice.places[nearest.cell];
     const double x = q.x - place[0], y = q.y - place[1], z = q.z - place[2];
     std::array<double, 8> weights;

@@ -20,8 +20,10 @@ struct Embedding {
   double farthest = 0.0;                       ///< largest distance of a point from its cell [m]
 };
 
-/// Throws std::invalid_argument for a lattice without cells.
-Embedding embed(const Lattice& lattice, std::span<const Vec3d> points);
+/// @param along  how far along the body each point is [m], where the lattice tells loops apart by that: a point follows
+///               a cell of its own loop, however near another one is. Empty: the nearest of all
+/// Throws std::invalid_argument for a lattice without cells, and where no cell is near enough along the body.
+Embedding embed(const Lattice& lattice, std::span<const Vec3d> points, std::span<const double> along = {});
 
 /// The points for the nodes' present positions (or velocities, displacements ...), summed in the nodes' order.
 template <class T>

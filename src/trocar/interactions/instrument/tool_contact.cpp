@@ -75,6 +75,24 @@ bool was_outside(const Touching& c, int part, const Surface& surface, int v, Vec
   return dot(p0 - collision::nearest_on_axis(c.before.part[part], p0), n) <= 0;
 }
 
+/// Of an organ's skin what jaws hold.
+struct HeldSkin {
+  BodyId body;
+  std::span<const Hold> holds;
+
+  bool has(int v) const noexcept {
+    return std::any_of(holds.begin(), holds.end(), [&](const Hold& h) { return h.body == body && h.element == v; });
+  }
+  /// A vertex or one of its neighbours.
+  bool at(const tissue::Skin& skin, int v) const noexcept {
+    if (holds.empty()) return false;
+    if (has(v)) return true;
+    for (int k = skin.neighbour_first[size_t(v)]; k < skin.neighbour_first[size_t(v) + 1]; ++k)
+      if (has(skin.neighbour[size_t(k)])) return true;
+    return false;
+  }
+};
+
 /// One vertex against one part.
 void touch_vertex(Touching& c, BodyId body, const Surface& surface, int v, int part, NetworkLoads& loads) noexcept {
   const Capsule& rod = c.shape.part[part];
@@ -138,7 +156,8 @@ void shaft_on_edges(Touching& c, BodyId body, const Surface& surface, int v, Net
   }
 }
 
-void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part, NetworkLoads& loads) noexcept {
+void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part, const HeldSkin& held,
+                     NetworkLoads& loads) noexcept {
   const tissue::SkinPose& pose = *surface.pose;
   const Capsule& rod = c.shape.part[part];
   const double reach2 = (rod.radius + kBehindSkin) * (rod.radius + kBehindSkin);
@@ -151,7 +170,8 @@ void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part,
       if (!meets(pose.block[b], rod)) continue;
       const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
       for (int v = int(b) * tissue::kSkinBlock; v < last; ++v)
-        if (surface.skin->at_surface(v) && within(v) && !surface.torn(v)) {
+        if (surface.skin->at_surface(v) && within(v) && !surface.torn(v) &&
+            (part == kShaft || !held.at(*surface.skin, v))) {
           touch_vertex(c, body, surface, v, part, loads);
           if (part == kShaft) shaft_on_edges(c, body, surface, v, loads);
         }
@@ -159,7 +179,8 @@ void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part,
   // What was near and has been left behind deeper than that.
   for (const Touch* t = c.last.touch; t != c.last.touch + c.last.count; ++t) {
     if (t->body != body || t->part != part || t->element < 0 || t->element >= surface.skin->size()) continue;
-    if (surface.skin->at_surface(t->element) && !within(t->element) && !surface.torn(t->element))
+    if (surface.skin->at_surface(t->element) && !within(t->element) && !surface.torn(t->element) &&
+        (part == kShaft || !held.at(*surface.skin, t->element)))
       touch_vertex(c, body, surface, t->element, part, loads);
   }
 }
@@ -167,14 +188,14 @@ void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part,
 /// Number `ball` of the balls along a part presses the skin in, whatever lies between the skin's vertices.
 /// @param out  only skin that lies that way of it; zero: any
 void press(Touching& c, BodyId body, const Surface& surface, int part, int ball, Vec3d p, Vec3d before, double radius,
-           NetworkLoads& loads, Vec3d out = {}) noexcept {
+           NetworkLoads& loads, const HeldSkin& held = {}, Vec3d out = {}) noexcept {
   const std::int32_t element = -1 - ball;
   const Touch* was = c.last.find(body, element, part);
   const bool known =
       was && was->vertex >= 0 && was->vertex < surface.skin->size() && surface.skin->at_surface(was->vertex);
   int vertex = nearest_vertex_near(surface, p, radius + kBehindSkin);
   if (known && was->anchored && vertex != was->vertex) vertex = walk_to_nearest(surface, was->vertex, p);
-  if (vertex < 0 || surface.torn(vertex)) return;
+  if (vertex < 0 || surface.torn(vertex) || held.at(*surface.skin, vertex)) return;
   const SkinPoint at = nearest_skin_point(surface, vertex, p);
   if (dot(at.normal, out) > 0) return;
   const double above = dot(p - at.point, at.normal), far = length(p - at.point);
@@ -202,7 +223,8 @@ bool closed_jaws(const ToolShape& shape) noexcept {
 
 /// Closed jaws are a blunt rod that is thinner than the skin's triangles: points along it are pressed against the skin.
 /// Open jaws are not, so that a fold can rise between them.
-void closed_jaws_on_surface(Touching& c, BodyId body, const Surface& surface, NetworkLoads& loads) noexcept {
+void closed_jaws_on_surface(Touching& c, BodyId body, const Surface& surface, const HeldSkin& held,
+                            NetworkLoads& loads) noexcept {
   const Capsule &a = c.shape.part[kJawA], &b = c.shape.part[kJawB];
   if (c.shape.has_foot || !closed_jaws(c.shape)) return;
   const double far = length(c.shape.frame.tip - c.shape.pivot);
@@ -210,7 +232,7 @@ void closed_jaws_on_surface(Touching& c, BodyId body, const Surface& surface, Ne
   int ball = 0;
   for (double back = 0; back < far; back += kSpacing, ++ball)
     press(c, body, surface, kJawA, ball, c.shape.frame.tip - back * c.shape.frame.axis(),
-          c.before.frame.tip - back * c.before.frame.axis(), a.radius + b.radius, loads);
+          c.before.frame.tip - back * c.before.frame.axis(), a.radius + b.radius, loads, held);
 }
 
 /// But for those of a dissector, which part what they are opened in: they press what lies on their outer sides.
@@ -224,7 +246,7 @@ void spread_jaws_on_surface(Touching& c, BodyId body, const Surface& surface, Ne
     for (int ball = 0; ball < balls; ++ball) {
       const double share = double(ball) / balls;
       press(c, body, surface, part, ball, now.b + share * (now.a - now.b), before.b + share * (before.a - before.b),
-            now.radius, loads, out);
+            now.radius, loads, {}, out);
     }
   }
 }
@@ -241,9 +263,11 @@ void wire_on_surface(Touching& c, BodyId body, const Surface& surface, int part,
 
 }  // namespace
 
-void tool_on_surface(Touching& touching, BodyId body, const Surface& surface, NetworkLoads& loads) noexcept {
-  for (int part = 0; part < kToolParts; ++part) part_on_surface(touching, body, surface, part, loads);
-  closed_jaws_on_surface(touching, body, surface, loads);
+void tool_on_surface(Touching& touching, BodyId body, const Surface& surface, NetworkLoads& loads,
+                     std::span<const Hold> holds) noexcept {
+  const HeldSkin held{body, holds};
+  for (int part = 0; part < kToolParts; ++part) part_on_surface(touching, body, surface, part, held, loads);
+  closed_jaws_on_surface(touching, body, surface, held, loads);
   spread_jaws_on_surface(touching, body, surface, loads);
   for (const int part : {kJawA, kJawB}) wire_on_surface(touching, body, surface, part, loads);
 }

@@ -19,8 +19,12 @@
 
 namespace trocar::interactions {
 
+/// What jaws hold, and the skin next to that, lies around them in a fold and not before them: only the shaft touches
+/// it, as with strands and folds.
 /// @param body  how holds name this organ
-void tool_on_surface(Touching& touching, BodyId body, const Surface& surface, NetworkLoads& loads) noexcept;
+/// @param held  what the jaws hold, of any body
+void tool_on_surface(Touching& touching, BodyId body, const Surface& surface, NetworkLoads& loads,
+                     std::span<const Hold> held = {}) noexcept;
 
 /// @param side  (elements x kToolParts) State: on which side of each of this tool's rods an element lies
 ///              (collision::touch)

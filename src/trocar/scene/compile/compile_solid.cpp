@@ -11,10 +11,11 @@
 namespace trocar::scene {
 namespace {
 
-/// Renumbers vertices along a Morton curve, so that blocks of neighbours in memory are compact in space.
-geometry::TriMesh ordered(const geometry::TriMesh& mesh) {
+/// Replaces vertices along a Morton curve, so that blocks of neighbours in memory are compact in space.
+/// @param place  (vertices) what each is called after that
+geometry::TriMesh ordered(const geometry::TriMesh& mesh, std::vector<int>& place) {
   const std::vector<int> order = along_curve(mesh.positions);
-  std::vector<int> place(order.size());
+  place.resize(order.size());
   geometry::TriMesh out;
   for (size_t i = 0; i < order.size(); ++i) {
     place[size_t(order[i])] = int(i);
@@ -27,6 +28,41 @@ geometry::TriMesh ordered(const geometry::TriMesh& mesh) {
     return la != lb ? la < lb : a < b;
   });
   return out;
+}
+
+geometry::TriMesh ordered(const geometry::TriMesh& mesh) {
+  std::vector<int> place;
+  return ordered(mesh, place);
+}
+
+/// A loft's surface with edges of a length, and how far along the body its vertices are.
+struct LoftSkin {
+  geometry::TriMesh mesh;
+  std::vector<double> along;  ///< (vertices) [m]
+};
+LoftSkin loft_skin(const geometry::NurbsSurface& surface, double edge, double length_along) {
+  const geometry::Tessellation drawn = geometry::tessellate_with_parameters(surface, edge);
+  std::vector<int> place;
+  LoftSkin out{ordered(drawn.mesh, place), std::vector<double>(drawn.parameters.size())};
+  const double start = surface.start_v(), way = surface.end_v() - surface.start_v();
+  for (size_t i = 0; i < place.size(); ++i)
+    out.along[size_t(place[i])] = length_along * (drawn.parameters[i][1] - start) / way;
+  return out;
+}
+
+/// Of a body from its first section to its last [m].
+double length_of(const std::vector<geometry::Section>& sections) {
+  double way = 0;
+  for (size_t i = 1; i < sections.size(); ++i) way += length(sections[i].centre - sections[i - 1].centre);
+  return way;
+}
+/// Two parts of a body hang together where their ways along it differ by less than this [m]: a hairpin's legs, one
+/// against the other, are half pi of its width apart; more than two widths are two loops.
+double width_of_bends(const std::vector<geometry::Section>& sections) {
+  constexpr double kLoops = 2.25;
+  double widest = 0;
+  for (const geometry::Section& s : sections) widest = std::max({widest, length(s.across), length(s.deep)});
+  return kLoops * 2 * widest;
 }
 
 tissue::Skin bare_skin(const geometry::TriMesh& mesh) {
@@ -42,10 +78,10 @@ tissue::Skin bare_skin(const geometry::TriMesh& mesh) {
   return skin;
 }
 
-tissue::Skin embedded_skin(const geometry::TriMesh& mesh, const geometry::Lattice& lattice,
+tissue::Skin embedded_skin(const LoftSkin& loft, const geometry::Lattice& lattice,
                            const tissue::NetworkModel& network) {
-  tissue::Skin skin = bare_skin(mesh);
-  const geometry::Embedding places = geometry::embed(lattice, mesh.positions);
+  tissue::Skin skin = bare_skin(loft.mesh);
+  const geometry::Embedding places = geometry::embed(lattice, loft.mesh.positions, loft.along);
   for (size_t i = 0; i < places.nodes.size(); ++i)
     for (size_t k = 0; k < 8; ++k) {
       const int node = places.nodes[i][k];
@@ -71,9 +107,12 @@ void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
   std::vector<geometry::Section> sections;
   for (const Section& s : solid.sections) sections.push_back({s.centre, s.across, s.deep, s.squareness});
   const geometry::NurbsSurface surface = geometry::loft(sections);
-  const geometry::TriMesh skin = ordered(geometry::tessellate(surface, solid.skin_edge));
-  const geometry::TriMesh fine = ordered(geometry::tessellate(surface, solid.fine_edge));
-  const geometry::Lattice lattice = geometry::make_lattice(fine, solid.cell);
+  const double way = length_of(sections);
+  const LoftSkin skin = loft_skin(surface, solid.skin_edge, way), fine = loft_skin(surface, solid.fine_edge, way);
+  geometry::LatticeOptions options;
+  options.along = fine.along;
+  options.apart = width_of_bends(sections);
+  const geometry::Lattice lattice = geometry::make_lattice(fine.mesh, solid.cell, options);
 
   tissue::LatticeMaterial material;
   const tissue::BulkShare share = tissue::bulk_share(tissue.young, tissue.poisson);
@@ -84,7 +123,7 @@ void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
   material.cap = tissue.strain_cap;
   material.min_fill = 0.15;
   tissue::LatticeNetwork net = tissue::lattice_network(lattice.nodes, lattice.cells, lattice.cell_fill, material);
-  weigh(net.network, tissue.density * geometry::volume(fine));
+  weigh(net.network, tissue.density * geometry::volume(fine.mesh));
   if (tissue.poisson > 0.25) net.network.kappa = share.kappa;
   net.network.gravity = gravity;
   net.network.global_damping = 1.0;
@@ -119,7 +158,7 @@ void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
     r.dt_printed = printed_limit(net.network, Dominating::stiffest_spring);
     r.dt_printed_summed = printed_limit(net.network, Dominating::all_springs);
     for (double m : net.network.mass) r.mass += m;
-    r.volume = geometry::volume(fine);
+    r.volume = geometry::volume(fine.mesh);
     r.residual = prestress.residual;
     r.prestrain = prestress.largest_strain;
     report->bodies.push_back(r);

@@ -30,7 +30,8 @@ void hang(StepContext& c, CuttableRef r) noexcept {
 }
 
 void touch(StepContext& c, CuttableRef r, HandContact& hand) noexcept {
-  interactions::tool_on_surface(hand.touching, r.id(), c.work.surfaces[r.organ()], c.work.organ_loads[r.organ()]);
+  interactions::tool_on_surface(hand.touching, r.id(), c.work.surfaces[r.organ()], c.work.organ_loads[r.organ()],
+                                held_by(c, hand));
 }
 
 void touch_itself(StepContext& c, CuttableRef r) noexcept {

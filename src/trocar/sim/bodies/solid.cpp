@@ -25,7 +25,8 @@ void hang(StepContext& c, SolidRef s) noexcept {
 }
 
 void touch(StepContext& c, SolidRef s, HandContact& hand) noexcept {
-  interactions::tool_on_surface(hand.touching, s.id(), c.work.surfaces[s.organ()], c.work.organ_loads[s.organ()]);
+  interactions::tool_on_surface(hand.touching, s.id(), c.work.surfaces[s.organ()], c.work.organ_loads[s.organ()],
+                                held_by(c, hand));
 }
 
 std::span<const std::int32_t> pieces_of(const StepContext&, SolidRef) noexcept { return {}; }

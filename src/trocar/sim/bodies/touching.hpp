@@ -20,4 +20,10 @@ struct HandContact {
   }
 };
 
+/// What the hand's jaws hold.
+inline std::span<const interactions::Hold> held_by(const StepContext& c, const HandContact& hand) noexcept {
+  const interactions::ToolState& tool = c.state.tools[hand.hand];
+  return {tool.hold, size_t(tool.holds)};
+}
+
 }  // namespace trocar::sim

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <queue>
 #include <string>
 #include <tuple>
@@ -55,6 +56,17 @@ double Stations::held_at(const sim::State& state, size_t hand) const {
   double sum = 0;
   for (int i = 0; i < tool.holds; ++i) sum += m_station[size_t(tool.hold[i].element)] + 1;
   return m_spacing * sum / tool.holds;
+}
+
+std::optional<Stations::Span> Stations::held_span(const sim::State& state, size_t hand) const {
+  const interactions::ToolState& tool = state.tools[hand];
+  if (tool.holds == 0 || tool.hold[0].body != m_body) return {};
+  Span span{1e9, -1e9};
+  for (int i = 0; i < tool.holds; ++i) {
+    const double s = of_vertex(size_t(tool.hold[i].element));
+    span = {std::min(span.from, s), std::max(span.to, s)};
+  }
+  return span;
 }
 
 std::string no_stations(const sim::Model& model, std::span<const std::int32_t> marks) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,8 +21,15 @@ class Stations {
 
   BodyId body() const { return m_body; }
   int count() const { return m_count; }
+  /// How far along a vertex of its skin is [m].
+  double of_vertex(size_t vertex) const { return m_spacing * (m_station[vertex] + 1); }
   /// How far along the hand's jaws hold it [m]; -1: they hold none of it.
   double held_at(const sim::State& state, size_t hand) const;
+  /// The same as where what they hold begins and ends: far apart where they have taken two loops. Nothing: none of it.
+  struct Span {
+    double from = 0, to = 0;  ///< [m]
+  };
+  std::optional<Span> held_span(const sim::State& state, size_t hand) const;
 
  private:
   BodyId m_body;

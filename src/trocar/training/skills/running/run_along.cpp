@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/observe/hands.hpp>
 #include <trocar/training/observe/marks.hpp>
@@ -12,7 +13,9 @@ namespace trocar::training {
 namespace {
 
 /// A gut hand over hand: one hand holds and shows, the other takes the next place, lifts that, and only then the first
-/// lets go. Between two steps the camera looks at either face of what lies between the hands.
+/// lets go. Between two steps the camera looks at either face of what lies between the hands. Loops lie against each
+/// other: it goes in where nothing but the loop that is meant will be between the jaws, looks once more before it
+/// closes them, and opens them again before it lifts anything else.
 class RunAlong final : public Skill {
  public:
   RunAlong(const sim::Model& model, const Given& given)
@@ -72,6 +75,7 @@ class RunAlong final : public Skill {
       m_next = m_at > 0 ? m_at : m_first;
     }
     m_attempt = 0;
+    m_way_in = -1;
   }
 
   Progress work(Operator& op) override {
@@ -97,21 +101,27 @@ class RunAlong final : public Skill {
 
   static constexpr double kTooHard = 1.25;  // of what it may pull
 
-  /// A hand that pulls too hard follows what it holds.
+  /// A hand that pulls too hard follows what it holds, at once where that is near to what tears it.
   void give_way(Operator& op, int hand) const {
-    constexpr double kAhead = 0.01;  // [m]
+    constexpr double kAhead = 0.01, kMuchTooHard = 1.6;  // [m], of what it may pull
     const interactions::ToolState& tool = op.tool_state(hand);
-    if (tool.holds == 0 || norm(tool.pull) < kTooHard * m_most) return;
+    const double pull = norm(tool.pull);
+    if (tool.holds == 0 || pull < kTooHard * m_most) return;
     const Vec3d drawn = normalised(Vec3d{tool.pull[0], tool.pull[1], tool.pull[2]});
-    op.arms().move(hand, op.arm(hand).tip + kAhead * drawn, pace::kCareful);
+    op.arms().move(hand, op.arm(hand).tip + kAhead * drawn,
+                   pull < kMuchTooHard * m_most ? pace::kCareful : pace::kTravel);
+  }
+  /// From a tip of this hand's to the other instrument [m].
+  double way_from_other(const Operator& op, int hand, Vec3d tip) const {
+    const Arms::Arm& other = op.arm(m_hands[0] == hand ? m_hands[1] : m_hands[0]);
+    const Vec3d shaft = other.tip - other.port;
+    const double along = std::clamp(dot(tip - other.port, shaft) / dot(shaft, shaft), 0.0, 1.0);
+    return length(tip - other.port - along * shaft);
   }
   /// Slower beside the other instrument: they shall not strike each other.
   double pace_beside(const Operator& op, int hand) const {
     constexpr double kBeside = 0.030, kGently = 0.012;  // [m] [m/s]
-    const Arms::Arm& other = op.arm(m_hands[0] == hand ? m_hands[1] : m_hands[0]);
-    const Vec3d tip = op.arm(hand).tip, shaft = other.tip - other.port;
-    const double along = std::clamp(dot(tip - other.port, shaft) / dot(shaft, shaft), 0.0, 1.0);
-    return length(tip - other.port - along * shaft) < kBeside ? kGently : pace::kTravel;
+    return way_from_other(op, hand, op.arm(hand).tip) < kBeside ? kGently : pace::kTravel;
   }
   /// An instrument in the body is looked for before it moves.
   bool blind(const Operator& op, int hand) const {
@@ -119,21 +129,91 @@ class RunAlong final : public Skill {
     return op.tool_state(hand).depth > reach::kIdle && !op.sees_tip(hand) && m_in_phase < kUnseen;
   }
 
-  /// Where the jaws come down on the gut: on the side of it that faces the trocar, and away from its mesentery.
-  Vec3d entrance(const Operator& op, int hand, const Place& p) const {
+  /// A way in: beside the place that is wanted, and from which side of the gut.
+  struct Way {
+    double beside;  ///< [m]
+    double side;    ///< 1: between the side that faces the trocar and the border in front; 0: at the border
+  };
+  static constexpr Way kWays[] = {{0, 1},      {0, 0},      {0.006, 1},  {-0.006, 1}, {0.006, 0},
+                                  {-0.006, 0}, {0.012, 1},  {0.012, 0},  {-0.012, 1}, {-0.012, 0},
+                                  {0, -0.7},   {0.006, -1}, {-0.006, -1}};
+
+  /// Where the jaws come down on the gut: on that side of it, and away from its mesentery.
+  Vec3d entrance(const Operator& op, int hand, const Place& p, double side) const {
     const Vec3d back = normalised(op.arm(hand).port - p.middle);
     const Vec3d across = back - dot(back, p.along) * p.along;
-    return p.middle + p.radius * normalised(across + p.out, p.out);
+    return p.middle + p.radius * normalised(side * across + p.out, p.out);
   }
-  Place wanted(const Operator& op) const {
-    constexpr double kBeside[] = {0, 0.006, -0.006, 0.012};  // [m]
-    return place(op, m_next + kBeside[size_t(m_attempt + m_offset) % 4]);
+  Vec3d inwards(const Operator& op, int hand, const Place& p) const { return normalised(p.middle - op.arm(hand).port); }
+  double deep() const {
+    constexpr double kDeeper = 0.002;  // [m]
+    return m_deep + kDeeper * std::min(m_attempt, 3);
+  }
+  Place wanted(const Operator& op) const { return place(op, m_next + kWays[size_t(std::max(m_way_in, 0))].beside); }
+  double side_in() const { return kWays[size_t(std::max(m_way_in, 0))].side; }
+
+  /// Vertices of the gut's skin between jaws that are open so far: of the loop that is meant, and of others.
+  struct Between {
+    int own = 0, others = 0;
+  };
+  Between between(const Operator& op, const interactions::ToolModel& tool, const interactions::ToolShape& shape) const {
+    constexpr double kOwn = 0.035, kBeside = 0.0015;  // [m]
+    const int gut = int(m_stations.body().index());
+    const tissue::Skin& skin = op.model().skin(gut);
+    const tissue::NodeView nodes = nodes_of(op.model(), op.state(), gut);
+    Between found;
+    for (int v = 0; v < skin.size(); ++v) {
+      if (!skin.at_surface(v)) continue;
+      const Vec3d local = interactions::to_jaw(shape, tissue::skin_point(nodes, skin, v));
+      if (std::abs(local.y) > 0.5 * tool.jaw_width + kBeside || local.z < 0.25 * tool.jaw_length ||
+          local.z > tool.jaw_length || std::abs(local.x) > shape.half_opening(local.z) + kBeside)
+        continue;
+      ++(std::abs(m_stations.of_vertex(size_t(v)) - m_next) < kOwn ? found.own : found.others);
+    }
+    return found;
+  }
+  /// How good a way in is: something of the own loop where the jaws will close, nothing of others between them as they
+  /// come, and not beside the other instrument.
+  double worth(const Operator& op, int hand, const Way& way) const {
+    constexpr double kClosing = 0.12, kComing = 0.5, kApart = 0.012;  // apertures; [m]
+    constexpr int kEnough = 4;
+    const Place p = place(op, m_next + way.beside);
+    const interactions::ToolModel& tool = op.tool(hand);
+    const Vec3d port = op.arm(hand).port, tip = entrance(op, hand, p, way.side) + deep() * inwards(op, hand, p);
+    const double roll = kinematics::roll_towards(kinematics::inverse(port, tip, 0), p.along);
+    const kinematics::FulcrumPose pose = kinematics::inverse(port, tip, roll);
+    const Between closing = between(op, tool, interactions::shape_of(tool, pose, kClosing));
+    const Between coming = between(op, tool, interactions::shape_of(tool, pose, kComing));
+    const double beside = way_from_other(op, hand, tip);
+    return std::min(closing.own, kEnough) - 2.0 * closing.others - coming.others - (beside < kApart ? 3 : 0) -
+           std::abs(way.beside) / 0.012;
+  }
+  /// The best way in that was not tried yet at this place.
+  void choose_way(const Operator& op, int hand) {
+    constexpr int kCount = int(std::size(kWays));
+    if (m_attempt == 0) m_tried.fill(false);
+    double best = -1e9;
+    int chosen = -1;
+    for (int i = 0; i < kCount; ++i) {
+      const int k = (i + m_offset) % kCount;
+      if (m_tried[size_t(k)]) continue;
+      const double value = worth(op, hand, kWays[k]);
+      if (value > best) best = value, chosen = k;
+    }
+    if (chosen < 0) m_tried.fill(false);
+    m_way_in = std::max(chosen, 0);
+    m_tried[size_t(m_way_in)] = true;
+  }
+  Progress try_elsewhere() {
+    constexpr int kMost = 9;
+    if (++m_attempt >= kMost) return fail("the jaws have not taken the gut");
+    m_way_in = -1;
+    go(kReach);
+    return Progress::working;
   }
 
   Progress reach(Operator& op, int hand) {
     constexpr double kLongest = 12;
-    const Place p = wanted(op);
-    const Vec3d at = entrance(op, hand, p), in = normalised(p.middle - op.arm(hand).port);
     op.want(op.arm(hand).tip);
     op.from(0.06);
     if (blind(op, hand)) return Progress::working;
@@ -141,6 +221,9 @@ class RunAlong final : public Skill {
       op.arms().grip(hand, 0, 0.8);
       return Progress::working;
     }
+    if (m_way_in < 0) choose_way(op, hand);
+    const Place p = wanted(op);
+    const Vec3d at = entrance(op, hand, p, side_in()), in = inwards(op, hand, p);
     op.want(at);
     const bool open = op.arms().grip(hand, 0, 0.8);
     const bool turned = op.arms().turn_across(hand, p.along);
@@ -149,34 +232,37 @@ class RunAlong final : public Skill {
     return Progress::working;
   }
   Progress enter(Operator& op, int hand) {
-    constexpr double kPressed = 0.9, kLongest = 4, kDeeper = 0.002;  // [N] [s] [m]
+    constexpr double kPressed = 0.9, kLongest = 4;  // [N] [s]
     const Place p = wanted(op);
-    const Vec3d in = normalised(p.middle - op.arm(hand).port);
+    const Vec3d in = inwards(op, hand, p);
     op.want(op.arm(hand).tip);
     op.want(p.middle);
     op.from(0.06);
     op.arms().turn_across(hand, p.along);
-    const bool there =
-        op.arms().move(hand, entrance(op, hand, p) + (m_deep + kDeeper * m_attempt) * in, pace::kCareful);
-    if (there || norm(op.tool_state(hand).contact_force) > kPressed || m_in_phase > kLongest) go(kClose);
+    const bool there = op.arms().move(hand, entrance(op, hand, p, side_in()) + deep() * in, pace::kCareful);
+    if (!there && norm(op.tool_state(hand).contact_force) < kPressed && m_in_phase < kLongest) return Progress::working;
+    if (takes_another(op, hand)) return try_elsewhere();
+    go(kClose);
     return Progress::working;
+  }
+  /// Would jaws that close here take more of other loops than of the one that is meant?
+  bool takes_another(const Operator& op, int hand) const {
+    constexpr double kClosing = 0.2;  // aperture
+    const interactions::ToolModel& tool = op.tool(hand);
+    const Between found = between(op, tool, interactions::shape_of(tool, op.tool_state(hand).pose(), kClosing));
+    return found.others > found.own;
   }
   Progress close(Operator& op, int hand) {
     constexpr double kFeels = 0.9;
-    constexpr int kMost = 6;
     op.want(op.arm(hand).tip);
     op.from(0.06);
     if (!op.arms().grip(hand, 0.95, 0.6) || m_in_phase < kFeels) return Progress::working;
-    const double held = m_stations.held_at(op.state(), size_t(hand));
-    constexpr double kBeside = 0.030;  // [m] farther from where it was wanted it is another loop
-    if (held > m_next - kBeside && held < m_next + kBeside) {
-      m_from = op.arm(hand).tip;
-      m_way = 0;
-      go(kLift);
-      return Progress::working;
-    }
-    if (++m_attempt >= kMost) return fail("the jaws have not taken the gut");
-    go(kReach);
+    const std::optional<Stations::Span> held = m_stations.held_span(op.state(), size_t(hand));
+    constexpr double kBeside = 0.035;  // [m] what is farther from where it was wanted is of another loop
+    if (!held || held->from < m_next - kBeside || held->to > m_next + kBeside) return try_elsewhere();
+    m_from = op.arm(hand).tip;
+    m_way = 0;
+    go(kLift);
     return Progress::working;
   }
   Progress lift(Operator& op, int hand) {
@@ -195,6 +281,7 @@ class RunAlong final : public Skill {
     return Progress::working;
   }
   Progress again() {
+    m_way_in = -1;
     go(kReach);
     return Progress::working;
   }
@@ -261,6 +348,7 @@ class RunAlong final : public Skill {
     m_taker = 1 - m_taker;
     m_next = std::min(m_at + m_step, m_to);
     m_attempt = 0;
+    m_way_in = -1;
     go(kReach);
   }
 
@@ -272,7 +360,9 @@ class RunAlong final : public Skill {
   std::array<std::vector<double>, 2> m_looked;                   ///< (stations) [s]
   size_t m_taker = 0;
   int m_attempt = 0, m_offset = 0, m_shown = -1, m_target = -1;
-  double m_at = -1, m_next = 0, m_way = 0;  ///< [m] how far it has been run; the next hold; of a lift
+  int m_way_in = -1;                             ///< of kWays; -1: to be chosen
+  std::array<bool, std::size(kWays)> m_tried{};  ///< at this place
+  double m_at = -1, m_next = 0, m_way = 0;       ///< [m] how far it has been run; the next hold; of a lift
   Vec3d m_from;
 };
 
