@@ -363,7 +363,7 @@ TEST(Reader, AllFaultsComeInOnePassInTheOrderOfTheFile) {
                  {20, R"("tools": [{"instrument": "stick", "port": @"none", "tip_mm": @[0, 0]}],)"}}),
       (Faults{"expected a known key of a scene ($schema, format, name, like, title, gravity_m_s2, tissues, organs, "
               "vessels, "
-              "fluids, bleeder, energy, peristalsis, breathing, detail, marks, variation, instruments, ports, tools, "
+              "fluids, bleeder, energy, peristalsis, breathing, detail, marks, variation, variant, instruments, ports, tools, "
               "scope, rigids, fat, bags), got "
               "\"titel\" (did "
               "you mean \"title\"?)",
@@ -653,6 +653,18 @@ TEST(Reader, AVariationNamesBodiesThatAreThereAndFiguresThatFit) {
   EXPECT_EQ(faults(R"({"findings": [@{"mark": "nub"}], "present": 1})"),
             one("expected a finding's mark to be one of the scene's, got \"nub\""));
   EXPECT_EQ(faults(R"({"present": @1})"), one("expected at most as many as there are findings, 0, got 1"));
+  EXPECT_EQ(faults(R"({"variants": [{"name": "other", "title": "", "source": "ours", "share": 0.6,
+                       "organs": [{"strands": [{"name": "twig", "tissue": @"wood", "start": {"fixed": true},
+                       "centreline_mm": [[0, 0, -90], [20, 0, -90]], "stations": [{"s_mm": 0, "radius_mm": 1}]}]}]}]})"),
+            one("expected a known tissue (soft), got \"wood\""));
+  EXPECT_EQ(faults(R"({"variants": [{"name": "other", "title": "", "source": "ours", "share": 0.6,
+                       "holds": [{"pouch": @"bag", "on": "cord", "centre_mm": [0, 0, 0], "radius_mm": 3}]}]})"),
+            one("expected a known pouch (), got \"bag\""));
+  EXPECT_EQ(faults(R"({"variants": @[{"name": "other", "title": "", "source": "ours", "share": 0.6},
+                                     {"name": "third", "title": "", "source": "ours", "share": 0.6}]})"),
+            one("expected shares of at most 1 in all, got 1.2"));
+  EXPECT_EQ(faults(R"({"variants": [@{"name": "common", "title": "", "source": "ours", "share": 0.6}]})"),
+            one("expected a name of its own for every variant, and not \"common\", got \"common\""));
   EXPECT_EQ(faults(R"(@{"bleeder": true})"), one("expected a bleeder whose hole can vary, got none in this scene"));
 }
 

@@ -82,6 +82,8 @@ Json facts(const Report& r) {
   facts.add(r.attempt.exercise);
   facts.add(name_of(r.attempt.mode));
   facts.add(r.attempt.seed == 0 ? "anatomy as drawn" : fmt::format("anatomy {}", r.attempt.seed));
+  const Json& anatomy = part_of(part_of(r.result, "assessment"), "anatomy");
+  if (anatomy.is_object()) facts.add(text_in(anatomy, "title"));
   if (!r.attempt.input.empty()) facts.add("by " + r.attempt.input.substr(0, r.attempt.input.find(':')));
   if (!r.attempt.started.empty()) facts.add(r.attempt.started);
   return std::move(facts).list();

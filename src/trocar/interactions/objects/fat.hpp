@@ -34,16 +34,28 @@ struct FatTie {
   }
 };
 
+/// Lobules that are drawn as one thing of another look: a lymph node. Mechanics know nothing of it.
+struct FatNodule {
+  std::string look;
+  std::vector<std::int32_t> lobules;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("look", s.look, core::kNotHashed), v("lobules", s.lobules, core::kNotHashed);
+  }
+};
+
 struct FatBody {
   std::string name, look;
   tissue::FatModel fat;
   BondSet roots;  ///< of its lobules; `membrane` is -1
   std::vector<FatTie> ties;
+  std::vector<FatNodule> nodules;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
     v("fat", s.fat), v("roots", s.roots), v("ties", s.ties), v("name", s.name, core::kNotHashed),
-        v("look", s.look, core::kNotHashed);
+        v("look", s.look, core::kNotHashed), v("nodules", s.nodules, core::kNotHashed);
   }
 };
 struct FatBodies {

@@ -18,6 +18,7 @@
 #include <trocar/scene/compile/compile_tets.hpp>
 #include <trocar/scene/compile/compile_vessels.hpp>
 #include <trocar/scene/description/capacity.hpp>
+#include <trocar/scene/description/variant.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/containing.hpp>
 #include <trocar/tissue/elastostatic/drawn_springs.hpp>
@@ -226,6 +227,14 @@ void note_detail(const Description& d, sim::Model& model) {
   }
 }
 
+/// Which variant it is, for who tells results.
+void note_anatomy(const Description& d, sim::Model& model) {
+  model.anatomy = d.anatomy;
+  if (!d.variation) return;
+  const VariationSetting::Variant* variant = find_variant(*d.variation, d.anatomy);
+  model.anatomy_title = variant ? variant->title : d.anatomy.empty() ? "" : "The common anatomy";
+}
+
 }  // namespace
 
 sim::Model compile(const Description& d, CompileReport* report) {
@@ -235,6 +244,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
   sim::Model model;
   model.name = d.name;
   model.file = d.file;
+  note_anatomy(d, model);
   model.gravity = d.gravity;
   for (const Solid& solid : d.solids) {
     const Tissue* tissue = find_tissue(d, solid.tissue);

@@ -317,6 +317,8 @@ struct DetailSetting {
 /// What is drawn and has no name of its own in a file.
 inline constexpr std::array<const char*, 4> kDrawnNames{"cavity", "endoscope", "arteries", "veins"};
 
+struct Description;
+
 /// What of a scene is another one with another seed, and by how much at most (vary.hpp).
 struct VariationSetting {
   /// A part of space that is bent with all that lies there, whole about its middle, fading out further off.
@@ -343,15 +345,42 @@ struct VariationSetting {
   /// Something that is found in some patients: a mark, and what goes with it.
   struct Finding {
     std::string mark;
-    std::string solid;    ///< is narrow there; empty: none
-    double narrower = 0;  ///< its half axes in the middle, relative
-    double over = 0.020;  ///< as far to either side, fading out [m]
+    std::vector<std::string> with;  ///< marks that are there when it is
+    double share = 0;               ///< of patients, whatever else they have; 0: one of `present`
+    std::string solid;              ///< is narrow there; empty: none
+    double narrower = 0;            ///< its half axes in the middle, relative
+    double over = 0.020;            ///< as far to either side, fading out [m]
+    core::Location at;
+  };
+  /// Another anatomy that some patients have: at most one of them a patient.
+  struct Variant {
+    /// Where a pouch's wall rides on something that the variant brings.
+    struct Hold {
+      std::string pouch, on;
+      Vec3d centre;       ///< [m]
+      double radius = 0;  ///< of its nodes that ride [m]
+      Vec3d instead;      ///< the pouch's hold nearest to this ends; zero: none does [m]
+      core::Location at;
+    };
+    /// More of a fat that the scene has; nothing where it has none of that name.
+    struct MoreFat {
+      std::string of;
+      std::vector<FatSetting::Fill> fills;
+      std::vector<std::string> on;
+      core::Location at;
+    };
+    std::string name, title, source;
+    double share = 0;                           ///< of patients
+    std::shared_ptr<const Description> brings;  ///< bodies, vessels and marks; each in place of the one of its name
+    std::vector<Hold> holds;
+    std::vector<MoreFat> fat;
     core::Location at;
   };
   std::vector<Region> regions;
   std::vector<Girth> girths;
   std::vector<Finding> findings;
-  int present = 0;        ///< so many of the findings are there
+  std::vector<Variant> variants;
+  int present = 0;        ///< so many of the findings without a share are there
   double stiffness = 0;   ///< of every tissue, relative
   double foundation = 0;  ///< of every strand's hold, relative
   bool bleeder = false;   ///< which of its holes opens
@@ -401,6 +430,9 @@ struct Placement {
   std::string holds{};  ///< a pouch that its jaws hold at the start; empty: nothing
 };
 
+/// What a patient without a variant has; none is called so.
+inline constexpr const char* kCommonAnatomy = "common";
+
 struct Description {
   std::string name, title, file;
   Vec3d gravity{0, 0, -9.81};  ///< [m/s^2], patient frame: tilt included
@@ -420,6 +452,8 @@ struct Description {
   std::optional<BreathingSetting> breathing;
   std::vector<DetailSetting> detail;
   std::optional<VariationSetting> variation;
+  std::string variant;  ///< of the variation's, which every seed has; empty: the seed draws
+  std::string anatomy;  ///< what vary() made of it: a variant's name, kCommonAnatomy; empty: there are no variants
   std::shared_ptr<const sim::Lookbook> looks;  ///< those that are there; null: none
   std::vector<MarkSetting> marks;
   std::vector<Port> ports;

@@ -8,6 +8,7 @@
 #include <trocar/core/random.hpp>
 #include <trocar/geometry/curves/polyline.hpp>
 #include <trocar/numerics/portable.hpp>
+#include <trocar/scene/description/variant.hpp>
 #include <trocar/scene/description/vary.hpp>
 
 namespace trocar::scene {
@@ -244,27 +245,50 @@ void narrow(Description& d, const VariationSetting::Finding& finding) {
   }
 }
 
-/// Leaves so many of the findings as the scene says, drawn without putting back. Of its own numbers, so that all else
-/// is drawn as if there were none.
+void leave_out(Description& d, const VariationSetting::Finding& absent) {
+  const auto goes = [&](const MarkSetting& m) {
+    return m.name == absent.mark || std::find(absent.with.begin(), absent.with.end(), m.name) != absent.with.end();
+  };
+  d.marks.erase(std::remove_if(d.marks.begin(), d.marks.end(), goes), d.marks.end());
+}
+
+/// Leaves so many of the findings as the scene says, drawn without putting back, and of those that have a share each as
+/// often as that says. Of its own numbers, so that all else is drawn as if there were none.
 void find(Description& d, std::uint64_t seed) {
-  std::vector<VariationSetting::Finding> left = d.variation->findings;
+  std::vector<VariationSetting::Finding> left;
+  core::Random frequent(seed ^ 0x20e3'1e5ull);
+  for (const VariationSetting::Finding& f : d.variation->findings) {
+    if (f.share <= 0)
+      left.push_back(f);
+    else if (const double drawn = frequent.uniform(); seed != 0 && drawn >= f.share)
+      leave_out(d, f);
+  }
   core::Random random(seed ^ 0xf1d1'465eull);
-  for (int i = 0; i < d.variation->present && i < int(d.variation->findings.size()); ++i) {
+  for (int i = 0; i < d.variation->present && !left.empty(); ++i) {
     const std::size_t which =
         seed == 0 ? 0 : std::min(left.size() - 1, std::size_t(random.uniform() * double(left.size())));
     if (left[which].narrower > 0) narrow(d, left[which]);
     left.erase(left.begin() + std::ptrdiff_t(which));
   }
-  for (const VariationSetting::Finding& absent : left)
-    d.marks.erase(
-        std::remove_if(d.marks.begin(), d.marks.end(), [&](const MarkSetting& m) { return m.name == absent.mark; }),
-        d.marks.end());
+  for (const VariationSetting::Finding& absent : left) leave_out(d, absent);
+}
+
+/// The variant that the scene asks for, or that the seed draws.
+void vary_anatomy(Description& d, std::uint64_t seed) {
+  if (d.variation->variants.empty()) return;
+  const VariationSetting variation = *d.variation;  // the scene changes
+  const VariationSetting::Variant* variant =
+      d.variant.empty() ? drawn_variant(variation, seed) : find_variant(variation, d.variant);
+  d.anatomy = variant ? variant->name : kCommonAnatomy;
+  if (variant) put_in(d, *variant);
 }
 
 }  // namespace
 
 void vary(Description& d, std::uint64_t seed) {
   if (!d.variation) return;
+  const std::size_t strands = d.strands.size();
+  vary_anatomy(d, seed);
   if (!d.variation->findings.empty()) find(d, seed);
   if (seed == 0) return;
   const VariationSetting& most = *d.variation;
@@ -272,8 +296,9 @@ void vary(Description& d, std::uint64_t seed) {
   const Warp warp = drawn_warp(d, random);
   if (most.stiffness > 0)
     for (Tissue& t : d.tissues) t.young *= around_one(random, most.stiffness);
-  if (most.foundation > 0)
-    for (Strand& s : d.strands) s.foundation *= around_one(random, most.foundation);
+  core::Random others(seed ^ 0x57a4'd5ull);  // of strands that only this anatomy has: the rest is drawn as ever
+  for (std::size_t i = 0; most.foundation > 0 && i < d.strands.size(); ++i)
+    d.strands[i].foundation *= around_one(i < strands ? random : others, most.foundation);
   if (most.bleeder && d.bleeder) d.bleeder->which = int(random.uniform() * double(d.bleeder->holes.size()));
   if (!warp.fields.empty()) bend(d, warp);
   for (const VariationSetting::Girth& girth : most.girths) {

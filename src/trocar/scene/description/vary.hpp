@@ -16,7 +16,8 @@ namespace trocar::scene {
 /// Deterministic to the bit: the same description and seed give the same result everywhere. Figures are drawn in the
 /// order of the declaration: each region's scale, shift along x, y, z, length and turn (as far as they are declared),
 /// stiffness of the tissues, foundation of the strands, the bleeder, girths. Which findings are there is drawn apart
-/// from these, and for seed 0, too: the first ones.
+/// from these, and for seed 0, too: the first ones. So is which variant of the anatomy the patient has (variant.hpp);
+/// one that the scene asks for by its name every seed has.
 void vary(Description& description, std::uint64_t seed);
 
 }  // namespace trocar::scene

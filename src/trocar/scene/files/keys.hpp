@@ -24,6 +24,7 @@ const Table<WaveSetting>& wave();
 const Table<BreathingSetting>& breathing();
 const Table<DetailSetting>& detail();
 const Table<VariationSetting>& variation();
+const Table<VariationSetting::Variant>& variant_keys();
 const Table<MarkSetting>& mark();
 
 const Table<Section>& section();

@@ -29,7 +29,10 @@ const Table<Look::Relief>& relief() {
        R::number("lopsided_mm", units::mm, &L::lopsided, 0, 20,
                  "flat and full places of a body as a whole, each body's own, default {}"),
        R::number("haustra_mm", units::mm, &L::haustra, 0, 20, "height of a large gut's bulges, default {}"),
-       R::number("haustra_size_mm", units::mm, &L::haustra_size, 1, 200, "their distance, default {}")}};
+       R::number("haustra_size_mm", units::mm, &L::haustra_size, 1, 200, "their distance, default {}"),
+       R::number("spiral_mm", units::mm, &L::spiral, 0, 2,
+                 "of a strand: height of a ridge that winds around it, as a cystic duct's folds do; default {}"),
+       R::number("spiral_size_mm", units::mm, &L::spiral_size, 1, 50, "its pitch, default {}")}};
   return table;
 }
 

@@ -153,6 +153,27 @@ void Reading::vessels(const JsonObject& o, const fs::path& folder) {
   includes(o, "vessels", folder, vessels_shape(), read, read);
 }
 
+void Reading::variant(const JsonObject& o, const fs::path& folder, VariationSetting& variation) {
+  const std::size_t first = m_references.size();
+  Context context{folder, this, m_references};
+  variation.variants.push_back(variant_keys().made(o, context));
+  const auto of_scene = [](const Reference& r) { return r.to == Reference::To::look; };
+  const auto own = std::stable_partition(m_references.begin() + std::ptrdiff_t(first), m_references.end(), of_scene);
+  m_of_variants.emplace_back(own, m_references.end());
+  m_references.erase(own, m_references.end());
+}
+
+void Reading::variant_bodies(const JsonObject& o, const fs::path& folder, VariationSetting::Variant& variant) {
+  Description brings;
+  swap_bodies(description, brings);  // files fill the description
+  organs(o, folder);
+  vessels(o, folder);
+  Context context{folder, this, m_references};
+  for (const JsonObject& one : o.objects("marks")) description.marks.push_back(mark().made(one, context));
+  swap_bodies(description, brings);
+  variant.brings = std::make_shared<const Description>(std::move(brings));
+}
+
 Description read_scene(const fs::path& path, const MemoryFiles* memory) {
   std::vector<core::Fault> faults;
   Reading reading(faults, memory);

@@ -82,8 +82,11 @@ void Reading::looks(const std::filesystem::path& first) {
 }
 
 void Reading::resolve() {
-  if (crowded()) return;
-  for (const Reference& reference : m_references) {
+  if (!crowded()) resolve(m_references);
+}
+
+void Reading::resolve(const std::vector<Reference>& references) {
+  for (const Reference& reference : references) {
     if (reference.to == Reference::To::look) continue;
     const std::vector<std::string> known = names(reference.to);
     if (std::find(known.begin(), known.end(), reference.name) == known.end())
@@ -103,13 +106,33 @@ void Reading::check_together() {
     tell(m_faults, {description.variation->at, "expected a bleeder whose hole can vary, got none in this scene"});
   if (description.variation)
     for (const VariationSetting::Finding& finding : description.variation->findings) check_finding(finding);
+  if (description.variation && m_faults.empty()) check_variants();
+}
+
+void Reading::check_variants() {
+  const Description common = description;
+  const std::vector<VariationSetting::Variant>& variants = common.variation->variants;
+  if (!common.variant.empty() && !find_variant(*common.variation, common.variant))
+    tell(m_faults, {common.variation->at,
+                    fmt::format("expected a variant \"{}\", which the scene asks for, got none", common.variant)});
+  for (std::size_t i = 0; i < variants.size() && m_faults.empty(); ++i) {
+    put_in(description, variants[i]);
+    if (i < m_of_variants.size()) resolve(m_of_variants[i]);
+    if (check_counts(description, m_faults)) check_capacity(description, m_faults);
+    check_names();
+    for (const MarkSetting& mark : description.marks) check_mark(mark);
+    description = common;
+  }
 }
 
 void Reading::check_finding(const VariationSetting::Finding& finding) {
-  const auto is_it = [&](const MarkSetting& mark) { return mark.name == finding.mark; };
-  if (std::none_of(description.marks.begin(), description.marks.end(), is_it))
-    tell(m_faults,
-         {finding.at, fmt::format("expected a finding's mark to be one of the scene's, got \"{}\"", finding.mark)});
+  std::vector<std::string> marks = finding.with;
+  marks.insert(marks.begin(), finding.mark);
+  for (const std::string& name : marks) {
+    const auto is_it = [&](const MarkSetting& mark) { return mark.name == name; };
+    if (std::none_of(description.marks.begin(), description.marks.end(), is_it))
+      tell(m_faults, {finding.at, fmt::format("expected a finding's mark to be one of the scene's, got \"{}\"", name)});
+  }
 }
 
 bool Reading::crowded() {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <trocar/scene/description/variant.hpp>
 #include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/library.hpp>
 #include <trocar/scene/files/reader.hpp>
@@ -46,6 +47,9 @@ class Reading {
   void organs(const JsonObject& o, const std::filesystem::path& folder);
   void instruments(const JsonObject& o, const std::filesystem::path& folder);
   void vessels(const JsonObject& o, const std::filesystem::path& folder);
+  /// One of a variation's, and what it brings.
+  void variant(const JsonObject& o, const std::filesystem::path& folder, VariationSetting& variation);
+  void variant_bodies(const JsonObject& o, const std::filesystem::path& folder, VariationSetting::Variant& variant);
   /// Fills a solid from the file that `o` names; `source` has the other keys of it.
   void mesh_of(const JsonObject& o, TetSource source, const std::filesystem::path& folder, Solid& s);
   void voxels_of(const JsonObject& o, TetSource source, const std::filesystem::path& folder, Solid& s);
@@ -98,6 +102,9 @@ class Reading {
   /// Too many bodies to compare all with all; told once.
   bool crowded();
   std::vector<std::string> names(Reference::To to) const;
+  void resolve(const std::vector<Reference>& references);
+  /// The scene with each of its variants, once it is sound without.
+  void check_variants();
   void check_names();
   void check_vessel_names();
   void check_tool(const Placement& tool);
@@ -117,6 +124,7 @@ class Reading {
   const MemoryFiles* m_memory;       ///< where not null, files are looked up there
   std::optional<Library> m_library;  ///< what files on the disk may name
   std::vector<Reference> m_references;
+  std::vector<std::vector<Reference>> m_of_variants;  ///< (variants) what only the scene with that one must know
   std::vector<std::pair<std::filesystem::path, std::string>> m_open;  ///< files being read: canonical path, shown name
   std::vector<Placement> m_tools;  ///< tools and scope whose reach is checked when ports and instruments are known
   std::vector<SheetEnd> m_sheet_ends;

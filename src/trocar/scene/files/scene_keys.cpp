@@ -261,6 +261,7 @@ std::vector<Row<Description>> scene_rows() {
                  check_details),
       R::objects("marks", mark, &D::marks, 0, "what exercises look for or work at, default none"),
       R::object("variation", variation, &D::variation, "what another seed makes different, default nothing"),
+      R::name("variant", &D::variant, "one of the variation's variants, which every seed has; default: the seed draws"),
       included("instruments", instrument, &D::instruments, &Reading::instruments, "instruments: files or objects"),
       needed(R::objects("ports", port, &D::ports, 1, "trocars")),
       needed(R::objects("tools", tool, &D::placements, 0, "in the order of the hands: left, right, assistant",

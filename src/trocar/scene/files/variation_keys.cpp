@@ -1,5 +1,10 @@
 // Keys of what another seed makes of a scene.
+#include <algorithm>
+
+#include <trocar/scene/description/variant.hpp>
 #include <trocar/scene/files/keys.hpp>
+#include <trocar/scene/files/reader_parts.hpp>
+#include <trocar/scene/files/vessel_file.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -61,19 +66,138 @@ const Table<V::Finding>& finding() {
       "finding",
       "Something that is found in some patients and not in others: a mark, and what goes with it.",
       {needed(R::name("mark", &V::Finding::mark, "the mark, which is left out where it is not found")),
+       R::texts("with", &V::Finding::with, "marks that are there when it is"),
+       R::number("share", units::one, &V::Finding::share, 0, 1,
+                 "of patients in whom it is found, each by itself, always with seed 0; default {}: one of `present`"),
        R::ref("solid", Reference::To::solid, &V::Finding::solid, "a lofted organ that is narrow there, default none"),
        R::number("narrower", units::one, &V::Finding::narrower, 0, 0.6, "its half axes, relative; default {}"),
        R::number("over_mm", units::mm, &V::Finding::over, 1, 200, "as far to either side, fading out; default {}")}};
   return table;
 }
 
+const Table<V::Variant::Hold>& variant_hold() {
+  using H = V::Variant::Hold;
+  using R = Rows<H>;
+  static const Table<H> table{
+      "variant hold",
+      "Where a pouch's wall rides on something that a variant brings: an artery's end, say.",
+      {needed(R::ref("pouch", Reference::To::pouch, &H::pouch, "whose wall")),
+       needed(R::ref("on", Reference::To::solid_or_strand, &H::on, "what it rides on")),
+       needed(R::vec3("centre_mm", units::mm, &H::centre, -kFar, kFar, "middle of the ball whose nodes ride")),
+       needed(R::number("radius_mm", units::mm, &H::radius, 0.1, 100, "its radius")),
+       R::vec3("instead_mm", units::mm, &H::instead, -kFar, kFar,
+               "the pouch's hold nearest to this place ends; default: none does")}};
+  return table;
+}
+
+const Table<FatSetting::Fill>& more_fill() {
+  using F = FatSetting::Fill;
+  using R = Rows<F>;
+  static const Table<F> table{
+      "more fill",
+      "A thick line.",
+      {needed(R::points("line_mm", units::mm, &F::line, -kFar, kFar, 1, "its middle; one point: a ball")),
+       needed(R::number("radius_mm", units::mm, &F::radius, 1, 100, "half its thickness"))}};
+  return table;
+}
+
+const Table<V::Variant::MoreFat>& more_fat() {
+  using F = V::Variant::MoreFat;
+  using R = Rows<F>;
+  static const Table<F> table{"more fat",
+                              "More of a fat that a scene has; scenes that have none of its name go without.",
+                              {needed(R::name("of", &F::of, "the fat's name")),
+                               R::objects("fills", more_fill, &F::fills, 0, "where it is, too"),
+                               R::refs("on", Reference::To::carrier, &F::on, "what it holds on, too")}};
+  return table;
+}
+
+/// What a variant brings, as one list of a file.
+template <class Write>
+std::optional<JsonValue> brought(const V::Variant& v, bool any, Write&& write) {
+  return v.brings && any ? std::optional<JsonValue>(write(*v.brings)) : std::nullopt;
+}
+
+std::vector<Row<V::Variant>> bringing_rows() {
+  using T = V::Variant;
+  using R = Rows<T>;
+  return {R::own(
+              keys::includes(
+                  "organs", []() -> const Shape& { return organ_keys(); },
+                  "bodies that it brings: files or objects; one of a name that the scene has takes its place"),
+              [](const JsonObject& o, T& v, Context& c) { c.reading->variant_bodies(o, c.folder, v); },
+              [](const T& v, bool) {
+                return brought(v, v.brings && !organ_keys().written(*v.brings).members.empty(),
+                               [](const Description& d) { return json_array({organ_keys().written(d)}); });
+              }),
+          R::own(keys::includes("vessels", vessels_shape, "arteries and veins likewise, by the name of their file's"),
+                 nullptr,
+                 [](const T& v, bool) {
+                   return brought(v, v.brings && !v.brings->vessels.empty(),
+                                  [](const Description& d) { return listed(d.vessels, written_vessels); });
+                 }),
+          R::own(keys::objects(
+                     "marks", []() -> const Shape& { return mark(); }, 0, "marks likewise"),
+                 nullptr, [](const T& v, bool) {
+                   return brought(v, v.brings && !v.brings->marks.empty(), [](const Description& d) {
+                     return listed(d.marks, [](const MarkSetting& m) { return mark().written(m); });
+                   });
+                 })};
+}
+
+Row<V> variants_row() {
+  return Rows<V>::own(
+      keys::objects(
+          "variants", []() -> const Shape& { return variant_keys(); }, 0,
+          "another anatomy that some patients have: at most one a patient"),
+      [](const JsonObject& o, V& v, Context& c) {
+        for (const JsonObject& one : o.objects("variants")) c.reading->variant(one, c.folder, v);
+      },
+      [](const V& v, bool) {
+        return v.variants.empty() ? std::nullopt
+                                  : std::optional<JsonValue>(listed(
+                                        v.variants, [](const V::Variant& one) { return variant_keys().written(one); }));
+      });
+}
+
+void check_variant_shares(const JsonObject& o, const V& v) {
+  double sum = 0;
+  for (std::size_t i = 0; i < v.variants.size(); ++i) {
+    sum += v.variants[i].share;
+    const auto same = [&](const V::Variant& other) { return other.name == v.variants[i].name; };
+    const auto end = v.variants.begin() + std::ptrdiff_t(i);
+    if (v.variants[i].name == kCommonAnatomy || std::any_of(v.variants.begin(), end, same))
+      o.fault(v.variants[i].at, fmt::format("expected a name of its own for every variant, and not \"{}\", got \"{}\"",
+                                            kCommonAnatomy, v.variants[i].name));
+  }
+  if (sum > 1) o.fault("variants", fmt::format("expected shares of at most 1 in all, got {:.3g}", sum));
+}
+
 void check_variation(const JsonObject& o, V& v, Context&) {
-  if (v.present > int(v.findings.size()))
-    o.fault("present",
-            fmt::format("expected at most as many as there are findings, {}, got {}", v.findings.size(), v.present));
+  check_variant_shares(o, v);
+  const auto counted = std::count_if(v.findings.begin(), v.findings.end(), [](const auto& f) { return f.share <= 0; });
+  if (v.present > int(counted))
+    o.fault("present", fmt::format("expected at most as many as there are findings, {}, got {}", counted, v.present));
 }
 
 }  // namespace
+
+const Table<VariationSetting::Variant>& variant_keys() {
+  using T = V::Variant;
+  using R = Rows<T>;
+  static const Table<T> table{
+      "variant", "An anatomy that some patients have instead of the common one.", [] {
+        std::vector<Row<T>> rows{needed(R::name("name", &T::name, "what results call it")),
+                                 needed(R::text("title", &T::title, "for people")),
+                                 needed(R::number("share", units::one, &T::share, 0, 1, "of patients who have it")),
+                                 needed(R::text("source", &T::source, "of the share: a publication, or \"ours\""))};
+        for (Row<T>& row : bringing_rows()) rows.push_back(std::move(row));
+        rows.push_back(R::objects("holds", variant_hold, &T::holds, 0, "where walls of pouches ride on it"));
+        rows.push_back(R::objects("fat", more_fat, &T::fat, 0, "more of the fat that a scene has"));
+        return rows;
+      }()};
+  return table;
+}
 
 const Table<VariationSetting>& variation() {
   using R = Rows<V>;
@@ -87,7 +211,8 @@ const Table<VariationSetting>& variation() {
        R::flag("bleeder", &V::bleeder, "which of the bleeder's holes opens; default {}: the first"),
        R::objects("findings", finding, &V::findings, 0, "what is found in some patients"),
        R::integer("present", &V::present, 0, 64,
-                  "so many of the findings are there, drawn by the seed; with seed 0 the first; default {}")},
+                  "so many of the findings are there, drawn by the seed; with seed 0 the first; default {}"),
+       variants_row()},
       check_variation};
   return table;
 }

@@ -78,16 +78,6 @@ class Others {
   std::vector<Closed> m_closed;
 };
 
-bool within(const FatSetting::Fill& fill, Vec3d p) {
-  const std::vector<Vec3d>& line = fill.line;
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    const Vec3d a = line[k], b = line[std::min(k + 1, line.size() - 1)];
-    const Vec3d at = length(b - a) > 0 ? a + geometry::closest_on_segment(p, a, b) * (b - a) : a;
-    if (length(p - at) <= fill.radius) return true;
-  }
-  return false;
-}
-
 /// The same for the same numbers, -1 .. 1.
 double scattered(int i, int j, int k, int axis) {
   std::uint32_t h = std::uint32_t(i) * 73856093u ^ std::uint32_t(j) * 19349663u ^ std::uint32_t(k) * 83492791u ^
@@ -119,6 +109,16 @@ std::vector<Vec3d> lattice_in(const FatSetting& s, const Others& others) {
 }
 
 }  // namespace
+
+bool within(const FatSetting::Fill& fill, Vec3d p) {
+  const std::vector<Vec3d>& line = fill.line;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    const Vec3d a = line[k], b = line[std::min(k + 1, line.size() - 1)];
+    const Vec3d at = length(b - a) > 0 ? a + geometry::closest_on_segment(p, a, b) * (b - a) : a;
+    if (length(p - at) <= fill.radius) return true;
+  }
+  return false;
+}
 
 FatFilling filled(const FatSetting& s, const sim::Model& model) {
   const Others others(model);

@@ -14,6 +14,8 @@ struct FatFilling {
   std::vector<std::uint8_t> free;  ///< (lobules) 1: on a face that lies against nothing
 };
 
+bool within(const FatSetting::Fill& fill, Vec3d p);
+
 /// In what the setting fills, outside strands, organs and pouches as drawn. No more than a few beyond 4000 are made.
 FatFilling filled(const FatSetting& setting, const sim::Model& model);
 

@@ -24,6 +24,17 @@ const Shape& fill_shape() {
   return shape;
 }
 
+const Shape& nodule_shape() {
+  static const Shape shape{
+      "nodule",
+      "Lobules within a thick line that are drawn as one thing: a lymph node. For the picture only; "
+      "they are fat in all else.",
+      {needed(keys::points("line_mm", -kFatFar, kFatFar, 1, "its middle; one point: a ball")),
+       needed(keys::number("radius_mm", 1, 100, "half its thickness")),
+       needed(keys::text("look", "its surface in the picture"))}};
+  return shape;
+}
+
 const Shape& fat_shape() {
   static const Shape shape{
       "fat",
@@ -33,6 +44,7 @@ const Shape& fat_shape() {
       {needed(keys::name("name", "what exercises call it")),
        keys::text("look", "its surface in the picture, default \"fat\""),
        needed(keys::objects("fills", fill_shape, 1, "where it is, as far as nothing else is there")),
+       keys::objects("nodules", nodule_shape, 0, "lymph nodes in it, default none"),
        keys::texts("on", "strands, solids and pouches that it holds on, where they are near"),
        keys::number("reach_mm", 0.2, 20, "how near that is, default 3"),
        keys::number("spacing_mm", 1, 10, "of its lobules, default 2.5"),
@@ -103,6 +115,24 @@ std::vector<interactions::FatTie> ties_of(const FatSetting& s, const FatFilling&
   return ties;
 }
 
+FatSetting::Fill read_fill(const JsonObject& o) {
+  FatSetting::Fill f;
+  for (const Vec3d& p : o.points("line_mm")) f.line.push_back(p / 1000.0);
+  f.radius = o.number("radius_mm", 1) / 1000;
+  return f;
+}
+
+std::vector<interactions::FatNodule> nodules_of(const FatSetting& s, const FatFilling& filling) {
+  std::vector<interactions::FatNodule> all;
+  for (const FatSetting::Nodule& n : s.nodules) {
+    interactions::FatNodule& nodule = all.emplace_back();
+    nodule.look = n.look;
+    for (std::size_t i = 0; i < filling.lobules.size(); ++i)
+      if (within(n.in, filling.lobules[i])) nodule.lobules.push_back(std::int32_t(i));
+  }
+  return all;
+}
+
 void compile_one(const FatSetting& s, sim::Model& model, std::vector<core::Fault>& faults) try {
   for (const std::string& name : s.on)
     if (model.strand_index(name) < 0 && model.organ_index(name) < 0 && model.membrane_index(name) < 0)
@@ -116,6 +146,7 @@ void compile_one(const FatSetting& s, sim::Model& model, std::vector<core::Fault
   interactions::FatBody body;
   body.name = s.name;
   body.look = s.look;
+  body.nodules = nodules_of(s, filling);
   body.roots = roots_of(s, filling, model);
   body.ties = ties_of(s, filling, body.roots, model);
   if (body.roots.bonds.empty() && body.ties.empty()) {
@@ -141,11 +172,8 @@ FatSetting FatScene::read(const JsonObject& o) {
   FatSetting s;
   s.name = o.text("name");
   s.look = o.text("look", "fat");
-  for (const JsonObject& fill : o.objects("fills")) {
-    FatSetting::Fill& f = s.fills.emplace_back();
-    for (const Vec3d& p : fill.points("line_mm")) f.line.push_back(p / 1000.0);
-    f.radius = fill.number("radius_mm", 1) / 1000;
-  }
+  for (const JsonObject& fill : o.objects("fills")) s.fills.push_back(read_fill(fill));
+  for (const JsonObject& n : o.objects("nodules")) s.nodules.push_back({read_fill(n), n.text("look")});
   s.on = o.texts("on");
   s.reach = o.number("reach_mm", 1000 * s.reach) / 1000;
   s.spacing = o.number("spacing_mm", 1000 * s.spacing) / 1000;
@@ -167,6 +195,9 @@ void FatScene::bend(std::vector<Setting>& settings, const std::function<Vec3d(Ve
   for (FatSetting& s : settings)
     for (FatSetting::Fill& f : s.fills)
       for (Vec3d& p : f.line) p = warp(p);
+  for (FatSetting& s : settings)
+    for (FatSetting::Nodule& n : s.nodules)
+      for (Vec3d& p : n.in.line) p = warp(p);
 }
 
 void FatScene::compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>& faults) {

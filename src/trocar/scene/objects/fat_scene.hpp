@@ -20,8 +20,14 @@ struct FatSetting {
     std::vector<Vec3d> line;  ///< middles of a thick line [m]
     double radius = 0;        ///< [m]
   };
+  /// Lobules within it are drawn as one thing of that look: a lymph node.
+  struct Nodule {
+    Fill in;
+    std::string look;
+  };
   std::string name, look;
   std::vector<Fill> fills;
+  std::vector<Nodule> nodules;
   std::vector<std::string> on;  ///< strands, organs and pouches
   double reach = 0.003;         ///< [m]
   double spacing = 0.0025;      ///< of lobules [m]

@@ -64,6 +64,7 @@ struct Look {
     int follicles = 0, scars = 0;
     double follicle_radius = 0.003, ripe = 0, lopsided = 0;
     double haustra = 0, haustra_size = 0.03;
+    double spiral = 0, spiral_size = 0.0035;
   } relief;
   std::vector<Surrounding> surroundings;
 };

@@ -335,6 +335,7 @@ struct State;
 /// A Model names things; State and Work have only numbers.
 struct Model {
   std::string name, file;
+  std::string anatomy, anatomy_title;  ///< the variant that the seed has; empty: the scene has none
   Vec3d gravity;
   std::vector<SolidModel> solids;
   std::vector<CuttableOrgan> cuttables;
@@ -396,7 +397,8 @@ struct Model {
         v("energy", s.energy, core::only_if(s.energy.there)), v("motion", s.motion, core::only_if(s.motion.there())),
         v("objects", s.objects), v("statics", s.statics, core::only_if(!s.statics.empty())),
         v("bonds", s.bonds, core::only_if(!s.bonds.empty())), v("name", s.name, core::kNotHashed),
-        v("file", s.file, core::kNotHashed), v("drawn_folds", s.drawn_folds, core::kNotHashed),
+        v("file", s.file, core::kNotHashed), v("anatomy", s.anatomy, core::kNotHashed),
+        v("anatomy_title", s.anatomy_title, core::kNotHashed), v("drawn_folds", s.drawn_folds, core::kNotHashed),
         v("nearest_at_start", s.nearest_at_start, core::kNotHashed), v("targets", s.targets, core::kNotHashed),
         v("looks", s.looks, core::kNotHashed), v("drawn_detail", s.drawn_detail, core::kNotHashed),
         v("hash", s.hash, core::kNotHashed);

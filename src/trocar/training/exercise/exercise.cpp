@@ -23,7 +23,7 @@ Names Exercise::names(const sim::Model* model, std::uint64_t seed, Faults& fault
   Sets made;
   for (const auto& [set_name, part] : sets)
     made.push_back(read_set(set_name, part.value, part.file, model, seed, faults));
-  return {limits, std::move(made)};
+  return {model ? limits_in(limits, model->anatomy) : limits, std::move(made)};
 }
 
 }  // namespace trocar::training

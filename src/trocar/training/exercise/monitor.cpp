@@ -19,6 +19,7 @@ Monitor::Monitor(const Exercise& exercise, const sim::Model& model, Mode mode, s
   Faults faults;
   m_rules = std::make_unique<Rules>(*m_exercise, &model, seed, *m_board, faults);
   if (!faults.empty()) throw core::BadInput(faults);
+  m_anatomy = model.anatomy, m_anatomy_title = model.anatomy_title;
   const sim::State start = sim::initial_state(model);
   m_lens = sim::scope_of(model, start).eye;
   for (size_t h = 0; h < hands(model); ++h) {

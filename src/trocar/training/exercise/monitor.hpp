@@ -57,6 +57,7 @@ class Monitor {
   std::unique_ptr<const Exercise> m_exercise;  ///< where it is, rules and board look at it
   std::unique_ptr<Scoreboard> m_board;
   std::unique_ptr<Rules> m_rules;
+  std::string m_anatomy, m_anatomy_title;  ///< the variant of this patient; empty: the scene has none
   std::vector<ToolMetrics> m_tools;
   struct TrocarMean {
     double on_wall = 0, by_hand = 0;  ///< [N]

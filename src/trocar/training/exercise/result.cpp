@@ -76,6 +76,7 @@ std::string Monitor::result_json() const {
   j["errors"] = Json::array();
   for (const ErrorMade& e : errors()) j["errors"].push_back(error_json(e));
   m_rules->tell(j);
+  if (!m_anatomy.empty()) j["anatomy"] = {{"variant", m_anatomy}, {"title", m_anatomy_title}};
   j["tools"] = Json::array();
   for (const ToolMetrics& t : m_tools)
     j["tools"].push_back({{"name", t.name},
@@ -83,7 +84,7 @@ std::string Monitor::result_json() const {
                           {"max_pull_N", t.max_pull},
                           {"max_at_trocar_N", t.max_on_wall},
                           {"max_by_hand_N", t.max_by_hand}});
-  j["thresholds"] = limits_json(m_exercise->limits);
+  j["thresholds"] = limits_json(m_rules->names().limits());
   j["not_assessed"] = Json::array();
   for (const LaterError& l : m_exercise->later)
     j["not_assessed"].push_back({{"code", l.code}, {"name", l.name}, {"needs", l.needs}});

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -17,10 +18,37 @@ const scene::Shape& limit_shape() {
       "limit",
       "A number that decides, and where it comes from.",
       {needed(keys::any("value", "a number or [from, to], in the unit that the name ends in")),
+       keys::any("in", "what it is in another anatomy of the scene, by the variant's name: numbers or ranges likewise"),
        needed(keys::text("source", "a publication, or \"ours\"")),
        keys::choice("stricter", {"low", "high"}, "of common rules: the way in which an exercise may move it"),
        keys::text("loosened", "why this exercise allows more than the common rules")}};
   return shape;
+}
+
+struct Figure {
+  double low = 0, high = 0;
+  bool is_range = false;
+};
+/// None: it is neither a number nor a range.
+std::optional<Figure> figure_of(const JsonValue& v) {
+  const auto number = [](const JsonValue& i) { return i.kind == JsonValue::Kind::number; };
+  if (number(v)) return Figure{v.number, v.number, false};
+  if (v.kind == JsonValue::Kind::array && v.items.size() == 2 && number(v.items[0]) && number(v.items[1]))
+    return Figure{v.items[0].number, v.items[1].number, true};
+  return std::nullopt;
+}
+
+void elsewhere(const JsonValue& in, const JsonObject& o, Limit& l) {
+  if (in.kind != JsonValue::Kind::object)
+    return o.fault("in", "expected values by the names of variants in {}, got " + scene::shown(in));
+  for (const scene::JsonMember& m : in.members) {
+    const std::optional<Figure> f = figure_of(m.value);
+    if (!f || f->is_range != l.is_range || f->low > f->high)
+      o.fault("in", fmt::format("expected {} for \"{}\", as the value is, got {}",
+                                l.is_range ? "[from, to] with from <= to" : "a number", m.key, scene::shown(m.value)));
+    else
+      l.elsewhere.push_back({m.key, f->low, f->high});
+  }
 }
 
 bool looser(const Limit& own, const Limit& common) {
@@ -64,18 +92,15 @@ void RuleFiles::limit(const scene::JsonMember& member, const std::string& path, 
   static const JsonValue kNothing;
   const scene::JsonMember* value = member.value.find("value");
   const JsonValue& v = value ? value->value : kNothing;
-  const auto number = [](const JsonValue& i) { return i.kind == JsonValue::Kind::number; };
-  if (number(v)) {
-    l.low = l.high = v.number;
-  } else if (v.kind == JsonValue::Kind::array && v.items.size() == 2 && number(v.items[0]) && number(v.items[1])) {
-    l.is_range = true;
-    l.low = v.items[0].number;
-    l.high = v.items[1].number;
+  if (const std::optional<Figure> f = figure_of(v)) {
+    l.is_range = f->is_range;
+    l.low = f->low, l.high = f->high;
     if (l.low > l.high) o.fault("value", "expected [from, to] with from <= to, got an empty range");
   } else {
     if (value) o.fault("value", "expected a number or [from, to], got " + scene::shown(v));
     l.broken = true;
   }
+  if (const scene::JsonMember* in = member.value.find("in")) elsewhere(in->value, o, l);
   const auto same = [&l](const Limit& other) { return other.name == l.name; };
   const auto known = std::find_if(m_exercise.limits.begin(), m_exercise.limits.end(), same);
   if (known == m_exercise.limits.end()) {

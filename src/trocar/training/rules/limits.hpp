@@ -22,6 +22,12 @@ struct Limit {
   std::string source;
   Stricter stricter = Stricter::either;
   core::Location at;
+  /// What it is in patients of another anatomy.
+  struct Elsewhere {
+    std::string anatomy;
+    double low = 0, high = 0;
+  };
+  std::vector<Elsewhere> elsewhere;
 
   const Unit& unit() const { return unit_of(name); }
   double si() const { return low * unit().si; }  ///< of a single number
@@ -30,6 +36,9 @@ struct Limit {
   std::string shown() const;  ///< "15", "12 to 20"
 };
 using Limits = std::vector<Limit>;
+
+/// As they are in patients of this anatomy (sim::Model::anatomy).
+Limits limits_in(Limits limits, std::string_view anatomy);
 
 /// Null: there is none of that name.
 const Limit* find_limit(const Limits& limits, std::string_view name);

@@ -23,14 +23,15 @@ constexpr ElementSource kElementSources[] = {
 
 class SetReader {
  public:
-  SetReader(Set& set, std::vector<core::Fault>& faults) : m_set(set), m_faults(faults) {}
+  SetReader(Set& set, const sim::Model* model, std::vector<core::Fault>& faults)
+      : m_set(set), m_model(model), m_faults(faults) {}
 
   void elements(const JsonValue& list) {
     if (list.kind != Kind::array) return fault(list, "expected a list of elements, got " + scene::shown(list));
     for (const JsonValue& item : list.items) element(item);
   }
 
-  void object(const JsonValue& value, const sim::Model* model, std::uint64_t seed) {
+  void object(const JsonValue& value, std::uint64_t seed) {
     const std::vector<std::string> known{"elements", "held", "marks", "bodies", "hands", "order"};
     for (const scene::JsonMember& m : value.members)
       if (std::find(known.begin(), known.end(), m.key) == known.end())
@@ -44,7 +45,7 @@ class SetReader {
       if (const scene::JsonMember* pattern = value.find(source.key)) {
         if (made) fault(pattern->value, "expected one of elements, marks, bodies, hands, got several");
         made = true;
-        matching(pattern->value, source.kind, model);
+        matching(pattern->value, source.kind);
       }
     if (!made) fault(value, "expected elements, marks, bodies or hands in a set, got none");
     if (const scene::JsonMember* order = value.find("order")) put_in_order(order->value, seed);
@@ -78,19 +79,31 @@ class SetReader {
     e.title = title && title->value.kind == Kind::string ? title->value.text : e.name;
     e.self = name->value;
     e.members = item;
+    if (absent(item)) return;
     add(std::move(e), name->value);
   }
 
-  void matching(const JsonValue& pattern, ArgumentKind kind, const sim::Model* model) {
+  /// Only some patients have it, and this one has not.
+  bool absent(const JsonValue& item) {
+    const scene::JsonMember* body = item.find("if_body");
+    if (!body) return false;
+    if (body->value.kind != Kind::string)
+      fault(body->value, "expected the name of a body, got " + scene::shown(body->value));
+    std::vector<std::string> known;
+    std::int32_t index = -1;
+    return m_model && !find_named(*m_model, ArgumentKind::body, body->value.text, index, known);
+  }
+
+  void matching(const JsonValue& pattern, ArgumentKind kind) {
     if (pattern.kind != Kind::string) return fault(pattern, "expected a pattern, got " + scene::shown(pattern));
-    m_set.pending = model == nullptr;
-    if (!model) {  // one that stands for all: what is said of each can be checked
+    m_set.pending = m_model == nullptr;
+    if (!m_model) {  // one that stands for all: what is said of each can be checked
       Element any{pattern.text, pattern.text, pattern, {}};
       return add(std::move(any), pattern);
     }
     std::vector<std::string> known;
     std::int32_t index = -1;
-    find_named(*model, kind, "", index, known);
+    find_named(*m_model, kind, "", index, known);
     for (const std::string& name : known) {
       if (!matches(pattern.text, name)) continue;
       Element e{name, name, pattern, {}};
@@ -120,6 +133,7 @@ class SetReader {
   }
 
   Set& m_set;
+  const sim::Model* m_model;
   std::vector<core::Fault>& m_faults;
 };
 
@@ -152,9 +166,9 @@ Set read_set(const std::string& name, const JsonValue& value, const std::string&
   set.name = name;
   set.file = file;
   set.at = value;
-  SetReader reader(set, faults);
+  SetReader reader(set, model, faults);
   if (value.kind == Kind::object)
-    reader.object(value, model, seed);
+    reader.object(value, seed);
   else if (value.kind != Kind::broken)
     reader.elements(value);
   return set;

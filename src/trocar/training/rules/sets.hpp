@@ -36,7 +36,8 @@ const Set* find_set(const Sets& sets, std::string_view name);
 bool matches(std::string_view pattern, std::string_view name);
 
 /// Reads one set: a list of names or of elements, an object with `elements`, or a pattern over the scene's marks,
-/// bodies or hands. @param model  null: patterns stay pending  @param seed  draws the order of "by_seed"
+/// bodies or hands. An element with `if_body` is there only where the scene has that body. @param model  null: patterns
+/// stay pending  @param seed  draws the order of "by_seed"
 Set read_set(const std::string& name, const scene::JsonValue& value, const std::string& file, const sim::Model* model,
              std::uint64_t seed, std::vector<core::Fault>& faults);
 

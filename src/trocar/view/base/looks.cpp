@@ -59,7 +59,9 @@ Relief relief_of(const sim::Look::Relief& r) {
           .ripe = r.ripe,
           .lopsided = r.lopsided,
           .haustra = r.haustra,
-          .haustra_size = r.haustra_size};
+          .haustra_size = r.haustra_size,
+          .spiral = r.spiral,
+          .spiral_size = r.spiral_size};
 }
 
 Look drawn(const sim::Look& l) {

@@ -19,6 +19,7 @@ struct Relief {
   double lopsided = 0;                      ///< flat and full places of an organ as a whole, each organ's own [m]
   double haustra = 0, haustra_size = 0.03;  ///< height and distance of a large gut's bulges along its length [m];
                                             ///< three bands run along between them
+  double spiral = 0, spiral_size = 0.0035;  ///< of a strand: height and pitch of a ridge that winds around it [m]
 
   /// Places where a strand grows out: the surface rises to meet it.
   struct Root {

@@ -46,6 +46,7 @@ TubeDrawing::TubeDrawing(const sim::Model& model, int strand, const Detail& deta
     : m_model(&model),
       m_strand(&model.strands[std::size_t(strand)]),
       m_body(&model.strand_bodies[std::size_t(strand)]),
+      m_relief(&look(model, m_strand->look).relief),
       m_index(strand),
       m_marks(model, BodyId::strand(std::size_t(strand))) {
   const double thickest = *std::max_element(m_strand->outer.begin(), m_strand->outer.end());

@@ -8,6 +8,7 @@
 #include <trocar/render/meshes/openness.hpp>
 #include <trocar/view/base/heat_marks.hpp>
 #include <trocar/view/base/level_of_detail.hpp>
+#include <trocar/view/base/looks.hpp>
 #include <trocar/view/base/moved.hpp>
 #include <trocar/view/base/pinch.hpp>
 #include <trocar/view/base/strand_curve.hpp>
@@ -100,6 +101,7 @@ class TubeDrawing {
   Paint paint_at(const Layout& layout, double s, double angle, Paint own) const;
   double radius_at(double s) const;
   double outline(double s, double angle) const;
+  double spiral(double s, double angle) const;
   double winding(double s) const;
   double bore(double s) const;
   Vec3d coiled(double s, const CurveFrame& f) const;
@@ -117,6 +119,7 @@ class TubeDrawing {
   const sim::Model* m_model;
   const sim::StrandAnatomy* m_strand;
   const interactions::StrandBody* m_body;
+  const Relief* m_relief;
   int m_index, m_sides;
   TubeRoot m_start_root, m_end_root;
   TubeNeck m_neck[2];  ///< at the start, at the end

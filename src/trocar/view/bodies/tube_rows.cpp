@@ -12,6 +12,7 @@ using interactions::Clip;
 namespace {
 
 constexpr double kTubeStep = 0.0012;  // [m] between rings
+constexpr double kAlongTurn = 7;      // rings to a turn of a ridge that winds around it
 constexpr double kFineStep = 0.0004;  // [m] near a clip
 constexpr double kNearClip = 0.004;   // [m]
 constexpr double kNearCut = 0.003;    // [m] blood on it has a ragged border
@@ -24,7 +25,8 @@ constexpr double kTubeBend = 0.01;  // [m] radius with which tubes curve, for ri
 
 std::vector<double> TubeDrawing::stations(const Layout& layout, const StrandPiece& piece) const {
   std::vector<double> at;
-  const int steps = std::max(2, int(std::ceil((piece.to - piece.from) / kTubeStep)));
+  const double step = m_relief->spiral > 0 ? std::min(kTubeStep, m_relief->spiral_size / kAlongTurn) : kTubeStep;
+  const int steps = std::max(2, int(std::ceil((piece.to - piece.from) / step)));
   for (int i = 0; i <= steps; ++i) at.push_back(piece.from + (piece.to - piece.from) * i / steps);
   for (const Clip& clip : layout.clips)
     for (double d = -kNearClip; d <= kNearClip; d += kFineStep)

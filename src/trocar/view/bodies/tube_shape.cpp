@@ -71,7 +71,17 @@ double TubeDrawing::outline(double s, double angle) const {
   const int own = 500 + 7 * m_index;
   return 1 + 0.045 * tube_swing(s / 0.0063 + 0.5 * std::sin(angle + seed), own) +
          0.03 * std::sin(2 * angle + 4 * tube_swing(s / 0.019, own + 1) + seed) +
-         0.018 * std::sin(3 * angle - k / 0.0061 + 2 * seed);
+         0.018 * std::sin(3 * angle - k / 0.0061 + 2 * seed) + spiral(s, angle);
+}
+
+/// Share of the radius by which a ridge that winds around it stands out. Uneven: folds are no screw thread.
+double TubeDrawing::spiral(double s, double angle) const {
+  const Relief& relief = *m_relief;
+  if (relief.spiral <= 0) return 0;
+  const double swing = tube_swing(s / 0.0053, 700 + 7 * m_index);
+  const double turn = 2 * portable::pi * s / relief.spiral_size + 0.6 * swing - angle;
+  const double ridge = 0.5 + 0.5 * std::sin(turn);
+  return (1 + 0.3 * swing) * relief.spiral * (ridge * ridge - 0.4) / m_strand->outer.front();
 }
 
 bool TubeDrawing::hosted(int node) const {

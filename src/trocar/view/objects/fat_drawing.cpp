@@ -18,6 +18,7 @@ constexpr double kThreadFrom = 1.7, kThreadTo = 8;  // spacings between which a 
 constexpr double kThin = 0.00008, kThick = 0.0005;  // [m] a thread's radius in its middle and at its ends
 constexpr std::uint32_t kRings = 5, kSides = 4;     // of a thread
 constexpr std::size_t kMostThreads = 400;
+constexpr float kNodule = 1.22f;    // of its lobules' size: how large one is drawn
 constexpr float kRag = 3;           // septa that hold a lobule: with fewer it is a rag
 constexpr double kSmallest = 0.72;  // of its size, without any
 
@@ -59,6 +60,16 @@ void add_threads(const tissue::FatModel& m, const tissue::FatState& s, MeshBuffe
   }
 }
 
+/// A mesh has at least a triangle.
+void add_nothing(MeshBuffer& b) {
+  for (int k = 0; k < 3; ++k) {
+    b.add({});
+    b.normals.push_back({0, 0, 1});
+    b.rest.push_back({});
+  }
+  b.triangle(0, 1, 2);
+}
+
 }  // namespace
 
 FatDrawing::FatDrawing(const sim::Model& model, render::Backend& backend) : m_model(&model), m_surface(kCell) {
@@ -68,8 +79,10 @@ FatDrawing::FatDrawing(const sim::Model& model, render::Backend& backend) : m_mo
     Drawn& d = m_bodies.emplace_back();
     d.body = &body;
     d.look = &look(model, body.look);
+    for (const interactions::FatNodule& n : body.nodules) d.nodules.push_back({&look(model, n.look), {}, {}});
     draw(d, drawn, interactions::part_of<Fat>(drawn.objects)[i++]);
     d.mesh = OwnedMesh(backend, m_buffer.data());
+    for (Drawn::Nodule& n : d.nodules) n.mesh = OwnedMesh(backend, n.buffer.data());
   }
 }
 
@@ -83,7 +96,7 @@ bool FatDrawing::moved(const Drawn& d, const tissue::FatState& s) {
 
 void FatDrawing::add_lobules(Drawn& d, const tissue::FatState& s) {
   const tissue::FatModel& m = d.body->fat;
-  d.shown.clear(), d.marks.clear(), m_lobules.clear();
+  d.shown.clear(), d.marks.clear(), m_lobules.clear(), m_numbers.clear();
   m_held.assign(std::size_t(m.lobules()), 0);
   for (int i = 0; i < m.septa(); ++i)
     for (int end : {0, 1}) m_held[std::size_t(septum_end(m, i, end))] += float(holding(m, s, i));
@@ -96,6 +109,25 @@ void FatDrawing::add_lobules(Drawn& d, const tissue::FatState& s) {
     const double rag = std::min(1.0, double(m_held[std::size_t(i)]) / double(kRag));
     const double size = (kSmallest + (1 - kSmallest) * rag) * (1 + 0.16 * (2 * varied(i, 5) - 1));
     m_lobules.push_back({vec_cast<float>(p), vec_cast<float>(rest), float(size * kReach * m.spacing), burn_of(m, l)});
+    m_numbers.push_back(i);
+  }
+}
+
+/// Those lobules are drawn once more, a little larger, as one firm thing: it shows where it lies at the surface.
+void FatDrawing::draw_nodules(Drawn& d) {
+  for (std::size_t k = 0; k < d.nodules.size(); ++k) {
+    const std::vector<std::int32_t>& own = d.body->nodules[k].lobules;
+    std::vector<DrawnLobule> lobules;
+    for (std::size_t i = 0; i < m_lobules.size(); ++i)
+      if (std::find(own.begin(), own.end(), m_numbers[i]) != own.end()) {
+        lobules.push_back(m_lobules[i]);
+        lobules.back().reach *= kNodule;
+      }
+    Drawn::Nodule& n = d.nodules[k];
+    n.buffer = {};
+    m_surface.draw(lobules, n.buffer);
+    n.any = !n.buffer.indices.empty();
+    if (!n.any) add_nothing(n.buffer);
   }
 }
 
@@ -119,13 +151,8 @@ void FatDrawing::draw(Drawn& d, const sim::State& state, const interactions::Fat
   add_threads(d.body->fat, fat.fat, m_buffer);
   add_roots(d, state, fat);
   d.any = !m_buffer.indices.empty();
-  if (d.any) return;
-  for (int k = 0; k < 3; ++k) {  // a mesh has at least a triangle
-    m_buffer.add({});
-    m_buffer.normals.push_back({0, 0, 1});
-    m_buffer.rest.push_back({});
-  }
-  m_buffer.triangle(0, 1, 2);
+  if (!d.any) add_nothing(m_buffer);
+  draw_nodules(d);
 }
 
 void FatDrawing::update(const sim::State& state) {
@@ -134,12 +161,16 @@ void FatDrawing::update(const sim::State& state) {
     if (!moved(m_bodies[i], now[i].fat)) continue;
     draw(m_bodies[i], state, now[i]);
     m_bodies[i].mesh.replace(m_buffer.data());
+    for (Drawn::Nodule& n : m_bodies[i].nodules) n.mesh.replace(n.buffer.data());
   }
 }
 
 void FatDrawing::list(std::size_t first, const Listing& to) {
-  for (std::size_t i = 0; i < m_bodies.size(); ++i)
+  for (std::size_t i = 0; i < m_bodies.size(); ++i) {
     if (m_bodies[i].any) to.add(item(m_bodies[i].mesh.handle(), *m_bodies[i].look, first + i));
+    for (const Drawn::Nodule& n : m_bodies[i].nodules)
+      if (n.any) to.add(item(n.mesh.handle(), *n.look, first + i));
+  }
 }
 
 }  // namespace trocar::view

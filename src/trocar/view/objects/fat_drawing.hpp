@@ -23,6 +23,14 @@ class FatDrawing {
     const interactions::FatBody* body;
     const Look* look;
     OwnedMesh mesh;
+    /// A lymph node in it.
+    struct Nodule {
+      const Look* look;
+      OwnedMesh mesh;
+      MeshBuffer buffer;
+      bool any = false;
+    };
+    std::vector<Nodule> nodules;
     std::vector<Vec3f> shown;         ///< where lobules were when it was drawn last
     std::vector<std::int32_t> marks;  ///< what they had been through
     bool any = false;                 ///< is there anything to see?
@@ -30,13 +38,15 @@ class FatDrawing {
   static bool moved(const Drawn& drawn, const tissue::FatState& state);
   void draw(Drawn& drawn, const sim::State& state, const interactions::FatBodyState& fat);
   void add_lobules(Drawn& drawn, const tissue::FatState& state);
+  void draw_nodules(Drawn& drawn);
   void add_roots(const Drawn& drawn, const sim::State& state, const interactions::FatBodyState& fat);
 
   const sim::Model* m_model;
   FatSurface m_surface;
   MeshBuffer m_buffer;
   std::vector<DrawnLobule> m_lobules;
-  std::vector<float> m_held;  ///< (lobules) how many septa hold it
+  std::vector<std::int32_t> m_numbers;  ///< (m_lobules) which they are
+  std::vector<float> m_held;            ///< (lobules) how many septa hold it
   std::vector<Drawn> m_bodies;
 };
 
