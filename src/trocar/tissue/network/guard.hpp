@@ -58,7 +58,7 @@ struct GuardedBody {
   Vec3d origin;
   double dt = 0;                 ///< of a sub-step [s]
   bool uncut = true;             ///< nothing of it has been cut or has torn
-  float opening = kOpeningTime;  ///< a wave's time across a cell, but no less than kOpeningTime [s]
+  float opening = kOpeningTime;  ///< twice a wave's time across a cell, but no less than kOpeningTime [s]
 };
 
 /// The parts of a body's State that are the guard's.
