@@ -200,7 +200,7 @@ TEST(Variants, ASecondArteryIsAnElementOfSetsOnlyInPatientsWhoHaveOne) {
 
 TEST(Variants, ExercisesFitEveryPatient) {
   for (const auto& [name, scene] : std::vector<std::pair<std::string, std::string>>{
-           {"calot", "calot"}, {"operation", "calot"}, {"clip-and-cut", "cholecystectomy"}}) {
+           {"calot", "calot"}, {"operation", "cholecystectomy_operation"}, {"clip-and-cut", "cholecystectomy"}}) {
     const Exercise e = read_exercise(kVariantScenes + "cholecystectomy/" + name + ".json");
     for (const char* variant : {"double_artery", "hump", "low_artery", "low_junction"}) {
       Faults faults;
