@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 
+#include <trocar/interactions/instrument/tool_contact.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/observe/hands.hpp>
@@ -152,7 +153,8 @@ class RunAlong final : public Skill {
   Place wanted(const Operator& op) const { return place(op, m_next + kWays[size_t(std::max(m_way_in, 0))].beside); }
   double side_in() const { return kWays[size_t(std::max(m_way_in, 0))].side; }
 
-  /// Vertices of the gut's skin between jaws that are open so far: of the loop that is meant, and of others.
+  /// What is between jaws that are open so far: vertices of the gut's skin of the loop that is meant; those of others,
+  /// and strands.
   struct Between {
     int own = 0, others = 0;
   };
@@ -170,7 +172,20 @@ class RunAlong final : public Skill {
         continue;
       ++(std::abs(m_stations.of_vertex(size_t(v)) - m_next) < kOwn ? found.own : found.others);
     }
+    found.others += strands_between(op, tool, shape);
     return found;
+  }
+  /// Of bands and their stumps: jaws close on what stands up between them before they close on the wall.
+  static int strands_between(const Operator& op, const interactions::ToolModel& tool,
+                             const interactions::ToolShape& shape) {
+    int elements = 0;
+    for (size_t s = 0; s < op.model().strand_bodies.size(); ++s) {
+      const interactions::StrandBody& body = op.model().strand_bodies[s];
+      const tissue::StrandState& state = op.state().strands[s];
+      for (int e = 0; e + 1 < body.nodes(); ++e)
+        elements += state.alive[size_t(e)] && interactions::between_jaws(tool, shape, body, state, e).inside;
+    }
+    return elements;
   }
   /// How good a way in is: something of the own loop where the jaws will close, nothing of others between them as they
   /// come, and not beside the other instrument.
@@ -258,8 +273,13 @@ class RunAlong final : public Skill {
     op.from(0.06);
     if (!op.arms().grip(hand, 0.95, 0.6) || m_in_phase < kFeels) return Progress::working;
     const std::optional<Stations::Span> held = m_stations.held_span(op.state(), size_t(hand));
-    constexpr double kBeside = 0.035;  // [m] what is farther from where it was wanted is of another loop
-    if (!held || held->from < m_next - kBeside || held->to > m_next + kBeside) return try_elsewhere();
+    constexpr double kBeside = 0.035;   // [m] what is farther from where it was wanted is of another loop
+    constexpr double kOnwards = 0.015;  // [m] farther along than the last hold, though not as far as meant: it will do
+    constexpr int kAtLast = 2;
+    double least = m_next - kBeside;
+    if (m_attempt >= kAtLast && m_at > 0) least = std::min(least, m_at + kOnwards);
+    if (!held || held->from < least || held->to > m_next + kBeside || held->to - held->from > kBeside)
+      return try_elsewhere();
     m_from = op.arm(hand).tip;
     m_way = 0;
     go(kLift);
