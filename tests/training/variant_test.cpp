@@ -251,7 +251,7 @@ TEST(Variants, ASecondArteryThatIsCutWithoutClipsBleedsAndIsTold) {
   ASSERT_TRUE(o.severed);
   EXPECT_EQ(o.clips, 0);
   EXPECT_GT(o.last_mL_min, 30) << o.bled_mL << " mL";
-  EXPECT_TRUE(told(o, "A2.16"));
+  EXPECT_TRUE(told(o, "A2.17"));
   EXPECT_TRUE(told(o, "A2.10"));
 }
 
@@ -260,7 +260,7 @@ TEST(Variants, ASecondArteryBetweenClipsDoesNotBleed) {
   ASSERT_TRUE(o.severed);
   ASSERT_EQ(o.clips, 2);
   EXPECT_LT(o.last_mL_min, 0.01);
-  EXPECT_FALSE(told(o, "A2.16"));
+  EXPECT_FALSE(told(o, "A2.17"));
 }
 
 }  // namespace trocar::training
