@@ -43,7 +43,7 @@ TEST(Traction, ItsAngleAndAreaAreThoseOfItsCorners) {
   const std::vector<Vec3d>& common = d.state.strands[std::size_t(d.common)].x;
   for (Vec3d& p : d.duct()) p = junction + 0.02 * normalised(common.front() - junction);
   d.duct().front() = junction;
-  EXPECT_LT(d.degrees(), 15) << "beside the hepatic duct: it has collapsed";
+  EXPECT_LT(d.degrees(), 20) << "beside the hepatic duct: it has collapsed";
 }
 
 TEST(Traction, OfADuctThatIsSeveredThereIsNoTriangle) {
