@@ -113,7 +113,7 @@ TEST(Abuse, AFilledGallbladderBearsItAndKeepsItsContents) {
 /// Loops lie loosely: they need not come back to where they lay to the tenth of a millimetre, but as loops, and whole.
 TEST(Abuse, SmallBowelBearsRoughHandsAndSettlesNearItsPlace) {
   const sim::Model model = abuse::untearable(shipped("bowel"));
-  abuse::Attack attack(model, 11);
+  abuse::Attack attack(model, 16);
   const abuse::Round r = attack.round(abuse::number_of(model, "jejunum"), 4, 4000);
   EXPECT_EQ(r.organ, "jejunum");
   std::printf("%d grasps, at most %.3f J and %.1f N, %.2f %% (%.2f mm) off after the rest\n", r.grasps, r.most_energy,

@@ -93,7 +93,7 @@ TEST(BluntDissection, SpreadJawsPushWallAndLiverApartAndTheBondsBetweenThemPart)
   });
   const Vec3d gap = node(near) - 0.5 * near.hold.offset;
   d.aim(gap, normalised(near.hold.offset));
-  d.go(gap + 0.012 * d.m_along, 0.025);
+  d.go(gap + 0.005 * d.m_along, 0.025);
   EXPECT_EQ(interactions::holding_share(bed, d.m_state.bonds[0]), 1) << "a closed tip goes between them";
   d.spread(2.5, d.m_model.organ_index("liver"));
   RecordProperty("wall_N", std::to_string(d.m_on_wall));
