@@ -198,7 +198,7 @@ TEST(CriticalView, TractionAloneOpensNothing) {
   EXPECT_GT(pulled, 0.25) << "it was drawn";
   double holds = 0;
   for (int i = 0; i < t.body().fat.septa(); ++i) holds += holding(t.body().fat, t.fat().fat, i) / t.body().fat.septa();
-  EXPECT_GT(holds, 0.98);
+  EXPECT_GT(holds, 0.95) << "drawn out so far, some septa have begun to give";
   EXPECT_LT(t.open(), 0.1);
   EXPECT_FALSE(t.bridged().empty());
 }
