@@ -91,7 +91,7 @@ class PutInBag final : public Skill {
       loosen(op);
     } else if (m_phase == kBack) {
       op.arms().grip(m_hand, m_loose, 0.5);
-      if (op.arms().move_to_depth(m_hand, m_out, pace::kCareful)) go(kFalls);
+      if (op.arms().move(m_hand, over, pace::kCareful)) go(kFalls);
     } else {
       op.arms().grip(m_hand, 0, 0.5);
       if (share_inside(op) >= m_least) return Progress::done;
@@ -99,15 +99,12 @@ class PutInBag final : public Skill {
     }
     return Progress::working;
   }
-  /// Only as far as it comes free, and then back along the shaft: jaws that open wide in a fold, or are drawn aside out
-  /// of it, take that along.
+  /// Only as far as it comes free: jaws that open wide in a fold take that along.
   void loosen(Operator& op) {
     constexpr double kMore = 0.08;  // of the handle
     const bool wide = op.arms().grip(m_hand, 0, 0.5);
     m_loose = std::max(0.0, op.arm(m_hand).handle - kMore);
-    if (!wide && op.tool_state(m_hand).holds > 0) return;
-    m_out = op.tool_state(m_hand).depth - (m_deep + m_above);
-    go(kBack);
+    if (wide || op.tool_state(m_hand).holds == 0) go(kBack);
   }
   double share_inside(const Operator& op) const {
     const interactions::BagShare share = share_in(bag_model(op), bag_state(op), m_body);
@@ -117,7 +114,6 @@ class PutInBag final : public Skill {
   int m_hand;
   double m_deep, m_above, m_least;
   double m_loose = 0;  ///< of the handle, with which it draws back
-  double m_out = 0;    ///< how deep the instrument stands then [m]
   BodyId m_body;
 };
 
