@@ -68,21 +68,10 @@ class PartBonds final : public Skill {
       if (open > most) most = open, best = int(i);
     }
     if (best < 0)
-      end_round(op);
+      std::fill(m_tried.begin(), m_tried.end(), std::uint8_t(0));
     else
       m_tried[size_t(best)] = 1;
     return best;
-  }
-  std::ptrdiff_t left(const Operator& op) const {
-    const std::vector<interactions::BondState>& states = op.state().bonds[size_t(m_set)];
-    return std::count_if(states.begin(), states.end(), [this](const auto& s) { return wanted(s); });
-  }
-  /// All have been tried: another round, unless this one has parted none.
-  void end_round(const Operator& op) {
-    const std::ptrdiff_t now = left(op);
-    m_stuck = now >= m_left_before;
-    m_left_before = now;
-    std::fill(m_tried.begin(), m_tried.end(), std::uint8_t(0));
   }
   bool enough(const Operator& op) const {
     const std::vector<interactions::BondState>& states = op.state().bonds[size_t(m_set)];
@@ -95,15 +84,13 @@ class PartBonds final : public Skill {
   void start(Operator& op, int) override {
     m_tried.assign(op.model().bonds[size_t(m_set)].bonds.size(), 0);
     m_bond = -1;
-    m_left_before = left(op);
-    m_stuck = false;
   }
   Progress work(Operator& op) override {
     Arms::Arm& arm = op.arm(m_hand);
     op.want(arm.tip);
     if (m_bond < 0 && m_phase != kOff && (enough(op) || (m_bond = next(op)) < 0)) {
       if (enough(op)) go(kOff);
-      return m_stuck ? fail("what still holds is not reached as it lies") : Progress::working;
+      return Progress::working;
     }
     if (m_phase == kOff)
       return op.arms().move_to_depth(m_hand, reach::kBroughtIn, pace::kTravel) ? Progress::done : Progress::working;
@@ -146,8 +133,7 @@ class PartBonds final : public Skill {
 
   int m_hand, m_set, m_bond = -1;
   double m_left;
-  bool m_raw, m_stuck = false;
-  std::ptrdiff_t m_left_before = 0;   ///< of what was wanted when this round began
+  bool m_raw;
   std::vector<std::uint8_t> m_tried;  ///< (bonds)
 };
 
