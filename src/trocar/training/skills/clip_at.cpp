@@ -25,6 +25,7 @@ class ClipAt final : public Skill {
     m_inside = given("inside_mm").given ? given("inside_mm").number() : -1;
     m_seen = given("seen").word.empty() ? "both" : given("seen").word;
     m_away = given.says("look", "away");
+    m_closely = given.says("watch", "closely");
     m_length = model.strand_bodies[size_t(m_strand)].length();
   }
 
@@ -47,12 +48,13 @@ class ClipAt final : public Skill {
     };
     static constexpr Row kRows[] = {{15, kLeave, "it did not get there"},
                                     {8, kLeave, "the legs did not go around it"},
-                                    {20, kLeave, nullptr},  // what was amiss last
+                                    {13, kLeave, nullptr},  // what was amiss last
                                     {8, kOpen, "the clip did not close"},
                                     {4, kLeave, nullptr},
                                     {6, kLeave, nullptr}};
     const Row& row = kRows[m_phase];
-    if (m_in_phase > row.patience) {
+    constexpr double kLonger = 7;  // [s] that who watches closely looks around for
+    if (m_in_phase > row.patience + (m_closely && m_phase == kInspect ? kLonger : 0)) {
       if (m_phase == kLeave) return leave_taken(op);
       m_lost = row.why ? row.why : m_phase == kInspect ? m_bad : m_lost;
       go(row.otherwise);
@@ -119,14 +121,15 @@ class ClipAt final : public Skill {
   }
 
   Progress close(Operator& op) {
-    constexpr double kTooLate = 0.95, kUnsure = 0.04;  // of the handle: the clip is being pressed flat; [s]
+    const double too_late = m_closely ? 0.95 : 0.9;  // of the handle: the clip is being pressed flat
+    const double unsure = m_closely ? 0.04 : 0.1;    // [s]
     look(op);
     op.from(m_seen_from);
     aim(op, 0, pace::kTrack);
-    if (op.arm(m_hand).handle < kTooLate) {
+    if (op.arm(m_hand).handle < too_late) {
       m_bad = misfit(op);
       m_steady = m_bad ? m_steady + sim::kTick : 0;
-      if (m_steady > kUnsure) {
+      if (m_steady > unsure) {
         m_lost = m_bad;
         go(kOpen);
         return Progress::working;
@@ -254,7 +257,7 @@ class ClipAt final : public Skill {
   Argument m_within, m_apart;
   double m_fixed = -1, m_angle_low = 0, m_angle_high = 0, m_cover = 0.98, m_closing = 2.6, m_inside = -1, m_length = 0;
   std::string m_seen;
-  bool m_away = false;
+  bool m_away = false, m_closely = false;
   double m_place = 0;      ///< [m]
   double m_spare = 0.001;  ///< between the strand and the clip's bend [m]
   double m_unseen = 0;     ///< for how long the legs' tips have not been seen [s]
@@ -290,7 +293,9 @@ const SkillKind kClipAt{
                       100),
      word_parameter("seen", "which of the legs' tips have to be in view before it closes; both",
                     {"both", "one", "not_both", "whatever"}),
-     word_parameter("look", "where the camera looks meanwhile; there", {"there", "away"})},
+     word_parameter("look", "where the camera looks meanwhile; there", {"there", "away"}),
+     word_parameter("watch", "closely: looks around for longer, and opens again sooner while it closes; as_usual",
+                    {"as_usual", "closely"})},
     60,
     "Approaches a strand with the clip applier, takes it between the legs, looks at both tips half closed, closes "
     "slowly, opens, and draws back.",
