@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Haemorrhage, testing::Range(0, 8));
 
 class Spill : public testing::TestWithParam<int> {};
 TEST_P(Spill, TheSurgeonGathersEveryStone) { expect_passes("cholecystectomy/spill.json", std::uint64_t(GetParam())); }
-INSTANTIATE_TEST_SUITE_P(Seeds, Spill, testing::Range(0, 1));  // of others a stone may be lost on the way out
+INSTANTIATE_TEST_SUITE_P(Seeds, Spill, testing::Range(0, 1));  // fails at present: a stone is lost on the way out, as on others
 
 class BedAnatomy : public testing::TestWithParam<int> {};
 TEST_P(BedAnatomy, TheSurgeonPeelsTheGallbladderOffTheLiver) {
