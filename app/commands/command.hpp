@@ -37,5 +37,6 @@ void add_report(CLI::App& program, Chosen& chosen);
 void add_trials(CLI::App& program, Chosen& chosen);
 void add_precompute(CLI::App& program, Chosen& chosen);
 void add_compare(CLI::App& program, Chosen& chosen);
+void add_rehearse(CLI::App& program, Chosen& chosen);
 
 }  // namespace trocar::app

@@ -71,6 +71,7 @@ int run_program(int argc, const char* const* argv) {
   add_report(program, chosen);
   add_trials(program, chosen);
   add_precompute(program, chosen);
+  add_rehearse(program, chosen);
   add_compare(program, chosen);
   const std::string first = argv[1];
   if (!first.empty() && first[0] != '-') {

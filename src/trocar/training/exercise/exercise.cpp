@@ -14,6 +14,12 @@ const StepText* Exercise::step(const std::string& step_name) const {
   return nullptr;
 }
 
+const RehearsedWays* Exercise::rehearsed_with(std::uint64_t seed) const {
+  for (const RehearsedWays& r : rehearsed)
+    if (r.seed == seed) return &r;
+  return nullptr;
+}
+
 double Exercise::limit(const std::string& limit_name, double otherwise) const {
   const Limit* l = find_limit(limits, limit_name);
   return l && !l->is_range ? l->si() : otherwise;

@@ -58,6 +58,13 @@ struct LaterError {
   std::string code, name, needs;
 };
 
+/// In which ways the parts of its demonstration went well when that was rehearsed (expert/ways.hpp).
+inline constexpr int kMostWay = 999;
+struct RehearsedWays {
+  std::uint64_t seed = 0;  ///< of the anatomy
+  std::vector<int> ways;
+};
+
 struct Exercise {
   std::string name, title, summary;
   std::filesystem::path file, scene;
@@ -73,8 +80,10 @@ struct Exercise {
   std::vector<Penalty> penalties;  ///< of common rules first
   std::vector<Part> details;       ///< facts that the result tells
   Part demonstration;              ///< null where nobody demonstrates it
+  std::vector<RehearsedWays> rehearsed;
   std::vector<LaterError> later;
 
+  const RehearsedWays* rehearsed_with(std::uint64_t seed) const;  ///< null: nobody has
   const Penalty* penalty(const std::string& code) const;
   const StepText* step(const std::string& name) const;
   /// Of a single number, in SI; what the exercise does not have is `otherwise`.

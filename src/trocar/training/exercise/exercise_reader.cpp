@@ -1,5 +1,6 @@
 // Reads an exercise file, with those that it is like and the files of common rules that they include.
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <map>
 
@@ -48,6 +49,7 @@ class ExerciseReader {
     const JsonObject& shown = said("demonstration").o;
     if (const scene::JsonMember* d = shown.value().find("demonstration"))
       m_exercise.demonstration = {d->value, shown.at().file};
+    rehearsed(m_layers.front().o);  // another scene asks for other ways
     for (const JsonObject& l : said("later").o.objects("later"))
       m_exercise.later.push_back({l.text("code"), l.text("name"), l.text("needs")});
     bounds();
@@ -174,6 +176,23 @@ class ExerciseReader {
     const auto weighs = [](const StepText& s) { return s.weight > 0; };
     if (o.has("steps") && std::none_of(m_exercise.steps.begin(), m_exercise.steps.end(), weighs))
       o.fault("steps", "expected a weight above 0, got none");
+  }
+
+  void rehearsed(const JsonObject& o) {
+    for (const JsonObject& r : o.objects("rehearsed")) {
+      RehearsedWays ways{std::uint64_t(r.integer("seed")), {}};
+      for (const JsonValue& way :
+           r.value().find("ways") ? r.value().find("ways")->value.items : std::vector<JsonValue>{})
+        if (way.kind == JsonValue::Kind::number && way.number >= 0 && way.number <= kMostWay &&
+            way.number == std::floor(way.number))
+          ways.ways.push_back(int(way.number));
+        else
+          fault(o.at().file, way, fmt::format("expected a whole number from 0 to {}, got another value", kMostWay));
+      if (r.has("ways") && ways.ways.empty())
+        r.fault("ways", "expected a list of whole numbers, one for each part, got none");
+      if (m_exercise.rehearsed_with(ways.seed)) r.fault("seed", "expected each seed once, got it again");
+      m_exercise.rehearsed.push_back(std::move(ways));
+    }
   }
 
   void bounds() {

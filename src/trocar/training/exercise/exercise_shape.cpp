@@ -69,6 +69,15 @@ const Shape& later_shape() {
   return shape;
 }
 
+const Shape& rehearsed_shape() {
+  static const Shape shape{
+      "rehearsed anatomy",
+      "In which ways the demonstration's parts went well with one anatomy: what `trocar rehearse` prints.",
+      {needed(keys::integer("seed", 0, 2147483647, "of the anatomy")),
+       needed(keys::any("ways", "whole numbers from 0, one for each part of the plan; 0: as it is written"))}};
+  return shape;
+}
+
 const Shape& score_shape() {
   static const Shape shape{
       "score",
@@ -102,6 +111,7 @@ const Shape& exercise_shape() {
        keys::objects("details", detail_shape, 0, "facts that results tell"),
        keys::objects("later", later_shape, 0, "errors that cannot be detected yet"),
        keys::any("demonstration", "how it is shown: a plan of hand skills"),
+       keys::objects("rehearsed", rehearsed_shape, 0, "ways of its parts by anatomy; never of an exercise it is like"),
        needed(keys::object("score", score_shape, "how the score is put together")),
        needed(keys::number("hold_s", 0, 10, "a condition of a step counts when it has been true this long")),
        needed(keys::number("expert_s", 1, 36000, "time that earns all points for time")),

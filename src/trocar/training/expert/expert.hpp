@@ -1,6 +1,7 @@
 // Whoever demonstrates an exercise: reads the State as an eye would and writes only Input, as hands do.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@ namespace trocar::training {
 /// How an expert works.
 struct Manner {
   Tremor tremor;
+  /// Asked when a part of the plan is begun: the way it is done in (ways.hpp). Null: as the exercise's file says.
+  std::function<int(std::size_t part)> way;
 };
 
 class Expert {

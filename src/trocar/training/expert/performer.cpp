@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <trocar/training/expert/performer.hpp>
@@ -22,17 +24,19 @@ std::vector<Performer::Task> Performer::make(const sim::Model& model, const std:
   return made;
 }
 
+std::vector<Performer::Goal> Performer::make(const sim::Model& model, const PlanPart& part) {
+  std::vector<Goal> goals;
+  for (const PlanGoal& goal : part.goals)
+    goals.push_back({.plan = &goal, .todo = make(model, goal.todo), .if_failed = make(model, goal.if_failed)});
+  return goals;
+}
+
 Performer::Performer(const sim::Model& model, Demonstration demonstration, const Manner& manner)
-    : m_demonstration(std::move(demonstration)), m_plan(m_demonstration.plan), m_operator(model, manner.tremor) {
-  for (const PlanPart& part : m_plan.parts) {
-    std::vector<Goal>& goals = m_parts.emplace_back();
-    for (const PlanGoal& goal : part.goals) {
-      Goal& made = goals.emplace_back();
-      made.plan = &goal;
-      made.todo = make(model, goal.todo);
-      made.if_failed = make(model, goal.if_failed);
-    }
-  }
+    : m_demonstration(std::move(demonstration)),
+      m_plan(m_demonstration.plan),
+      m_way(manner.way),
+      m_operator(model, manner.tremor) {
+  for (const PlanPart& part : m_plan.parts) m_parts.push_back(make(model, part));
 }
 
 const char* Performer::doing() const {
@@ -52,14 +56,42 @@ bool Performer::is_reached(const Goal& goal) const {
   return goal.plan->until.there() ? goal.plan->until.holds(moment()) == Truth::yes : goal.reached;
 }
 
+/// Before the first skill of a part: its skills are made anew where it is not done as it is written.
+void Performer::enter() {
+  if (m_entered > m_part) return;
+  m_entered = m_part + 1;
+  const Ways& ways = m_demonstration.ways;
+  const int way = m_way ? m_way(m_part) : m_part < ways.size() ? ways[m_part] : 0;
+  if (way == 0) return;
+  PlanPart& part = m_demonstration.plan.parts[m_part];
+  do_in_way(part, way, m_part);
+  m_parts[m_part] = make(m_operator.model(), part);
+}
+
+int Performer::failures() const {
+  int all = 0;
+  if (m_part < m_parts.size())
+    for (const Goal& goal : m_parts[m_part]) all += goal.failures;
+  return all;
+}
+
+std::string Performer::name_of(size_t part) const {
+  return part < m_plan.parts.size() && !m_plan.parts[part].goals.empty() ? m_plan.parts[part].goals.front().name : "";
+}
+
+bool Performer::has_ways(size_t part) const { return training::has_ways(m_plan.parts[part]); }
+
 void Performer::choose() {
   for (; m_part < m_parts.size(); ++m_part, m_in_part = 0) {
-    for (Goal& goal : m_parts[m_part])
-      if (!is_reached(goal)) {
-        m_goal = &goal;
-        m_repairing = false;
-        return begin(0);
-      }
+    const auto open = [this](const Goal& g) { return !is_reached(g); };
+    const auto next = std::find_if(m_parts[m_part].begin(), m_parts[m_part].end(), open);
+    if (next != m_parts[m_part].end()) {
+      const auto goal = size_t(next - m_parts[m_part].begin());
+      enter();
+      m_goal = &m_parts[m_part][goal];
+      m_repairing = false;
+      return begin(0);
+    }
     const bool same_set = m_part + 1 < m_parts.size() && m_plan.parts[m_part + 1].group == part().group;
     if (same_set && part().pause > 0) {
       m_pause = part().pause;
@@ -96,7 +128,8 @@ void Performer::failed(const std::string& why) {
     m_difficulties.push_back(fmt::format("{:.1f} s: {}{}: {}", moment().now(), goal.plan->name,
                                          goal.plan->element.empty() ? "" : " (" + goal.plan->element + ")", why));
   if (goal.plan->tries > 0 && goal.failures >= goal.plan->tries) {
-    goal.given_up = m_gave_up = true;
+    goal.given_up = true;
+    m_gave_up = m_gave_up || !goal.plan->optional;
     return think();
   }
   if (goal.if_failed.empty() || goal.failures % goal.plan->every != 0) return think();

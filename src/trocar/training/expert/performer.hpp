@@ -20,6 +20,11 @@ class Performer final : public Expert {
   void after(const sim::Model& model, const sim::State& state, const sim::StepReport& report) override;
   bool done() const override { return m_done; }
   bool gave_up() const override { return m_gave_up; }
+  /// Failures in the part that is worked on.
+  int failures() const;
+  /// Of a part of the plan, for people: its first goal's name.
+  std::string name_of(size_t part) const;
+  bool has_ways(size_t part) const;
   const char* doing() const override;
   const std::vector<std::string>& difficulties() const override { return m_difficulties; }
 
@@ -36,10 +41,12 @@ class Performer final : public Expert {
     bool reached = false, given_up = false;
   };
 
+  static std::vector<Goal> make(const sim::Model& model, const PlanPart& part);
   static Task make(const sim::Model& model, const PlanTask& task);
   static std::vector<Task> make(const sim::Model& model, const std::vector<PlanTask>& tasks);
 
   void choose();
+  void enter();
   bool is_reached(const Goal& goal) const;
   void begin(size_t task);
   void go_on(double passed);
@@ -54,9 +61,11 @@ class Performer final : public Expert {
 
   Demonstration m_demonstration;
   const Plan& m_plan;
+  std::function<int(std::size_t)> m_way;
   Operator m_operator;
   std::vector<std::vector<Goal>> m_parts;
   size_t m_part = 0, m_task = 0;
+  size_t m_entered = 0;      ///< parts that were begun
   Goal* m_goal = nullptr;    ///< that is worked on
   bool m_repairing = false;  ///< its if_failed
   bool m_begun = false, m_done = false, m_gave_up = false;

@@ -43,9 +43,10 @@ struct PlanTask {
 
 struct PlanGoal {
   std::string name;
-  std::string element;  ///< of the set that its part is there for each of
-  Condition until;      ///< reached when this is so; not there: when its tasks have ended well once
-  int tries = 0;        ///< after as many failures it is given up; 0: never
+  std::string element;    ///< of the set that its part is there for each of
+  Condition until;        ///< reached when this is so; not there: when its tasks have ended well once
+  int tries = 0;          ///< after as many failures it is given up; 0: never
+  bool optional = false;  ///< who gives it up has not given up the whole
   std::vector<PlanTask> todo;
   std::vector<PlanTask> if_failed;  ///< before it is tried again
   int every = 1;                    ///< after so many failures each

@@ -87,7 +87,7 @@ class PlanReader {
   PlanGoal goal(const JsonValue& v) const {
     PlanGoal g;
     g.at = r.at(v);
-    r.check_keys(v, "a goal", {"goal", "until", "tries", "do", "if_failed", "every"});
+    r.check_keys(v, "a goal", {"goal", "until", "tries", "optional", "do", "if_failed", "every"});
     const JsonMember* name = v.find("goal");
     if (name && name->value.kind == Kind::string)
       g.name = r.named->text(name->value.text);
@@ -95,6 +95,10 @@ class PlanReader {
       r.fault(v, "expected a goal: an object with goal and do, or a part with goals, got " + scene::shown(v));
     if (const JsonMember* until = v.find("until")) g.until = read_condition(until->value, r);
     g.tries = int(number(v, "tries", 0));
+    if (const JsonMember* m = v.find("optional")) {
+      g.optional = m->value.kind == Kind::boolean && m->value.truth;
+      if (m->value.kind != Kind::boolean) r.fault(m->value, "expected true or false, got " + scene::shown(m->value));
+    }
     g.every = std::max(1, int(number(v, "every", 1)));
     if (const JsonMember* list = v.find("do"))
       g.todo = some_tasks(list->value);
