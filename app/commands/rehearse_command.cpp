@@ -1,6 +1,7 @@
-// trocar rehearse: the ways in which a demonstration's parts come off with an anatomy, for the exercise's file.
+// trocar rehearse: the choices with which a demonstration comes off with an anatomy, for the exercise's file.
 #include <fmt/format.h>
 
+#include <trocar/attempt/interrupt.hpp>
 #include <trocar/attempt/rehearsal.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
@@ -11,8 +12,6 @@
 namespace trocar::app {
 namespace {
 
-constexpr int kMostWays = 100;
-
 struct RehearseChoice {
   std::string exercise;
   std::uint64_t seed = 0;
@@ -21,24 +20,30 @@ struct RehearseChoice {
 
 int rehearse(const RehearseChoice& o, bool json) {
   const std::unique_ptr<attempt::Lesson> lesson = attempt::load_lesson(o.exercise, o.seed);
+  attempt::catch_interrupts();
   const attempt::Rehearsal r = attempt::rehearse(*lesson, o.patience);
-  Json ways = Json::array();
-  for (const int way : r.ways) ways.push_back(way);
-  const Json line = {{"seed", o.seed}, {"ways", ways}};
-  if (json) {
-    Json all = {{"exercise", lesson->name}, {"seed", o.seed},         {"passed", r.passed},
-                {"score", r.score},         {"seconds", r.lasted},    {"simulated_seconds", r.seconds},
-                {"tries", r.tries},         {"farthest", r.farthest}, {"ways", ways}};
-    print(all);
-  } else if (r.passed) {
+  Json choices = Json::array();
+  for (const training::Choice& c : r.choices) choices.push_back({c.at, c.way});
+  if (json)
+    print({{"exercise", lesson->name},
+           {"seed", o.seed},
+           {"passed", r.passed},
+           {"score", r.score},
+           {"lasted_s", r.lasted},
+           {"simulated_s", r.seconds},
+           {"attempts", r.attempts},
+           {"obstacle", r.obstacle},
+           {"choices", choices}});
+  else if (r.passed)
     fmt::print(
-        "score {:.0f} of 100 in {:.0f} s, after {} parts tried ({:.0f} s simulated). For \"rehearsed\" in the "
-        "exercise's file:\n  {}\n",
-        r.score, r.lasted, r.tries, r.seconds, line.dump());
-  } else {
-    fmt::print("it did not come off in {} parts tried ({:.0f} s simulated); farthest: {}\n", r.tries, r.seconds,
-               r.farthest);
-  }
+        "score {:.0f} of 100 in {:.0f} s, at attempt {} ({:.0f} s simulated). For \"rehearsed\" in the "
+        "exercise's file:\n  {{\"seed\": {}, \"choices\": {}}}\n",
+        r.score, r.lasted, r.attempts, r.seconds, o.seed, choices.dump());
+  else
+    fmt::print(
+        "it did not come off in {} attempts ({:.0f} s simulated); the one that came farthest failed after "
+        "{:.0f} s: {}\n",
+        r.attempts, r.seconds, r.lasted, r.obstacle);
   return r.passed ? core::kDone : core::kGoalNotReached;
 }
 
@@ -46,20 +51,19 @@ int rehearse(const RehearseChoice& o, bool json) {
 
 void add_rehearse(CLI::App& program, Chosen& chosen) {
   auto o = std::make_shared<RehearseChoice>();
-  CLI::App* c =
-      add_command(program, chosen, "rehearse", "Try a demonstration's parts in several ways until all comes off",
-                  "trocar rehearse cholecystectomy/operation --seed 3");
+  CLI::App* c = add_command(program, chosen, "rehearse",
+                            "Try a demonstration in other ways where it goes wrong, until all of it comes off",
+                            "trocar rehearse cholecystectomy/operation --seed 3");
   c->add_option("exercise", o->exercise, "a name that `trocar list` shows, or a path")->required();
   c->add_option("--seed", o->seed, "of the anatomy; 0: as drawn")
       ->capture_default_str()
       ->transform(whole_number(0, kLargestSeed));
-  c->add_option("--ways", o->patience.ways, "in which a part is tried before the one before it is done otherwise")
+  c->add_option("--points", o->patience.points, "that its errors may cost in all")
       ->capture_default_str()
-      ->check(CLI::Range(1, kMostWays));
-  c->add_option("--failures", o->patience.failures, "of skills in a part before a way is given up")
-      ->capture_default_str();
-  c->add_option("--points", o->patience.points, "that errors in a part may cost")->capture_default_str();
-  c->add_option("--most-seconds", o->patience.seconds, "of simulated time, all tries together")->capture_default_str();
+      ->check(CLI::Range(0.0, 100.0));
+  c->add_option("--most-seconds", o->patience.seconds, "of simulated time, all attempts together")
+      ->capture_default_str()
+      ->check(number_above(0, kLongestRun, "s"));
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return rehearse(*o, chosen.json); }; });
 }
 

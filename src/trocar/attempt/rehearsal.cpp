@@ -1,9 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <new>
-#include <utility>
 
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -18,18 +17,22 @@
 namespace trocar::attempt {
 namespace {
 
-constexpr size_t kMostParts = 512;
-constexpr int kCameOff = 0, kFailed = 1;  // how a process ends
+constexpr size_t kMostKept = 2000;           // choices that are not as written, and failures that are remembered
+constexpr int kCameOff = 0, kFailed = 1;     // how a process ends
+constexpr double kBack = 5, kFarther = 1.4;  // [s] before a failure it is taken up again; as much farther each time
+constexpr double kSamePoint = 10;            // [s]: failures that have the same reason, as far as one can tell
 
 /// What all processes see. Only one of them runs at a time: the others wait for it.
 struct Blackboard {
-  double seconds = 0, score = 0, lasted = 0;
-  int tries = 0;
   bool came_off = false;
-  size_t parts = 0;
-  std::array<int, kMostParts> ways{};
-  double farthest = -1;  ///< [s] of the attempt that came farthest
-  std::array<char, 400> why{};
+  double seconds = 0, score = 0;  ///< [s] simulated in all
+  double lasted = -1;             ///< the attempt that came farthest [s]
+  double back_to = 0;             ///< where it is taken up again [s]
+  int attempts = 1;
+  size_t failures = 0, choices = 0;
+  std::array<double, kMostKept> failed_at{};  ///< [s]
+  std::array<training::Choice, kMostKept> choice{};
+  std::array<char, 400> obstacle{};
 };
 
 class SharedBlackboard {
@@ -48,7 +51,7 @@ class SharedBlackboard {
   Blackboard* m_board;
 };
 
-/// One process' attempt. Where a part begins it becomes as many as there are ways.
+/// An attempt. At each moment of choice it becomes two: one that goes on, and one that waits for what becomes of it.
 class Attempt {
  public:
   Attempt(const Lesson& lesson, const Patience& patience, const SharedBlackboard& board)
@@ -59,26 +62,23 @@ class Attempt {
         m_work(sim::make_work(lesson.model)),
         m_monitor(lesson.monitor()),
         m_performer(lesson.model, training::read_demonstration(*lesson.exercise, lesson.model, lesson.seed),
-                    {.tremor = {}, .way = [this](size_t part) { return branch(part); }}) {}
+                    {.tremor = {}, .way = [this](int choice) { return way(choice); }}) {}
 
   [[noreturn]] void run() {
-    while (!m_performer.done()) {
-      const sim::StepReport& report =
+    while (!m_performer.done() && !m_monitor->finished()) {
+      const sim::StepReport report =
           sim::step(m_lesson.model, m_performer.next(m_lesson.model, m_state), m_state, m_work);
       m_performer.after(m_lesson.model, m_state, report);
       m_monitor->update(m_lesson.model, m_state, report);
       m_board->seconds += sim::kTick;
-      if (!report.fine()) end_badly("the physics failed");
+      if (!report.fine()) fail("the physics failed");
       if (m_state.tick % kLookEvery == 0) look();
-      if (m_monitor->finished()) break;
     }
     look();
-    if (!m_monitor->score().passed) end_badly(fmt::format("{:.0f} points are no pass", m_monitor->score().total));
+    if (!m_monitor->score().passed) fail(fmt::format("{:.0f} points are no pass", m_monitor->score().total));
     m_board->came_off = true;
     m_board->score = m_monitor->score().total;
-    m_board->lasted = now();
-    m_board->parts = m_ways.size();
-    std::copy(m_ways.begin(), m_ways.end(), m_board->ways.begin());
+    keep("");
     _exit(kCameOff);
   }
 
@@ -86,62 +86,58 @@ class Attempt {
   static constexpr std::uint64_t kLookEvery = 100;  // ticks
 
   double now() const { return double(m_state.tick) * sim::kTick; }
-  double points() const {
-    double all = 0;
-    for (const training::ErrorMade& e : m_monitor->errors()) all += e.points;
-    return all;
+  bool spent() const {
+    return m_board->seconds >= m_patience.seconds || m_board->failures >= kMostKept || interrupted();
   }
-  bool failed() const {
-    const auto fails = [](const training::ErrorMade& e) { return e.fail; };
-    return std::any_of(m_monitor->errors().begin(), m_monitor->errors().end(), fails);
-  }
-  bool spent() const { return m_board->seconds >= m_patience.seconds || interrupted(); }
 
-  /// In the process that returns, the part is done in that way; the one that called never comes back.
-  int branch(size_t part) {
-    if (part >= kMostParts) end_badly("more parts than can be rehearsed");
-    const int ways = m_performer.has_ways(part) ? m_patience.ways : 1;
-    for (int way = 0; way < ways && !spent(); ++way) {
-      ++m_board->tries;
-      fmt::print(stderr, "rehearsal: {:.0f} s: part {} (\"{}\") in way {}\n", now(), part + 1, name_of(part), way);
+  /// The process that returns goes on in that way; the one that called never comes back.
+  int way(int choice) {
+    for (int chosen = 0; !spent(); chosen = m_board->attempts++) {
       std::fflush(nullptr);
       const pid_t copy = fork();
-      if (copy < 0) end_badly("no more processes");
+      if (copy < 0) fail("no more processes");
       if (copy == 0) {
-        m_ways.resize(part + 1);
-        m_ways[part] = way;
-        m_points = points();
-        m_part = part;
-        return way;
+        if (chosen != 0) m_choices.push_back({choice, chosen});
+        return chosen;
       }
       int status = 0;
       waitpid(copy, &status, 0);
       if (WIFEXITED(status) && WEXITSTATUS(status) == kCameOff) _exit(kCameOff);
+      if (now() > m_board->back_to && choice > 0) break;
+      fmt::print(stderr, "rehearsal: {:.0f} s: again, from \"{}\"\n", now(), m_performer.goal());
     }
     _exit(kFailed);
   }
 
   void look() {
-    if (spent()) end_badly("the time for it is spent");
-    if (m_patience.demonstration > 0 && now() > m_patience.demonstration) end_badly("it took too long");
-    if (failed() || points() - m_points > m_patience.points)
-      end_badly(m_monitor->errors().back().code + " " + m_monitor->errors().back().name);
-    if (m_performer.gave_up() || m_performer.failures() > m_patience.failures)
-      end_badly(m_performer.difficulties().empty() ? "given up" : m_performer.difficulties().back());
+    if (spent()) fail("the time for it is spent");
+    const std::vector<training::ErrorMade>& errors = m_monitor->errors();
+    double points = 0;
+    for (const training::ErrorMade& e : errors) points += e.points;
+    const bool failed = std::any_of(errors.begin(), errors.end(), [](const training::ErrorMade& e) { return e.fail; });
+    if (failed || points > m_patience.points) fail(errors.back().code + " " + errors.back().name);
+    if (m_performer.gave_up())
+      fail(m_performer.difficulties().empty() ? "given up" : m_performer.difficulties().back());
   }
 
-  [[noreturn]] void end_badly(const std::string& why) {
-    fmt::print(stderr, "rehearsal: {:.0f} s: {}\n", now(), why);
+  [[noreturn]] void fail(const std::string& why) {
+    fmt::print(stderr, "rehearsal: {:.0f} s: {} (of {:.0f} s)\n", now(), why, m_board->seconds);
     std::fflush(nullptr);
-    if (now() > m_board->farthest) {
-      m_board->farthest = now();
-      const std::string all = fmt::format("part {} (\"{}\"), {:.0f} s: {}", m_part + 1, name_of(m_part), now(), why);
-      std::snprintf(m_board->why.data(), m_board->why.size(), "%s", all.c_str());
-    }
+    const double* const failed = m_board->failed_at.data();
+    const auto before = std::count_if(failed, failed + m_board->failures,
+                                      [this](double t) { return std::fabs(t - now()) < kSamePoint; });
+    if (m_board->failures < kMostKept) m_board->failed_at[m_board->failures++] = now();
+    m_board->back_to = now() - kBack * std::pow(kFarther, double(before));
+    if (now() > m_board->lasted) keep(why);
     _exit(kFailed);
   }
 
-  std::string name_of(size_t part) const { return m_performer.name_of(part); }
+  void keep(const std::string& obstacle) {
+    m_board->lasted = now();
+    m_board->choices = std::min(m_choices.size(), kMostKept);
+    std::copy_n(m_choices.begin(), m_board->choices, m_board->choice.begin());
+    std::snprintf(m_board->obstacle.data(), m_board->obstacle.size(), "%s", obstacle.c_str());
+  }
 
   const Lesson& m_lesson;
   const Patience& m_patience;
@@ -150,9 +146,7 @@ class Attempt {
   sim::Work m_work;
   std::unique_ptr<training::Monitor> m_monitor;
   training::Performer m_performer;
-  training::Ways m_ways;
-  size_t m_part = 0;
-  double m_points = 0;  ///< that errors had cost when this part began
+  training::Choices m_choices;
 };
 
 }  // namespace
@@ -171,15 +165,10 @@ Rehearsal rehearse(const Lesson& lesson, const Patience& patience) {
   }
   int status = 0;
   waitpid(first, &status, 0);
-  Rehearsal r;
-  r.passed = board->came_off;
-  r.ways.assign(board->ways.begin(), board->ways.begin() + std::ptrdiff_t(board->parts));
-  r.score = board->score;
-  r.lasted = board->lasted;
-  r.seconds = board->seconds;
-  r.tries = board->tries;
-  r.farthest = board->why.data();
-  return r;
+  return {board->came_off,       {board->choice.begin(), board->choice.begin() + std::ptrdiff_t(board->choices)},
+          board->score,          board->lasted,
+          board->seconds,        board->attempts,
+          board->obstacle.data()};
 }
 
 }  // namespace trocar::attempt

@@ -17,9 +17,13 @@ constexpr double kStillIn = 0.040;      // [m] ... but of what is inside, which 
 constexpr double kInMouth = 0.006;      // [m] about the mouth's plane: what lies there keeps the hoop open
 constexpr double kLeaves = 0.002;       // [m] that what keeps it open is away from the hoop
 constexpr double kBack = 0.0005;        // [m] above the mouth before what was inside has left
-constexpr double kRubs = 0.15;          // Coulomb's coefficient of a pouch on cloth
-constexpr double kCreeps = 0.005;       // [m/s] below it friction is viscous
-constexpr std::uint64_t kLooks = 16;    // ticks in which the nearest node is looked for among all
+// Of a pouch in the bag; a node of a gallbladder weighs some 2 mN.
+constexpr double kPouchStiffness = 50;   // [N/m]
+constexpr double kPouchDamping = 0.05;   // [N s/m]
+constexpr double kDeepestPush = 0.0025;  // [m]
+constexpr double kRubs = 0.15;           // Coulomb's coefficient of a pouch on cloth
+constexpr double kCreeps = 0.005;        // [m/s] below it friction is viscous
+constexpr std::uint64_t kLooks = 16;     // ticks in which the nearest node is looked for among all
 
 /// A place as seen from the hoop's middle.
 struct AtMouth {
@@ -29,6 +33,16 @@ AtMouth at_mouth(const BagModel& m, const BagState& s, Vec3d p) noexcept {
   const Vec3d off = p - s.middle(m);
   const double height = dot(off, s.frame.up);
   return {height, length(off - height * s.frame.up)};
+}
+
+/// How far from the bag's axis its inside reaches, `below` the mouth: a sack of the cloth's girth that hangs from the
+/// hoop, wide open or drawn shut [m]. Below 0: there is no more of it.
+double reach_inside(const BagModel& m, const BagState& s, double below) noexcept {
+  constexpr double kWidest = 0.35;  // of its depth: ours
+  const double widest = kWidest * m.deep;
+  if (below < widest) return m.hoop * (s.hoop + (1 - s.hoop) * std::max(0.0, below) / widest);
+  const double f = (below - widest) / (m.deep - widest);
+  return f < 1 ? m.hoop * std::sqrt(1 - f * f) : -1;
 }
 
 BagPoint::Where where_now(const BagState& s, double radius, BagPoint::Where was, AtMouth at) noexcept {
@@ -165,7 +179,25 @@ void touch_cloth(const BagModel& m, const BagState& s, std::int32_t point, BagWo
 
 }  // namespace
 
-void note_places(const BagModel& m, BagState& s, BagWork& w) noexcept {
+namespace {
+
+/// What has come in over the rim with the rest of a pouch, and not through the mouth's plane: it lies in the sack.
+void take_along(const BagModel& m, const BagPouch& p, Vec3d down, BagState& s, const BagWork& w) noexcept {
+  constexpr double kRest = 0.5;  // share of it that has to be inside: ours
+  const auto first = s.points.begin() + p.first, last = first + p.count;
+  const auto inside = [](const BagPoint& q) { return q.where == BagPoint::inside; };
+  if (double(std::count_if(first, last, inside)) < kRest * p.count || s.shut()) return;
+  for (size_t i = size_t(p.first); i < size_t(p.first + p.count); ++i) {
+    if (s.points[i].where != BagPoint::elsewhere || !w.bodies[i].near) continue;
+    const Vec3d off = w.bodies[i].x - s.middle(m);
+    const double below = dot(off, down);
+    if (below > 0 && length(off - below * down) < reach_inside(m, s, below)) s.points[i].where = BagPoint::inside;
+  }
+}
+
+}  // namespace
+
+void note_places(const BagModel& m, Vec3d down, BagState& s, BagWork& w) noexcept {
   const double radius = m.hoop * s.hoop;
   for (size_t i = 0; i < s.points.size(); ++i) {
     BagPoint& p = s.points[i];
@@ -173,6 +205,7 @@ void note_places(const BagModel& m, BagState& s, BagWork& w) noexcept {
     if (w.bodies[i].near) now = where_now(s, radius, BagPoint::Where(p.where), at_mouth(m, s, w.bodies[i].x));
     p.where = now;
   }
+  for (const BagPouch& p : m.pouches) take_along(m, p, down, s, w);
   double reach = 0;
   for (size_t i = 0; i < size_t(m.rigids); ++i) reach = std::max(reach, reach_in_mouth(m, s, w, i, 1));
   for (const BagPouch& p : m.pouches)
@@ -194,30 +227,53 @@ void find_touches(const BagModel& m, std::uint64_t tick, BagState& s, BagWork& w
   }
 }
 
-void push_pouch(const BagState& s, const BagTouch& t, const BagBody& body, int node, NetworkLoads& loads) noexcept {
-  Vec3d at = t.hoop, speed;
-  for (size_t k = 0; k < 3 && t.nodes[0] >= 0; ++k) {
-    if (k == 0) at = {};
-    at += t.weights[int(k)] * s.x[size_t(t.nodes[k])];
-    speed += t.weights[int(k)] * s.v[size_t(t.nodes[k])];
-  }
-  const double depth = t.away - dot(body.x - at, t.normal);
-  if (!(depth > 0)) return;
-  const double counts = std::min(depth, kQuickestApart);
+namespace {
+
+void push(int node, Vec3d normal, double depth, const BagBody& body, Vec3d drift, NetworkLoads& loads) noexcept {
+  const double counts = std::min(depth, kDeepestPush);
   tissue::NodeLoad load;
   load.node = node;
-  load.k = float(kBodyStiffness);
-  load.d = float(kBodyDamping);
-  load.dir = vec_cast<float>(t.normal);
-  load.x0 = vec_cast<float>(body.x + counts * t.normal);
-  load.f0 = vec_cast<float>(kBodyDamping * dot(speed, t.normal) * t.normal);
+  load.k = float(kPouchStiffness);
+  load.d = float(kPouchDamping);
+  load.dir = vec_cast<float>(normal);
+  load.x0 = vec_cast<float>(body.x + counts * normal);
+  load.f0 = vec_cast<float>(kPouchDamping * dot(drift, normal) * normal);
   loads.add(load, {Owner::body, 0, 0});
-  const Vec3d slip = body.speed - speed, across = slip - dot(slip, t.normal) * t.normal;
+  const Vec3d slip = body.speed - drift, across = slip - dot(slip, normal) * normal;
   tissue::NodeLoad rub;
   rub.node = node;
-  rub.d = float(kRubs * kBodyStiffness * counts / std::max(length(across), kCreeps));
-  rub.f0 = vec_cast<float>(double(rub.d) * speed);
+  rub.d = float(kRubs * kPouchStiffness * counts / std::max(length(across), kCreeps));
+  rub.f0 = vec_cast<float>(double(rub.d) * drift);
   loads.add(rub, {Owner::body, 0, 0});
+}
+
+}  // namespace
+
+Vec3d drift_of(const BagModel& m, const BagState& s) noexcept {
+  Vec3d sum;
+  for (size_t n = size_t(m.around); n < s.v.size(); ++n) sum += s.v[n];
+  return (1.0 / double(std::max<size_t>(1, s.v.size() - size_t(m.around)))) * sum;
+}
+
+void push_off_hoop(const BagTouch& t, const BagBody& body, int node, NetworkLoads& loads) noexcept {
+  const double depth = t.away - dot(body.x - t.hoop, t.normal);
+  if (t.nodes[0] < 0 && depth > 0) push(node, t.normal, depth, body, {}, loads);
+}
+
+void keep_in_bag(const BagModel& m, const BagState& s, Vec3d down, const BagBody& body, int node, Vec3d drift,
+                 NetworkLoads& loads) noexcept {
+  const Vec3d off = body.x - s.middle(m);
+  const double below = dot(off, down), reach = reach_inside(m, s, below);
+  const Vec3d across = off - below * down;
+  const double out = length(across);
+  if (reach < 0) return push(node, -down, below - m.deep + body.radius, body, drift, loads);
+  const double depth = out + body.radius - reach;
+  if (!(depth > 0) || !(out > 1e-6)) return;
+  // outwards on the sack's wall, from how its girth changes
+  constexpr double kStep = 0.001;  // [m]
+  const double narrows = (reach - std::max(0.0, reach_inside(m, s, below + kStep))) / kStep;
+  push(node, -normalised((1 / out) * across + narrows * down), depth / std::sqrt(1 + narrows * narrows), body, drift,
+       loads);
 }
 
 BagShare share_in(const BagModel& m, const BagState& s, BodyId body) noexcept {

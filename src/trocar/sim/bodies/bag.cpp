@@ -40,6 +40,8 @@ std::int32_t hand_at(const StepContext& c, const BagState& s) noexcept {
   return found;
 }
 
+Vec3d downwards(const StepContext& c) noexcept { return normalised(c.model.gravity, {0, 0, -1}); }
+
 bool is_held(const StepContext& c, BodyId body) noexcept {
   for (size_t t = 0; t < c.model.hands.size(); ++t)
     if (c.state.tools[t].holds > 0 && c.state.tools[t].hold[0].body == body) return true;
@@ -84,10 +86,16 @@ void look_at_pouches(const StepContext& c, const BagModel& m, BagWork& w) noexce
 }
 
 void push_pouches(StepContext& c, const BagModel& m, const BagState& s, const BagWork& w) noexcept {
-  for (const interactions::BagTouch& t : w.touches)
-    for (const interactions::BagPouch& p : m.pouches)
+  const Vec3d drift = drift_of(m, s), down = downwards(c);
+  for (const interactions::BagPouch& p : m.pouches) {
+    interactions::NetworkLoads& loads = c.work.membrane_loads[size_t(p.membrane)];
+    for (const interactions::BagTouch& t : w.touches)
       if (t.point >= p.first && t.point < p.first + p.count)
-        push_pouch(s, t, w.bodies[size_t(t.point)], t.point - p.first, c.work.membrane_loads[size_t(p.membrane)]);
+        push_off_hoop(t, w.bodies[size_t(t.point)], t.point - p.first, loads);
+    for (std::int32_t n = 0; n < p.count; ++n)
+      if (const size_t i = size_t(p.first + n); s.points[i].where == interactions::BagPoint::inside)
+        keep_in_bag(m, s, down, w.bodies[i], n, drift, loads);
+  }
 }
 
 /// A stone in it does not sleep.
@@ -134,7 +142,7 @@ void rest_bags(StepContext& c) noexcept {
       if (!surface.pose->bounds.near_box(w.bounds, 0.005f)) continue;
       rest_cloth(m, surface, std::int32_t(i), s, surface.moves() ? &c.work.organ_loads[i] : nullptr, w);
     }
-    note_places(m, s, w);
+    note_places(m, downwards(c), s, w);
     find_normals(m, s, w);
     find_touches(m, c.state.tick, s, w);
     push_pouches(c, m, s, w);

@@ -14,8 +14,8 @@ const StepText* Exercise::step(const std::string& step_name) const {
   return nullptr;
 }
 
-const RehearsedWays* Exercise::rehearsed_with(std::uint64_t seed) const {
-  for (const RehearsedWays& r : rehearsed)
+const Rehearsed* Exercise::rehearsed_with(std::uint64_t seed) const {
+  for (const Rehearsed& r : rehearsed)
     if (r.seed == seed) return &r;
   return nullptr;
 }

@@ -58,11 +58,17 @@ struct LaterError {
   std::string code, name, needs;
 };
 
-/// In which ways the parts of its demonstration went well when that was rehearsed (expert/ways.hpp).
-inline constexpr int kMostWay = 999;
-struct RehearsedWays {
+/// At a moment of choice of the demonstration, counted from 0, it went on in this way (expert/ways.hpp).
+struct Choice {
+  int at = 0, way = 0;
+};
+using Choices = std::vector<Choice>;
+inline constexpr int kMostChoice = 99999, kMostWay = 99999;
+
+/// Choices with which it came off when it was rehearsed.
+struct Rehearsed {
   std::uint64_t seed = 0;  ///< of the anatomy
-  std::vector<int> ways;
+  Choices choices;         ///< but for those to go on as it is written
 };
 
 struct Exercise {
@@ -80,10 +86,10 @@ struct Exercise {
   std::vector<Penalty> penalties;  ///< of common rules first
   std::vector<Part> details;       ///< facts that the result tells
   Part demonstration;              ///< null where nobody demonstrates it
-  std::vector<RehearsedWays> rehearsed;
+  std::vector<Rehearsed> rehearsed;
   std::vector<LaterError> later;
 
-  const RehearsedWays* rehearsed_with(std::uint64_t seed) const;  ///< null: nobody has
+  const Rehearsed* rehearsed_with(std::uint64_t seed) const;  ///< null: nobody has
   const Penalty* penalty(const std::string& code) const;
   const StepText* step(const std::string& name) const;
   /// Of a single number, in SI; what the exercise does not have is `otherwise`.

@@ -49,7 +49,7 @@ class ExerciseReader {
     const JsonObject& shown = said("demonstration").o;
     if (const scene::JsonMember* d = shown.value().find("demonstration"))
       m_exercise.demonstration = {d->value, shown.at().file};
-    rehearsed(m_layers.front().o);  // another scene asks for other ways
+    rehearsed(m_layers.front().o);  // another scene asks for other choices
     for (const JsonObject& l : said("later").o.objects("later"))
       m_exercise.later.push_back({l.text("code"), l.text("name"), l.text("needs")});
     bounds();
@@ -180,19 +180,27 @@ class ExerciseReader {
 
   void rehearsed(const JsonObject& o) {
     for (const JsonObject& r : o.objects("rehearsed")) {
-      RehearsedWays ways{std::uint64_t(r.integer("seed")), {}};
-      for (const JsonValue& way :
-           r.value().find("ways") ? r.value().find("ways")->value.items : std::vector<JsonValue>{})
-        if (way.kind == JsonValue::Kind::number && way.number >= 0 && way.number <= kMostWay &&
-            way.number == std::floor(way.number))
-          ways.ways.push_back(int(way.number));
-        else
-          fault(o.at().file, way, fmt::format("expected a whole number from 0 to {}, got another value", kMostWay));
-      if (r.has("ways") && ways.ways.empty())
-        r.fault("ways", "expected a list of whole numbers, one for each part, got none");
-      if (m_exercise.rehearsed_with(ways.seed)) r.fault("seed", "expected each seed once, got it again");
-      m_exercise.rehearsed.push_back(std::move(ways));
+      Rehearsed one{std::uint64_t(r.integer("seed")), {}};
+      const scene::JsonMember* choices = r.value().find("choices");
+      if (choices && choices->value.kind != JsonValue::Kind::array)
+        r.fault("choices", "expected a list of choices, got " + scene::shown(choices->value));
+      else if (choices)
+        for (const JsonValue& c : choices->value.items) one.choices.push_back(choice(c, o.at().file));
+      if (m_exercise.rehearsed_with(one.seed)) r.fault("seed", "expected each seed once, got it again");
+      m_exercise.rehearsed.push_back(std::move(one));
     }
+  }
+  Choice choice(const JsonValue& v, const std::string& file) {
+    const auto whole = [&v](std::size_t i, int most) {
+      const JsonValue& n = v.items[i];
+      return n.kind == JsonValue::Kind::number && n.number >= 0 && n.number <= most && n.number == std::floor(n.number);
+    };
+    if (v.kind == JsonValue::Kind::array && v.items.size() == 2 && whole(0, kMostChoice) && whole(1, kMostWay))
+      return {int(v.items[0].number), int(v.items[1].number)};
+    fault(
+        file, v,
+        fmt::format("expected [moment of choice, way], two whole numbers up to {}, got {}", kMostWay, scene::shown(v)));
+    return {};
   }
 
   void bounds() {

@@ -72,9 +72,10 @@ const Shape& later_shape() {
 const Shape& rehearsed_shape() {
   static const Shape shape{
       "rehearsed anatomy",
-      "In which ways the demonstration's parts went well with one anatomy: what `trocar rehearse` prints.",
+      "Choices with which the demonstration came off with one anatomy: what `trocar rehearse` prints.",
       {needed(keys::integer("seed", 0, 2147483647, "of the anatomy")),
-       needed(keys::any("ways", "whole numbers from 0, one for each part of the plan; 0: as it is written"))}};
+       needed(
+           keys::any("choices", "list of [moment of choice, way]; where none is named it goes on as it is written"))}};
   return shape;
 }
 
@@ -111,7 +112,7 @@ const Shape& exercise_shape() {
        keys::objects("details", detail_shape, 0, "facts that results tell"),
        keys::objects("later", later_shape, 0, "errors that cannot be detected yet"),
        keys::any("demonstration", "how it is shown: a plan of hand skills"),
-       keys::objects("rehearsed", rehearsed_shape, 0, "ways of its parts by anatomy; never of an exercise it is like"),
+       keys::objects("rehearsed", rehearsed_shape, 0, "choices of its demonstration by anatomy; its own only"),
        needed(keys::object("score", score_shape, "how the score is put together")),
        needed(keys::number("hold_s", 0, 10, "a condition of a step counts when it has been true this long")),
        needed(keys::number("expert_s", 1, 36000, "time that earns all points for time")),

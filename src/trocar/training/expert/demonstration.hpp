@@ -5,13 +5,13 @@
 #pragma once
 
 #include <trocar/training/exercise/monitor.hpp>
-#include <trocar/training/expert/ways.hpp>
+#include <trocar/training/expert/plan.hpp>
 
 namespace trocar::training {
 
 struct Demonstration {
   Plan plan;
-  Ways ways;                             ///< in which its parts are done with this seed's anatomy
+  Choices choices;                       ///< that went well with this seed's anatomy
   std::unique_ptr<FactWatches> watches;  ///< the facts that its conditions ask for
   std::unique_ptr<Monitor> judge;        ///< who knows the steps that they ask for; null: they ask for none
 };

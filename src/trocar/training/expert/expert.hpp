@@ -16,8 +16,9 @@ namespace trocar::training {
 /// How an expert works.
 struct Manner {
   Tremor tremor;
-  /// Asked when a part of the plan is begun: the way it is done in (ways.hpp). Null: as the exercise's file says.
-  std::function<int(std::size_t part)> way;
+  /// Asked at each moment of choice, by its number: the way in which it goes on (ways.hpp). Null: as the exercise's
+  /// file says.
+  std::function<int(int choice)> way;
 };
 
 class Expert {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <trocar/training/expert/performer.hpp>
+#include <trocar/training/expert/ways.hpp>
 #include <trocar/training/observe/sampling.hpp>
 
 namespace trocar::training {
@@ -56,30 +57,29 @@ bool Performer::is_reached(const Goal& goal) const {
   return goal.plan->until.there() ? goal.plan->until.holds(moment()) == Truth::yes : goal.reached;
 }
 
-/// Before the first skill of a part: its skills are made anew where it is not done as it is written.
-void Performer::enter() {
-  if (m_entered > m_part) return;
-  m_entered = m_part + 1;
-  const Ways& ways = m_demonstration.ways;
-  const int way = m_way ? m_way(m_part) : m_part < ways.size() ? ways[m_part] : 0;
-  if (way == 0) return;
-  PlanPart& part = m_demonstration.plan.parts[m_part];
-  do_in_way(part, way, m_part);
-  m_parts[m_part] = make(m_operator.model(), part);
+int Performer::way() {
+  m_since_choice = 0;
+  const int choice = m_choices++;
+  if (m_way) return m_way(choice);
+  for (const Choice& made : m_demonstration.choices)
+    if (made.at == choice) return made.way;
+  return 0;
 }
 
-int Performer::failures() const {
-  int all = 0;
-  if (m_part < m_parts.size())
-    for (const Goal& goal : m_parts[m_part]) all += goal.failures;
-  return all;
+/// Before a skill begins.
+void Performer::choose_way(Task& task) {
+  const int chosen = way();
+  if (chosen == 0) return;
+  m_operator.arms().tremble(tremor_in_way(chosen));
+  const PlanTask* plan = task.plan;
+  task = make(m_operator.model(), in_way(*plan, chosen));
+  task.plan = plan;
 }
 
-std::string Performer::name_of(size_t part) const {
-  return part < m_plan.parts.size() && !m_plan.parts[part].goals.empty() ? m_plan.parts[part].goals.front().name : "";
+/// While it lasts.
+void Performer::go_on_otherwise() {
+  if (const int chosen = way(); chosen != 0) m_operator.arms().tremble(tremor_in_way(chosen));
 }
-
-bool Performer::has_ways(size_t part) const { return training::has_ways(m_plan.parts[part]); }
 
 void Performer::choose() {
   for (; m_part < m_parts.size(); ++m_part, m_in_part = 0) {
@@ -87,7 +87,6 @@ void Performer::choose() {
     const auto next = std::find_if(m_parts[m_part].begin(), m_parts[m_part].end(), open);
     if (next != m_parts[m_part].end()) {
       const auto goal = size_t(next - m_parts[m_part].begin());
-      enter();
       m_goal = &m_parts[m_part][goal];
       m_repairing = false;
       return begin(0);
@@ -112,6 +111,7 @@ void Performer::begin(size_t task) {
     return think();
   }
   Task& next = tasks()[task];
+  choose_way(next);
   next.skill->begin(m_operator, m_goal->tries - 1);
   for (Task& beside : next.meanwhile) beside.skill->begin(m_operator, m_goal->tries - 1);
 }
@@ -160,6 +160,8 @@ void Performer::go_on(double passed) {
 void Performer::work(double passed) {
   Task& task = tasks()[m_task];
   m_in_task += passed;
+  m_since_choice += passed;
+  if (m_since_choice >= kChoiceEvery) go_on_otherwise();
   if (m_in_task > task.plan->at_most) {
     const bool goes_on = task.plan->goes_on;
     ended(goes_on ? Progress::done : Progress::failed, fmt::format("{}: it took too long", task.plan->kind->name));

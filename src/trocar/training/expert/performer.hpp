@@ -20,11 +20,8 @@ class Performer final : public Expert {
   void after(const sim::Model& model, const sim::State& state, const sim::StepReport& report) override;
   bool done() const override { return m_done; }
   bool gave_up() const override { return m_gave_up; }
-  /// Failures in the part that is worked on.
-  int failures() const;
-  /// Of a part of the plan, for people: its first goal's name.
-  std::string name_of(size_t part) const;
-  bool has_ways(size_t part) const;
+  /// The goal that is worked on, for people; empty: none.
+  std::string goal() const { return m_goal ? m_goal->plan->name : std::string{}; }
   const char* doing() const override;
   const std::vector<std::string>& difficulties() const override { return m_difficulties; }
 
@@ -46,7 +43,9 @@ class Performer final : public Expert {
   static std::vector<Task> make(const sim::Model& model, const std::vector<PlanTask>& tasks);
 
   void choose();
-  void enter();
+  int way();
+  void choose_way(Task& task);
+  void go_on_otherwise();
   bool is_reached(const Goal& goal) const;
   void begin(size_t task);
   void go_on(double passed);
@@ -61,13 +60,14 @@ class Performer final : public Expert {
 
   Demonstration m_demonstration;
   const Plan& m_plan;
-  std::function<int(std::size_t)> m_way;
+  std::function<int(int)> m_way;
   Operator m_operator;
   std::vector<std::vector<Goal>> m_parts;
   size_t m_part = 0, m_task = 0;
-  size_t m_entered = 0;      ///< parts that were begun
-  Goal* m_goal = nullptr;    ///< that is worked on
-  bool m_repairing = false;  ///< its if_failed
+  int m_choices = 0;          ///< moments of choice so far
+  double m_since_choice = 0;  ///< [s]
+  Goal* m_goal = nullptr;     ///< that is worked on
+  bool m_repairing = false;   ///< its if_failed
   bool m_begun = false, m_done = false, m_gave_up = false;
   int m_pause = 0;                      ///< ticks left to think
   double m_in_part = 0, m_in_task = 0;  ///< [s]

@@ -25,48 +25,35 @@ constexpr std::array<Play, 9> kPlays{{{"by_mm", 0.3, 0.001},
                                       {"x_mm", 0, 0.005},
                                       {"y_mm", 0, 0.005},
                                       {"z_mm", 0, 0.005}}};
+constexpr double kTremor = 0.0001;  // [m] rms; ours: of a steady hand
 
-const Play* play_of(const PlanTask& task, size_t i) {
-  const Parameter& parameter = task.kind->parameters[i];
-  if (parameter.kind != ArgumentKind::number || !task.arguments[i].given) return nullptr;
+const Play* play_of(const Parameter& parameter) {
   for (const Play& play : kPlays)
-    if (play.parameter == parameter.name) return &play;
+    if (play.parameter == parameter.name && parameter.kind == ArgumentKind::number) return &play;
   return nullptr;
 }
 
-/// Calls visit(argument, play) for all that may be otherwise, in the plan's order.
-template <class Visit>
-void each_free(std::vector<PlanTask>& tasks, Visit&& visit) {
-  for (PlanTask& task : tasks) {
-    for (size_t i = 0; i < task.kind->parameters.size(); ++i)
-      if (const Play* play = play_of(task, i)) visit(task.arguments[i], *play);
-    each_free(task.meanwhile, visit);
+void vary(PlanTask& task, core::Random& random) {
+  for (size_t i = 0; i < task.kind->parameters.size(); ++i) {
+    const Play* play = play_of(task.kind->parameters[i]);
+    Argument& argument = task.arguments[i];
+    if (!play || !argument.given) continue;
+    const double most = std::max(play->share * std::fabs(argument.low), play->least);
+    argument.low += random.uniform(-most, most);
+    argument.high = argument.low;
   }
-}
-template <class Visit>
-void each_free(PlanPart& part, Visit&& visit) {
-  for (PlanGoal& goal : part.goals) {
-    each_free(goal.todo, visit);
-    each_free(goal.if_failed, visit);
-  }
+  for (PlanTask& beside : task.meanwhile) vary(beside, random);
 }
 
 }  // namespace
 
-bool has_ways(PlanPart part) {
-  bool has = false;
-  each_free(part, [&has](Argument&, const Play&) { has = true; });
-  return has;
+PlanTask in_way(const PlanTask& task, int way) {
+  PlanTask other = task;
+  core::Random random{std::uint64_t(way)};
+  if (way != 0) vary(other, random);
+  return other;
 }
 
-void do_in_way(PlanPart& part, int way, std::uint64_t place) {
-  if (way == 0) return;
-  core::Random random(std::uint64_t(way) << 32 | place);
-  each_free(part, [&random](Argument& argument, const Play& play) {
-    const double most = std::max(play.share * std::fabs(argument.low), play.least);
-    argument.low += random.uniform(-most, most);
-    argument.high = argument.low;
-  });
-}
+Tremor tremor_in_way(int way) { return {way == 0 ? 0 : kTremor, std::uint64_t(way)}; }
 
 }  // namespace trocar::training

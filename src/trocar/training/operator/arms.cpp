@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kNear = 0.0006;    // [m] close enough
 constexpr double kSquare = 0.02;    // [rad] turned enough
+constexpr double kFade = 0.001;     // [m/s] of a tremor that comes or goes
 constexpr double kWristTurn = 1.5;  // [rad/s] of a wrist at work
 
 /// The jaws look the same after half a turn: the nearest of the equivalent rolls.
@@ -30,14 +31,25 @@ Arms::Arms(const sim::Model& model, const Tremor& tremor) : m_count(int(hands(mo
     arm.roll = double(in.roll);
     arm.handle = double(in.handle);
   }
+  draw_waves(tremor);
+  m_amplitude = m_wanted;
+}
+
+void Arms::draw_waves(const Tremor& tremor) {
   core::Random random(tremor.seed * 2654435761u + 17);
   for (auto& hand : m_wave)
     for (auto& axis : hand)
       for (Wave& w : axis) w = {2 * portable::pi * random.uniform(8, 12), random.uniform(0, 2 * portable::pi)};
-  m_amplitude = tremor.rms * std::sqrt(2.0 / kWaves);
+  m_wanted = tremor.rms * std::sqrt(2.0 / kWaves);
 }
 
 void Arms::begin_tick() {
+  const double step = kFade * sim::kTick;
+  m_amplitude = m_next ? std::max(0.0, m_amplitude - step) : std::min(m_wanted, m_amplitude + step);
+  if (m_next && m_amplitude == 0) {
+    draw_waves(*m_next);
+    m_next.reset();
+  }
   for (Arm& arm : m_arm) arm.moving = false;
 }
 

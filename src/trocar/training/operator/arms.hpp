@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include <trocar/core/random.hpp>
 #include <trocar/sim/model/state.hpp>
@@ -33,6 +34,8 @@ class Arms {
   int count() const { return m_count; }
 
   void begin_tick();
+  /// From now on the hands tremble so; it fades in after the old tremor has faded out.
+  void tremble(const Tremor& tremor) { m_next = tremor; }
   /// One tick towards `goal`, slower near it. True when it is there.
   bool move(int hand, Vec3d goal, double speed);
   /// One tick along the shaft towards `depth` [m from the trocar].
@@ -46,6 +49,7 @@ class Arms {
 
  private:
   Vec3d tremor(int hand, std::uint64_t tick) const;
+  void draw_waves(const Tremor& tremor);
 
   static constexpr int kWaves = 4;
   struct Wave {
@@ -53,7 +57,8 @@ class Arms {
   };
   std::array<Arm, sim::kMaxTools> m_arm{};
   std::array<std::array<std::array<Wave, kWaves>, 3>, sim::kMaxTools> m_wave{};
-  double m_amplitude = 0;
+  double m_amplitude = 0, m_wanted = 0;  ///< now, and after it has faded in [m]
+  std::optional<Tremor> m_next;
   int m_count = 0;
 };
 

@@ -17,6 +17,11 @@ const BagModel& bag_model(const Operator& op) { return interactions::part_of<Bag
 const BagState& bag_state(const Operator& op) { return interactions::part_of<Bag>(op.state().objects).front(); }
 Vec3d mouth_of(const Operator& op) { return bag_state(op).middle(bag_model(op)); }
 
+double share_inside(const Operator& op, BodyId body) {
+  const interactions::BagShare share = share_in(bag_model(op), bag_state(op), body);
+  return share.all > 0 ? double(share.inside) / share.all : 0;
+}
+
 Vec3d upwards(const Operator& op) { return -normalised(op.model().gravity, {0, 0, -1}); }
 
 std::string lacks_bag(const sim::Model& model, const Given&) {
@@ -94,7 +99,7 @@ class PutInBag final : public Skill {
       if (op.arms().move(m_hand, over, pace::kCareful)) go(kFalls);
     } else {
       op.arms().grip(m_hand, 0, 0.5);
-      if (share_inside(op) >= m_least) return Progress::done;
+      if (share_inside(op, m_body) >= m_least) return Progress::done;
       if (m_in_phase > 1.5) return fail("it has not all come in");
     }
     return Progress::working;
@@ -106,15 +111,73 @@ class PutInBag final : public Skill {
     m_loose = std::max(0.0, op.arm(m_hand).handle - kMore);
     if (wide || op.tool_state(m_hand).holds == 0) go(kBack);
   }
-  double share_inside(const Operator& op) const {
-    const interactions::BagShare share = share_in(bag_model(op), bag_state(op), m_body);
-    return share.all > 0 ? double(share.inside) / share.all : 0;
-  }
 
   int m_hand;
   double m_deep, m_above, m_least;
   double m_loose = 0;  ///< of the handle, with which it draws back
   BodyId m_body;
+};
+
+/// Closed jaws push what rises over the mouth down into it, again and again.
+class PushIntoBag final : public Skill {
+ public:
+  PushIntoBag(const sim::Model&, const Given& given)
+      : m_hand(given.hand()),
+        m_body(given("body").body()),
+        m_deep(given.number("deep_mm", 0.025)),
+        m_least(given.number("least_share", 1)) {}
+
+ private:
+  enum Phase { kShut, kOver, kDown, kUp };
+  static constexpr double kClear = 0.012;  ///< above what rises highest [m]
+  static constexpr int kMostPushes = 8;
+
+  void start(Operator&, int) override { m_pushes = 0; }
+  Progress work(Operator& op) override {
+    const Vec3d up = bag_state(op).frame.up, mouth = mouth_of(op);
+    op.want(op.arm(m_hand).tip);
+    op.want(mouth);
+    if (m_phase == kShut) {
+      if (op.arms().grip(m_hand, 1, 0.5)) go(kOver);
+    } else if (m_phase == kOver) {
+      if (m_in_phase < 1.5 * sim::kTick) m_over = aim(op);
+      if (op.arms().move(m_hand, m_over, pace::kTravel)) go(kDown);
+    } else if (m_phase == kDown) {
+      const Vec3d below = m_over - (dot(m_over - mouth, up) + m_deep) * up;
+      if (op.arms().move(m_hand, below, pace::kCareful)) go(kUp);
+    } else if (op.arms().move(m_hand, m_over, pace::kCareful)) {
+      if (share_inside(op, m_body) >= m_least) return Progress::done;
+      if (++m_pushes >= kMostPushes) return fail("it has not all come in");
+      go(kOver);
+    }
+    return Progress::working;
+  }
+  /// Over the middle of what rises over the mouth.
+  static Vec3d aim(const Operator& op) {
+    const BagModel& bag = bag_model(op);
+    const BagState& state = bag_state(op);
+    const Vec3d up = state.frame.up, mouth = mouth_of(op);
+    Vec3d sum;
+    double highest = 0;
+    int count = 0;
+    for (const interactions::BagPouch& p : bag.pouches) {
+      const tissue::NodeView nodes = view_of(op.model().membranes[size_t(p.membrane)].sheet.network,
+                                             op.state().membranes[size_t(p.membrane)].network);
+      for (std::int32_t n = 0; n < p.count; ++n) {
+        if (state.points[size_t(p.first + n)].where != interactions::BagPoint::over_mouth) continue;
+        sum += nodes.position(n);
+        highest = std::max(highest, dot(nodes.position(n) - mouth, up));
+        ++count;
+      }
+    }
+    const Vec3d middle = count > 0 ? (1.0 / count) * sum : mouth;
+    return middle + (highest + kClear - dot(middle - mouth, up)) * up;
+  }
+
+  int m_hand, m_pushes = 0;
+  BodyId m_body;
+  double m_deep, m_least;
+  Vec3d m_over;
 };
 
 /// The hoop back into its sleeve.
@@ -170,6 +233,17 @@ const SkillKind kPutInBag{
     "Carries what it holds to over the bag's mouth, lowers it through that, lets go and draws back.",
     lacks_bag,
     &making<PutInBag>};
+const SkillKind kPushIntoBag{
+    "push_into_bag",
+    "push it into the bag",
+    {hand_parameter("that pushes, its jaws closed"),
+     {"body", ArgumentKind::body, "what hangs out"},
+     number_parameter("deep_mm", "how far below the mouth it is pushed; 25", 0, 200),
+     number_parameter("least_share", "of it that has to be inside then; 1", 0, 1)},
+    60,
+    "Closes the jaws and pushes what rises over the bag's mouth down into it, at most eight times.",
+    lacks_bag,
+    &making<PushIntoBag>};
 const SkillKind kCloseBag{"close_bag",
                           "draw the bag shut",
                           {hand_parameter("that has the bag")},
