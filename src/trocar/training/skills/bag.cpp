@@ -104,12 +104,13 @@ class PutInBag final : public Skill {
     }
     return Progress::working;
   }
-  /// Only as far as it comes free: jaws that open wide in a fold take that along.
+  /// Only as far as it comes free: jaws that open wide in a fold take that along. A stone falls out of open ones.
   void loosen(Operator& op) {
     constexpr double kMore = 0.08;  // of the handle
     const bool wide = op.arms().grip(m_hand, 0, 0.5);
-    m_loose = std::max(0.0, op.arm(m_hand).handle - kMore);
-    if (wide || op.tool_state(m_hand).holds == 0) go(kBack);
+    const bool falls = m_body.is(BodyKind::rigid);
+    m_loose = falls ? 0.0 : std::max(0.0, op.arm(m_hand).handle - kMore);
+    if (wide || (!falls && op.tool_state(m_hand).holds == 0)) go(kBack);
   }
 
   int m_hand;
