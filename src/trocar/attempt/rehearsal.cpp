@@ -73,6 +73,9 @@ class Attempt {
       m_board->seconds += sim::kTick;
       if (!report.fine()) fail("the physics failed");
       if (m_state.tick % kLookEvery == 0) look();
+      if (m_state.tick % kTellEvery == 0)
+        fmt::print(stderr, "rehearsal: {:.0f} s, \"{}\" ({:.0f} s simulated)\n", now(), m_performer.goal(),
+                   m_board->seconds);
     }
     look();
     if (!m_monitor->score().passed) fail(fmt::format("{:.0f} points are no pass", m_monitor->score().total));
@@ -83,7 +86,7 @@ class Attempt {
   }
 
  private:
-  static constexpr std::uint64_t kLookEvery = 100;  // ticks
+  static constexpr std::uint64_t kLookEvery = 100, kTellEvery = 20'000;  // ticks
 
   double now() const { return double(m_state.tick) * sim::kTick; }
   bool spent() const {
