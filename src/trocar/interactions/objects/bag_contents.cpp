@@ -16,7 +16,8 @@ constexpr double kAnotherSide = 0.012;  // [m] deeper is another part of the clo
 constexpr double kStillIn = 0.040;      // [m] ... but of what is inside, which has nowhere else to be
 constexpr double kInMouth = 0.006;      // [m] about the mouth's plane: what lies there keeps the hoop open
 constexpr double kLeaves = 0.002;       // [m] that what keeps it open is away from the hoop
-constexpr double kBack = 0.0005;        // [m] above the mouth before what was inside has left
+constexpr double kBack = 0.0005;        // [m] above the mouth before what was inside has left ...
+constexpr double kPouchBack = 0.003;    // ... and a node of a pouch, whose nodes are about 5 mm apart
 // Of a pouch in the bag; a node of a gallbladder weighs some 2 mN.
 constexpr double kPouchStiffness = 50;   // [N/m]
 constexpr double kPouchDamping = 0.05;   // [N s/m]
@@ -45,9 +46,9 @@ double reach_inside(const BagModel& m, const BagState& s, double below) noexcept
   return f < 1 ? m.hoop * std::sqrt(1 - f * f) : -1;
 }
 
-BagPoint::Where where_now(const BagState& s, double radius, BagPoint::Where was, AtMouth at) noexcept {
+BagPoint::Where where_now(const BagState& s, double radius, double back, BagPoint::Where was, AtMouth at) noexcept {
   if (was == BagPoint::inside)
-    return at.height > kBack && at.out < radius && !s.shut() ? BagPoint::over_mouth : BagPoint::inside;
+    return at.height > back && at.out < radius && !s.shut() ? BagPoint::over_mouth : BagPoint::inside;
   if (at.out >= radius || at.height > kOverMouth || s.shut()) return BagPoint::elsewhere;
   if (at.height > 0) return BagPoint::over_mouth;
   return was == BagPoint::over_mouth ? BagPoint::inside : BagPoint::elsewhere;
@@ -183,7 +184,7 @@ namespace {
 
 /// What has come in over the rim with the rest of a pouch, and not through the mouth's plane: it lies in the sack.
 void take_along(const BagModel& m, const BagPouch& p, Vec3d down, BagState& s, const BagWork& w) noexcept {
-  constexpr double kRest = 0.5;  // share of it that has to be inside: ours
+  constexpr double kRest = 0.33;  // share of it that has to be inside: ours
   const auto first = s.points.begin() + p.first, last = first + p.count;
   const auto inside = [](const BagPoint& q) { return q.where == BagPoint::inside; };
   if (double(std::count_if(first, last, inside)) < kRest * p.count || s.shut()) return;
@@ -191,7 +192,8 @@ void take_along(const BagModel& m, const BagPouch& p, Vec3d down, BagState& s, c
     if (s.points[i].where != BagPoint::elsewhere || !w.bodies[i].near) continue;
     const Vec3d off = w.bodies[i].x - s.middle(m);
     const double below = dot(off, down);
-    if (below > 0 && length(off - below * down) < reach_inside(m, s, below)) s.points[i].where = BagPoint::inside;
+    if (below > 0 && length(off - below * down) < reach_inside(m, s, below) + kPouchBack)
+      s.points[i].where = BagPoint::inside;
   }
 }
 
@@ -202,7 +204,9 @@ void note_places(const BagModel& m, Vec3d down, BagState& s, BagWork& w) noexcep
   for (size_t i = 0; i < s.points.size(); ++i) {
     BagPoint& p = s.points[i];
     BagPoint::Where now = BagPoint::elsewhere;
-    if (w.bodies[i].near) now = where_now(s, radius, BagPoint::Where(p.where), at_mouth(m, s, w.bodies[i].x));
+    if (w.bodies[i].near)
+      now = where_now(s, radius, i < size_t(m.rigids) ? kBack : kPouchBack, BagPoint::Where(p.where),
+                      at_mouth(m, s, w.bodies[i].x));
     p.where = now;
   }
   for (const BagPouch& p : m.pouches) take_along(m, p, down, s, w);
