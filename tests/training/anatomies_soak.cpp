@@ -82,12 +82,13 @@ std::vector<Rehearsed> rehearsed() {
 }
 class RehearsedAnatomy : public testing::TestWithParam<Rehearsed> {};
 TEST_P(RehearsedAnatomy, ComesOffByItsChoices) { expect_passes(GetParam().exercise.c_str(), GetParam().seed, 0); }
-INSTANTIATE_TEST_SUITE_P(Kept, RehearsedAnatomy, testing::ValuesIn(rehearsed()), [](const auto& info) {
+std::string word_of(const testing::TestParamInfo<Rehearsed>& given) {
   std::string word =
-      info.param.exercise.substr(16, info.param.exercise.size() - 21) + "_" + std::to_string(info.param.seed);
+      std::filesystem::path(given.param.exercise).stem().string() + "_" + std::to_string(given.param.seed);
   std::replace(word.begin(), word.end(), '-', '_');
   return word;
-});
+}
+INSTANTIATE_TEST_SUITE_P(Kept, RehearsedAnatomy, testing::ValuesIn(rehearsed()), word_of);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RehearsedAnatomy);
 
 class Haemorrhage : public testing::TestWithParam<int> {};
