@@ -13,10 +13,19 @@ constexpr size_t kMostDifficulties = 100;  // that are told
 
 }  // namespace
 
+std::unique_ptr<Skill> Performer::skill_of(const sim::Model& model, const PlanTask& task) {
+  std::unique_ptr<Skill> skill = task.kind->make(model, Given(*task.kind, task.arguments));
+  return task.wrap ? task.wrap(std::move(skill)) : std::move(skill);
+}
+
 Performer::Task Performer::make(const sim::Model& model, const PlanTask& task) {
-  Task made{&task, task.kind->make(model, Given(*task.kind, task.arguments)), make(model, task.meanwhile)};
-  if (task.wrap) made.skill = task.wrap(std::move(made.skill));
-  return made;
+  return {&task, skill_of(model, task), make(model, task.meanwhile)};
+}
+
+/// The same tasks, done otherwise.
+void Performer::make_anew(const sim::Model& model, const PlanTask& otherwise, Task& task) {
+  task.skill = skill_of(model, otherwise);
+  for (size_t i = 0; i < task.meanwhile.size(); ++i) make_anew(model, otherwise.meanwhile[i], task.meanwhile[i]);
 }
 
 std::vector<Performer::Task> Performer::make(const sim::Model& model, const std::vector<PlanTask>& tasks) {
@@ -71,9 +80,7 @@ void Performer::choose_way(Task& task) {
   const int chosen = way();
   if (chosen == 0) return;
   m_operator.arms().tremble(tremor_in_way(chosen));
-  const PlanTask* plan = task.plan;
-  task = make(m_operator.model(), in_way(*plan, chosen));
-  task.plan = plan;
+  make_anew(m_operator.model(), in_way(*task.plan, chosen), task);
 }
 
 /// While it lasts.

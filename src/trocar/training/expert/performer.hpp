@@ -39,7 +39,9 @@ class Performer final : public Expert {
   };
 
   static std::vector<Goal> make(const sim::Model& model, const PlanPart& part);
+  static std::unique_ptr<Skill> skill_of(const sim::Model& model, const PlanTask& task);
   static Task make(const sim::Model& model, const PlanTask& task);
+  static void make_anew(const sim::Model& model, const PlanTask& otherwise, Task& task);
   static std::vector<Task> make(const sim::Model& model, const std::vector<PlanTask>& tasks);
 
   void choose();
