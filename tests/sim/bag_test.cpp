@@ -65,6 +65,24 @@ const Model& box_model() {
   return made;
 }
 
+/// And a gallbladder, 60 mm tall and 24 mm wide, upright over the mouth.
+const Model& box_with_gallbladder() {
+  static const Model made = [] {
+    scene::Description d = box();
+    const scene::Description from = scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cholecystectomy_extract/scene.json");
+    d.tissues = from.tissues;
+    d.pouches = {from.pouches.front()};
+    d.pouches.front().sections.clear();
+    for (int i = 0; i <= 10; ++i) {
+      const double r = 0.012 * std::sqrt(portable::sin(portable::pi * (0.06 + 0.088 * i)));
+      d.pouches.front().sections.push_back({kMouth + Vec3d{0, 0, 0.008 + 0.006 * i}, {r, 0, 0}, {0, r, 0}});
+    }
+    settings_of(scene::BagScene{}, d.objects).front().deep = 0.090;
+    return scene::compile(d);
+  }();
+  return made;
+}
+
 const BagModel& bag_model() { return interactions::part_of<Bag>(box_model().objects).list.front(); }
 const BagState& bag(const State& s) { return interactions::part_of<Bag>(s.objects).front(); }
 RigidState& stone(State& s, size_t i) { return interactions::part_of<Rigid>(s.objects)[i]; }
@@ -88,7 +106,7 @@ double longest(const BagState& s) {
 
 struct Bagged : small::Table {
   Vec3d tip;
-  Bagged() : Table(box_model()) {
+  explicit Bagged(const Model& of = box_model()) : Table(of) {
     tip = kinematics::forward(model.hands[kRight].port, pose_of(input.tools[kRight])).tip;
   }
 
@@ -122,6 +140,52 @@ struct Bagged : small::Table {
     steps(500);
   }
 };
+
+/// It begins above the mouth again once the bag is open.
+struct BaggedGallbladder : Bagged {
+  BaggedGallbladder() : Bagged(box_with_gallbladder()) {
+    const auto over_mouth = state.membranes[0].network;
+    open();
+    state.membranes[0].network = over_mouth;
+  }
+  double inside() const {
+    const interactions::BagShare share =
+        share_in(interactions::part_of<Bag>(model.objects).list.front(), bag(state), BodyId::membrane(0));
+    return double(share.inside) / share.all;
+  }
+  /// Of its nodes, root mean square over a tenth of a second [m/s].
+  double speed() {
+    double sum = 0;
+    const int nodes = model.membranes[0].sheet.network.nodes;
+    for (int i = 0; i < 100; ++i) {
+      step();
+      const tissue::NodeView view = view_of(model.membranes[0].sheet.network, state.membranes[0].network);
+      for (int n = 0; n < nodes; ++n) sum += dot(view.velocity(n), view.velocity(n)) / nodes;
+    }
+    return std::sqrt(sum / 100);
+  }
+};
+
+TEST(Bag, AGallbladderThatFallsIntoItLiesStillInIt) {
+  BaggedGallbladder t;
+  t.steps(4000);
+  EXPECT_EQ(t.inside(), 1);
+  EXPECT_LT(t.speed(), 0.03);
+  t.steps(4000);
+  EXPECT_EQ(t.inside(), 1) << "it has climbed out";
+}
+
+TEST(Bag, DrawnShutAndTurnedItKeepsAGallbladder) {
+  BaggedGallbladder t;
+  t.steps(3000);
+  t.close_slowly(kRight, 1, 2000);
+  t.steps(1500);
+  EXPECT_TRUE(bag(t.state).shut());
+  for (int i = 1; i <= 1500; ++i) t.hold(t.tip, portable::pi * i / 1500), t.step();
+  t.steps(1500);
+  EXPECT_EQ(t.inside(), 1);
+  EXPECT_LT(t.speed(), 0.05);
+}
 
 }  // namespace
 
