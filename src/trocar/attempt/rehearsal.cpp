@@ -61,8 +61,11 @@ class Attempt {
         m_state(sim::initial_state(lesson.model)),
         m_work(sim::make_work(lesson.model)),
         m_monitor(lesson.monitor()),
+        m_known(choices_of(lesson)),
         m_performer(lesson.model, training::read_demonstration(*lesson.exercise, lesson.model, lesson.seed),
-                    {.tremor = {}, .way = [this](int choice) { return way(choice); }}) {}
+                    {.tremor = {}, .way = [this](int choice) { return way(choice); }}) {
+    for (const training::Choice& c : m_known) m_first = std::max(m_first, c.way);
+  }
 
   [[noreturn]] void run() {
     while (!m_performer.done() && !m_monitor->finished()) {
@@ -95,7 +98,7 @@ class Attempt {
 
   /// The process that returns goes on in that way; the one that called never comes back.
   int way(int choice) {
-    for (int chosen = 0; !spent(); chosen = m_board->attempts++) {
+    for (int chosen = known_at(choice); !spent(); chosen = m_first + m_board->attempts++) {
       std::fflush(nullptr);
       const pid_t copy = fork();
       if (copy < 0) fail("no more processes");
@@ -110,6 +113,16 @@ class Attempt {
       fmt::print(stderr, "rehearsal: {:.0f} s: again, from \"{}\"\n", now(), m_performer.goal());
     }
     _exit(kFailed);
+  }
+
+  static training::Choices choices_of(const Lesson& lesson) {
+    const training::Rehearsed* before = lesson.exercise->rehearsed_with(lesson.seed);
+    return before ? before->choices : training::Choices{};
+  }
+  int known_at(int choice) const {
+    for (const training::Choice& c : m_known)
+      if (c.at == choice) return c.way;
+    return 0;
   }
 
   void look() {
@@ -148,6 +161,8 @@ class Attempt {
   sim::State m_state;
   sim::Work m_work;
   std::unique_ptr<training::Monitor> m_monitor;
+  training::Choices m_known;  ///< what was rehearsed before is tried first
+  int m_first = 0;            ///< ways up to here have been tried then
   training::Performer m_performer;
   training::Choices m_choices;
 };

@@ -27,7 +27,8 @@ struct Rehearsal {
   std::string obstacle;  ///< why the one that came farthest failed; empty: it did not
 };
 
-/// Told on stderr as it goes. The calling process must have no other thread that holds locks.
+/// What the exercise's file keeps for this anatomy is tried first. Told on stderr as it goes. The calling process must
+/// have no other thread that holds locks.
 /// @throws core::BadInput where nobody knows how the exercise is done, core::EnvironmentLacks
 Rehearsal rehearse(const Lesson& lesson, const Patience& patience);
 
