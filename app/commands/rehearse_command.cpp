@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/interrupt.hpp>
-#include <trocar/attempt/rehearsal.hpp>
+#include <trocar/attempt/rehearsal/rehearsal.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 

@@ -1,7 +1,7 @@
 // A demonstration that does not come off as it is written is rehearsed, and done again by the choices alone.
 #include <gtest/gtest.h>
 
-#include <trocar/attempt/rehearsal.hpp>
+#include <trocar/attempt/rehearsal/rehearsal.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/training/expert/performer.hpp>

@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include <trocar/attempt/interrupt.hpp>
-#include <trocar/attempt/rehearsal.hpp>
+#include <trocar/attempt/rehearsal/rehearsal.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/training/expert/performer.hpp>
 
