@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include <trocar/geometry/surfaces/nearest.hpp>
-#include <trocar/interactions/contact/body_push.hpp>
 #include <trocar/interactions/objects/bag_contents.hpp>
 
 namespace trocar::interactions {
