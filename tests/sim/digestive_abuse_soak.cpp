@@ -125,8 +125,9 @@ TEST_P(DigestiveAbuse, LeavesNumbersFiniteTheAccountExactAndNoBodyInAKnot) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, DigestiveAbuse,
-                         testing::Values("calot", "calot_inflamed", "cholecystectomy", "cholecystectomy_adherent",
-                                         "cholecystectomy_extract", "cholecystectomy_haemorrhage",
+                         testing::Values("bowel", "calot", "calot_inflamed", "cholecystectomy",
+                                         "cholecystectomy_adherent", "cholecystectomy_extract",
+                                         "cholecystectomy_haemorrhage", "cholecystectomy_operation",
                                          "cholecystectomy_spill", "gallbladder_bed", "gallbladder_bed_inflamed",
                                          "gallbladder_bed_scarred"),
                          [](const auto& scene) { return std::string(scene.param); });

@@ -272,11 +272,34 @@ TEST_F(LikeAnother, SaysWhatDiffersAndTheRestIsAsThere) {
 
 TEST_F(LikeAnother, AKeyReplacesTheOtherFilesAsAWhole) {
   Faults found;
-  const Exercise e =
-      twin(std::string(kKeys) + R"(, "includes": [], "limits": {"lost_mL": {"value": 1, "source": "ours"}})", found);
+  const Exercise e = twin(std::string(kKeys) + R"(, "includes": [])", found);
   EXPECT_FALSE(found.empty()) << "what the steps decide by is not there any more";
-  ASSERT_EQ(e.limits.size(), 1u);
-  EXPECT_EQ(e.limits[0].at.file, kTwin);
+  for (const Limit& l : e.limits) EXPECT_EQ(l.at.file, kChanged) << l.name;
+}
+
+TEST_F(LikeAnother, ALimitReplacesThatOneAlone) {
+  Faults found;
+  const Exercise base = read_exercise(kChanged, files_with(m_text));
+  const auto own = std::find_if(base.limits.begin(), base.limits.end(),
+                                [](const Limit& l) { return l.at.file == kChanged && !l.is_range; });
+  ASSERT_NE(own, base.limits.end());
+  const Exercise e =
+      twin(std::string(kKeys) + R"(, "limits": {")" + own->name + R"(": {"value": 7, "source": "ours"}})", found);
+  EXPECT_TRUE(found.empty()) << found[0].message;
+  ASSERT_EQ(e.limits.size(), base.limits.size());
+  for (const Limit& l : base.limits) {
+    if (l.is_range) continue;
+    const double as_there = base.limit(l.name, -1);
+    EXPECT_DOUBLE_EQ(e.limit(l.name, -1), l.name == own->name ? as_there * 7 / l.low : as_there) << l.name;
+  }
+}
+
+TEST_F(LikeAnother, ALimitOfCommonRulesIsNotLoosenedByTheWay) {
+  Faults found;
+  twin(std::string(kKeys) + R"(, "limits": {"lost_mL": {"value": 1000, "source": "ours"}})", found);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].at.file, kTwin);
+  EXPECT_NE(found[0].message.find("at least as strict"), std::string::npos) << found[0].message;
 }
 
 TEST_F(LikeAnother, ItsFaultsAreToldWhereTheyStand) {

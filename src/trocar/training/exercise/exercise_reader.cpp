@@ -41,7 +41,9 @@ class ExerciseReader {
     score();
     RuleFiles rules(m_exercise, m_faults);
     includes(rules);
-    rules.read({said("limits").o, said("sets").o, said("errors").o}, true);
+    std::vector<const JsonObject*> limits;
+    for (const Layer& l : m_layers) limits.push_back(&l.o);
+    rules.read({limits, said("sets").o, said("errors").o}, true);
     own_steps();
     const JsonObject& detailed = said("details").o;
     for (const JsonObject& d : detailed.objects("details"))
@@ -155,7 +157,7 @@ class ExerciseReader {
       const scene::JsonDocument& document = m_files.back();
       if (document.root.kind == JsonValue::Kind::broken) continue;
       const JsonObject common(document.root, common_rules_shape(), document.file, m_faults);
-      rules.read({common, common, common}, false);
+      rules.read({{&common}, common, common}, false);
       steps(common);
     }
   }

@@ -62,21 +62,37 @@ std::vector<std::string> given(const JsonObject& o, const char* key, const std::
   return o.names(key) ? o.texts(key) : otherwise;
 }
 
+const JsonValue* limits_of(const JsonObject& file) {
+  const scene::JsonMember* limits = file.value().find("limits");
+  return limits ? &limits->value : nullptr;
+}
+
 }  // namespace
 
 void RuleFiles::read(const Said& by, bool own) {
-  limits(by.limits, by.limits.at().file, own);
+  limits(by.limits, own);
   sets(by.sets, by.sets.at().file);
   errors(by.errors, by.errors.at().file, own);
 }
 
-void RuleFiles::limits(const JsonObject& file, const std::string& path, bool own) {
+void RuleFiles::limits(const std::vector<const JsonObject*>& files, bool own) {
   if (own) m_common_limits = m_exercise.limits.size();
-  const scene::JsonMember* all = file.value().find("limits");
-  if (!all) return;
-  if (all->value.kind != JsonValue::Kind::object)
-    return file.fault("limits", "expected limits by their names in {}, got " + scene::shown(all->value));
-  for (const scene::JsonMember& m : all->value.members) limit(m, path, own);
+  for (auto file = files.rbegin(); file != files.rend(); ++file) {
+    const JsonValue* all = limits_of(**file);
+    if (!all) continue;
+    if (all->kind != JsonValue::Kind::object) {
+      (*file)->fault("limits", "expected limits by their names in {}, got " + scene::shown(*all));
+      continue;
+    }
+    const auto named_above = [&](const std::string& name) {
+      return std::any_of(files.begin(), file.base() - 1, [&name](const JsonObject* above) {
+        const JsonValue* theirs = limits_of(*above);
+        return theirs && theirs->find(name);
+      });
+    };
+    for (const scene::JsonMember& m : all->members)
+      if (!named_above(m.key)) limit(m, (*file)->at().file, own);
+  }
 }
 
 void RuleFiles::limit(const scene::JsonMember& member, const std::string& path, bool own) {

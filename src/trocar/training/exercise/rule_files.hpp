@@ -2,6 +2,8 @@
 // another may make its limits and errors stricter; what would loosen them is a fault.
 #pragma once
 
+#include <vector>
+
 #include <trocar/training/exercise/exercise.hpp>
 
 namespace trocar::training {
@@ -12,7 +14,7 @@ class RuleFiles {
 
   /// Who says what: one file, or an exercise and those that it is like.
   struct Said {
-    const scene::JsonObject& limits;
+    std::vector<const scene::JsonObject*> limits;  ///< each limit is as the first that names it has it
     const scene::JsonObject& sets;
     const scene::JsonObject& errors;
   };
@@ -20,7 +22,7 @@ class RuleFiles {
   void read(const Said& by, bool own);
 
  private:
-  void limits(const scene::JsonObject& file, const std::string& path, bool own);
+  void limits(const std::vector<const scene::JsonObject*>& files, bool own);
   void limit(const scene::JsonMember& member, const std::string& path, bool own);
   void sets(const scene::JsonObject& file, const std::string& path);
   void errors(const scene::JsonObject& file, const std::string& path, bool own);
