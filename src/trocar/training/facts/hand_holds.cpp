@@ -8,9 +8,10 @@ namespace {
 
 Value holds(const Moment& moment, const Arguments& a) {
   const interactions::ToolState& tool = moment.state.tools[size_t(a[0].index)];
-  if (tool.holds == 0) return false;
-  if (!a[1].given) return true;
-  return std::find(a[1].bodies.begin(), a[1].bodies.end(), tool.hold[0].body) != a[1].bodies.end();
+  if (!a[1].given) return tool.holds > 0;
+  return std::any_of(tool.hold, tool.hold + tool.holds, [&a](const interactions::Hold& h) {
+    return std::find(a[1].bodies.begin(), a[1].bodies.end(), h.body) != a[1].bodies.end();
+  });
 }
 
 Value held_at(const Moment& moment, const Arguments& a) {
