@@ -242,6 +242,14 @@ TEST(Facts, AHandHoldsABodySomewhere) {
   expect_value(w.value(kHandHoldsBetween, {grasper, strand, word("isthmus"), word("fimbria")}), 0);
 }
 
+TEST(Facts, AHandHoldsAllThatIsBetweenItsJaws) {
+  World w;
+  w.hold(kLeft, 1);
+  w.state.tools[kGrasper].holds = 2;
+  w.state.tools[kGrasper].hold[1].body = BodyId::strand(size_t(kCord));
+  for (const int strand : {kLeft, kCord}) expect_value(w.value(kHandHolds, {w.hand(kGrasper), bodies({strand})}), 1);
+}
+
 TEST(Facts, AHandHasAnInstrument) {
   World w;
   expect_value(w.value(kHandHas, {w.hand(kScissors), word("scissors")}), 1);
