@@ -83,7 +83,7 @@ TEST(LookFile, FaultsHavePlacesAndComeAllInOnePass) {
                     }() +
                     "), got \"wetnes\" (did you mean \"wetness\"?)",
                 "3:14 expected a known look (a, b), got \"bb\" (did you mean \"b\"?)",
-                "4:33 expected one of fat_tags, adhesions, curtains, drape, omentum, liver_dome, bowel_loops for "
+                "4:33 expected one of fat_tags, adhesions, curtains, drape, omentum, liver_dome, bowel_loops, porta for "
                 "\"generator\", got \"drap\" (did you mean \"drape\"?)",
                 "4:74 expected a count of what is counted only, got one of drape"}));
 }
