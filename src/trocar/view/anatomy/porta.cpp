@@ -7,7 +7,6 @@
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/render/meshes/openness.hpp>
 #include <trocar/view/anatomy/porta.hpp>
-#include <trocar/view/bodies/cavity.hpp>
 #include <trocar/view/objects/fat_surface.hpp>
 
 namespace trocar::view {
@@ -23,13 +22,13 @@ constexpr double kSheetAbove = 0.78;                     // ... of which so much
 constexpr double kCleft = 0.0105;                        // [m] so far up the organ and down the ligament it reaches
 constexpr double kCleftDeep = 0.0020;                    // [m] how thick it is in the cleft ...
 constexpr double kEntryMore = 0.0010;                    // [m] ... and how much more where strands go in
-constexpr double kPortaSunk = 0.0016;                    // [m] below what it lies on, where it is lost
+constexpr double kPortaSunk = 0.0009;                    // [m] below what it lies on, where it is lost
 constexpr double kNearEntry = 0.010, kFarEntry = 0.034;  // [m] from an entry it is whole, and not there
 constexpr double kSleeve = 0.012;                        // [m] along a strand, out of the organ
 constexpr double kSleeveThick = 0.0011;                  // [m] where it is thickest
 constexpr double kAside = 0.0007;                        // [m] how far from the strand's line its lobules lie
 constexpr double kBuried = 0.0014;                       // [m] below a skin nothing of it is seen
-constexpr double kThin = 0.0016;                         // [m] above the organ
+constexpr double kThin = 0.0017;                         // [m] above the organ
 constexpr double kGoesAlong = 0.001, kStays = 0.011;     // [m] from the organ
 
 /// Places on a skin, as drawn.
@@ -231,11 +230,11 @@ Porta::Porta(const sim::Model& model, std::size_t wall, std::size_t solid, std::
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
   for (std::uint32_t v = 0; v < m_buffer.size(); ++v) {
     const auto p = vec_cast<double>(m_buffer.positions[v]);
-    m_buffer.paint[v].tint = to_byte(fat_below(p));
     const DrawnSkin::Place on = organ.nearest(p, kStays);
     const double share = on.above < 1 ? smooth(kStays, kGoesAlong, on.above) : 0;
-    // Where it runs out on the organ its peritoneum is thin and redder.
-    m_buffer.paint[v].blood = to_byte(on.above < 1 ? 0.2 * smooth(kThin, 0, on.above) : 0);
+    // Where it runs out on the organ its peritoneum is thin: what it covers shows through.
+    const double thin = on.above < 1 ? smooth(kThin, 0, on.above + 0.0005 * waves(p, 0.004)) : 0;
+    m_buffer.paint[v].tint = to_byte(0.8 * thin);
     if (share > 0) m_follow.push_back({v, on.vertex, float(share)});
   }
   m_rest = m_buffer.positions;

@@ -176,7 +176,7 @@ void RawBed::paint(std::size_t vertex, const OrganDrawing& organ) {
     open += share * organ.paint()[at.corner[k]].openness / 255;
   }
   const double moist = kMoist + (kRawMoist - kMoist) * smooth(0.54, 0.30, gone);
-  const double wet = (1 - dry) * (0.48 + 0.2 * waves(p, 0.004)) +
+  const double wet = (1 - dry) * (0.37 + 0.12 * waves(q, 0.004)) +
                      dry * (moist + kRimMoist * std::max(inner * (1 - inner), tan * (1 - tan))) +
                      0.8 * oozing * (1 - charred);
   const double grains = waves(q, 0.0023) + waves(q, 0.0047);

@@ -411,7 +411,9 @@ void BodyDrawing::list(bool with_walls, const FirstParts& first, const Listing& 
   for (Porta& p : m_portas) {
     if (!with_walls) break;  // without the ligament that it lies on it would be a rag
     const sim::WallModel& wall = m_model->walls[p.wall()];
-    to.add(item(p.mesh(), look(*m_model, wall.look), first.wall + p.wall()), p.detail(), p.buffer().positions);
+    DrawItem porta = item(p.mesh(), look(*m_model, wall.look), first.wall + p.wall());
+    porta.material.tint = look(*m_model, m_model->solids[p.solid()].look).material.colour;
+    to.add(porta, p.detail(), p.buffer().positions);
   }
   list_tubes(with_walls, first, to);
   list_vessels(false, first, to);
