@@ -110,20 +110,9 @@ class Cushion {
   Cushion(const DrawnSkin& wall, const DrawnSkin& organ, std::span<const PortaEntry> entries)
       : m_wall(wall), m_organ(organ), m_entries(entries) {}
 
-  /// On one skin, along where it comes near the other one.
-  void lay_on(const DrawnSkin& own, const DrawnSkin& other) {
-    const tissue::Skin& skin = own.skin();
-    for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
-      const auto corner = [&](std::size_t k) { return vec_cast<double>(skin.rest[std::size_t(skin.triangles[t][k])]); };
-      const Vec3d a = corner(0), b = corner(1), c = corner(2);
-      if (from_entry((a + b + c) / 3.0) > kFarEntry + 0.004) continue;
-      const auto normal = vec_cast<double>(skin.rest_normal[std::size_t(skin.triangles[t][0])]);
-      const int parts = std::max(1, int(std::sqrt(length(cross(b - a, c - a))) / kSample + 0.5));
-      for (int j = 0; j < parts; ++j)
-        for (int i = 0; i + j < parts; ++i)
-          sheet(a + ((i + varied(m_next, 1)) / parts) * (b - a) + ((j + varied(m_next, 2)) / parts) * (c - a), normal,
-                other);
-    }
+  void lay_in_cleft() {
+    lay_on(m_wall, m_organ);
+    lay_on(m_organ, m_wall);
   }
 
   /// Around a strand, out of the organ: less and less, until the strand has come out of it.
@@ -153,9 +142,31 @@ class Cushion {
   std::span<const DrawnLobule> lobules() const { return m_lobules; }
 
  private:
+  /// On one skin, along where it comes near the other one.
+  void lay_on(const DrawnSkin& own, const DrawnSkin& other) {
+    const tissue::Skin& skin = own.skin();
+    for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
+      const auto corner = [&](std::size_t k) { return vec_cast<double>(skin.rest[std::size_t(skin.triangles[t][k])]); };
+      const Vec3d a = corner(0), b = corner(1), c = corner(2);
+      if (from_entry((a + b + c) / 3.0) > kFarEntry + 0.004) continue;
+      const auto normal = vec_cast<double>(skin.rest_normal[std::size_t(skin.triangles[t][0])]);
+      const int parts = std::max(1, int(std::sqrt(length(cross(b - a, c - a))) / kSample + 0.5));
+      for (int j = 0; j < parts; ++j)
+        for (int i = 0; i + j < parts; ++i)
+          sheet(a + ((i + varied(m_next, 1)) / parts) * (b - a) + ((j + varied(m_next, 2)) / parts) * (c - a), normal,
+                other);
+    }
+  }
+
+  /// Is this the organ's side that strands go into? The ligament's front may be drawn on through it.
+  bool faces(Vec3d organ_normal) const {
+    return std::any_of(m_entries.begin(), m_entries.end(),
+                       [&](const PortaEntry& e) { return dot(organ_normal, e.out) > 0; });
+  }
   void sheet(Vec3d p, Vec3d normal, const DrawnSkin& other) {
-    const double far = other.nearest(p, kCleft + 0.004).above;
-    if (far < -0.003 || far > kCleft) return;
+    const DrawnSkin::Place near = other.nearest(p, kCleft + 0.004);
+    const double far = near.above;
+    if (far < -0.003 || far > kCleft || !faces(&other == &m_organ ? near.normal : normal)) return;
     const double from = from_entry(p), whole = smooth(kFarEntry, kNearEntry, from + 0.004 * waves(p, 0.02));
     const double ragged = 0.0028 * waves(p, 0.009) + 0.0012 * waves(p, 0.0045);
     const double up = smooth(kCleft, 0.1 * kCleft, std::max(far, 0.0) + ragged) * whole;
@@ -219,8 +230,7 @@ Porta::Porta(const sim::Model& model, std::size_t wall, std::size_t solid, std::
     : m_wall(wall), m_solid(solid), m_detail(levels_of(model, model.walls[wall].name)) {
   const DrawnSkin organ(model.solids[solid].fine), front(model.walls[wall].skin);
   Cushion cushion(front, organ, entries);
-  cushion.lay_on(front, organ);
-  cushion.lay_on(organ, front);
+  cushion.lay_in_cleft();
   for (const PortaEntry& e : entries) {
     const DrawnLine line(model.strand_bodies[e.strand], e.start);
     cushion.lay_around(line, e, e.start ? e.s : line.length_of_it() - e.s);

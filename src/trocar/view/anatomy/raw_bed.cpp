@@ -161,7 +161,7 @@ void RawBed::paint(std::size_t vertex, const OrganDrawing& organ) {
       if (m_seen[f] != Seen::holds)
         oozing = std::max(oozing, double(s.strength * bell(vec_cast<float>(q) - s.at, s.radius)));
   }
-  const double uneven = 0.26 * waves(q, 0.0083) + 0.15 * waves(q, 0.0034);
+  const double uneven = smooth(0, 0.4, parted) * (0.26 * waves(q, 0.0083) + 0.15 * waves(q, 0.0034));
   const double torn = parted - kStillHeld * held + uneven;
   const double bare = smooth(kBareFrom, kBareTo, torn), inner = smooth(0.8, 1, bare), deep = smooth(0.5, 1.5, torn);
   const double dry = parted > 0 ? burnt / parted : 0;
