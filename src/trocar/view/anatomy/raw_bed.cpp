@@ -11,10 +11,11 @@ namespace {
 
 constexpr std::uint32_t kBedParts = 4;                 // of an edge of the organ's skin
 constexpr float kBedReach = 0.0072f;                   // [m] of a bond
-constexpr float kBedAround = 0.0095f;                  // [m] so far from bonds there are vertices
+constexpr float kBedAround = 0.0078f;                  // [m] so far from bonds there are vertices
 constexpr double kBareFrom = 0.22, kBareTo = 0.85;     // of the sum of bonds' bells: the capsule is there, and gone
 constexpr double kStillHeld = 0.5;                     // what a bond that holds takes off that
 constexpr double kTucked = 0.0006;                     // [m] below the skin, where there is none
+constexpr float kHidden = -0.0001f;                    // [m] ... and at least so much where no part of it shows
 constexpr double kBedHigh = 0.00015;                   // [m] above it, where it is bare ...
 constexpr double kCrustHigh = 0.00040;                 // [m] ... and more, where eschar is thickest
 constexpr double kGranular = 0.00013;                  // [m] how uneven it is
@@ -60,6 +61,7 @@ RawBed::RawBed(const sim::Model& model, std::size_t solid, const OrganDrawing& o
   m_seen.assign(m_feet.size(), Seen::holds);
   place(organ);
   m_buffer.rest = m_buffer.positions;
+  m_all = m_buffer.indices;
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
@@ -168,7 +170,7 @@ void RawBed::paint(std::size_t vertex, const OrganDrawing& organ) {
   // How far current has gone: unevenly, from bond to bond, in streaks and in specks.
   const double gone = 0.20 + 0.26 * deep + (burnt > 0 ? 0.5 * (strength / burnt - 0.5) : 0) + 0.28 * waves(q, 0.0125) +
                       0.30 * waves(q, 0.0058) + 0.13 * waves(q, 0.0026) + 0.05 * waves(q, 0.0012);
-  const double tan = smooth(0.28, 0.40, gone), charred = smooth(0.38, 0.92, gone);
+  const double tan = smooth(0.26, 0.44, gone), charred = smooth(0.38, 0.92, gone);
   double below = 0, open = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto share = double(at.share[int(k)]);
@@ -192,6 +194,15 @@ void RawBed::paint(std::size_t vertex, const OrganDrawing& organ) {
   paint.tint = to_byte(0.8 * inner * smooth(0.05, 0.6, waves(q + Vec3d{0.1, 0, 0}, 0.0068)));  // fascia
 }
 
+/// Where the capsule is whole it lies below the skin: many small triangles that nobody sees.
+void RawBed::leave_out_hidden() {
+  m_buffer.indices.clear();
+  const auto high = [&](std::size_t i) { return m_places[m_all[i]].high > kHidden; };
+  for (std::size_t t = 0; t < m_all.size(); t += 3)
+    if (high(t) || high(t + 1) || high(t + 2)) m_buffer.triangle(m_all[t], m_all[t + 1], m_all[t + 2]);
+  if (m_buffer.indices.empty()) m_buffer.triangle(m_all[0], m_all[1], m_all[2]);  // a mesh has at least one
+}
+
 void RawBed::place(const OrganDrawing& organ) {
   for (std::size_t v = 0; v < m_places.size(); ++v) {
     const Place& at = m_places[v];
@@ -210,9 +221,10 @@ void RawBed::update(const sim::State& state, const OrganDrawing& organ) {
   if (!m_any || (!changed && organ.version() == m_version)) return;
   m_version = organ.version();
   for (std::size_t v = 0; changed && v < m_places.size(); ++v) paint(v, organ);
+  if (changed) leave_out_hidden();
   place(organ);
   if (changed)
-    m_mesh.update(m_buffer);
+    m_mesh.replace(m_buffer.data());
   else
     m_mesh.move(m_buffer.positions, m_buffer.normals);
 }

@@ -53,6 +53,7 @@ class RawBed {
   void divide(const sim::Model& model, const OrganDrawing& organ);
   bool look_at(const sim::State& state, const OrganDrawing& organ);
   void paint(std::size_t vertex, const OrganDrawing& organ);
+  void leave_out_hidden();
   void place(const OrganDrawing& organ);
 
   std::size_t m_solid;
@@ -60,7 +61,8 @@ class RawBed {
   std::vector<Seen> m_seen;   ///< (feet) as painted
   std::uint64_t m_burns = 0;  ///< sum of what heat has left on the organ below, as painted
   std::vector<Place> m_places;
-  std::uint64_t m_version = 0;  ///< of the organ
+  std::vector<std::uint32_t> m_all;  ///< triangles, those below the skin too
+  std::uint64_t m_version = 0;       ///< of the organ
   bool m_any = false;
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;

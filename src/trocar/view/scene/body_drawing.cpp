@@ -444,6 +444,9 @@ void BodyDrawing::list_vessels(bool in_folds, const FirstParts& first, const Lis
 }
 
 void BodyDrawing::list_organs(bool with_walls, const FirstParts& first, const Listing& to) {
+  // Before what it lies on, which then need not be shaded below it.
+  for (const RawBed& b : m_beds)
+    if (b.any()) to.add(item(b.mesh(), look(*m_model, "gallbladder_bed"), first.of(BodyId::organ(b.solid()))));
   for (std::size_t i = 0; i < m_organs.size(); ++i)
     to.add(item(m_organs[i].mesh(), look(*m_model, m_model->solids[i].look), first.of(BodyId::organ(i))),
            m_details.organs[i], m_organs[i].positions(),
@@ -511,8 +514,6 @@ void BodyDrawing::list_folds(bool with_walls, const FirstParts& first, const Lis
            m_pouches[i].burnt() || held(BodyId::membrane(std::size_t(m_pouch_of[i]))));
   for (const BondDrawing& b : m_bonds)
     to.add(item(b.mesh(), look(*m_model, "adhesion"), first.of(BodyId::membrane(b.membrane()))));
-  for (const RawBed& b : m_beds)
-    if (b.any()) to.add(item(b.mesh(), look(*m_model, "gallbladder_bed"), first.of(BodyId::organ(b.solid()))));
   for (const BreachDrawing& b : m_breaches)
     if (b.any()) to.add(item(b.mesh(), look(*m_model, "liver_raw"), first.of(BodyId::organ(std::size_t(b.organ())))));
 }
