@@ -10,6 +10,7 @@
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/view/anatomy/raw_bed.hpp>
+#include <trocar/view/base/peeled.hpp>
 #include <trocar/view/scene/scene_view.hpp>
 
 namespace trocar::view {
@@ -104,6 +105,28 @@ TEST(RawBed, ItsBorderLiesBelowTheSkin) {
     // At rest it lay 0.6 mm below the skin.
     EXPECT_LT(length(mesh.positions[edge.first] - mesh.rest[edge.first]), 0.00056f);
   }
+}
+
+TEST(Peeled, AWallIsRawWhereItWasTiedAndHasAPaleRimAroundThat) {
+  const auto membrane = std::size_t(bedded().bonds[0].membrane);
+  const std::vector<Vec3d>& places = bedded().membranes[membrane].sheet.network.rest;
+  Peeled wall(bedded(), int(membrane), places);
+  sim::State state = sim::initial_state(bedded());
+  EXPECT_FALSE(wall.update(state)) << "nothing has parted";
+  for (interactions::BondState& bond : state.bonds[0]) bond = {1, interactions::BondState::pulled};
+  EXPECT_TRUE(wall.update(state));
+  EXPECT_FALSE(wall.update(state)) << "that was told";
+  int raw = 0, rim = 0, whole = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Peeled::Mark& m = wall.at(i);
+    raw += m.blood > 50 ? 1 : 0;
+    rim += m.burn > 20 && m.high > 0.0001f ? 1 : 0;
+    whole += m.blood == 0 && m.burn == 0 && m.high == 0 ? 1 : 0;
+    EXPECT_LT(m.burn, 70) << "no current went there";
+  }
+  EXPECT_GT(raw, 10);
+  EXPECT_GT(rim, 3);
+  EXPECT_GT(whole, int(places.size()) / 3) << "its other side";
 }
 
 TEST(RawBed, IsAnItemOfThePicture) {
