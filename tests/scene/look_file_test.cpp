@@ -72,20 +72,21 @@ TEST(LookFile, FaultsHavePlacesAndComeAllInOnePass) {
                    "{\"format\": 1, \"colour\": [1, 2, 300],\n \"wetnes\": 1,\n \"inherits\": \"bb\",\n"
                    " \"surroundings\": [{\"generator\": \"drap\"}, {\"generator\": \"drape\", \"count\": 2}]}"},
                   {"looks/b.json", R"({"format": 1})"}});
-  EXPECT_EQ(told(s.faults),
-            (std::vector<std::string>{
-                "1:32 expected a number in [0, 255] for \"colour\", got 300",
-                "2:2 expected a known key of a look (" +
-                    [] {
-                      std::string keys;
-                      for (const Key& key : look_shape().keys) keys += (keys.empty() ? "" : ", ") + key.name;
-                      return keys;
-                    }() +
-                    "), got \"wetnes\" (did you mean \"wetness\"?)",
-                "3:14 expected a known look (a, b), got \"bb\" (did you mean \"b\"?)",
-                "4:33 expected one of fat_tags, adhesions, curtains, drape, omentum, liver_dome, bowel_loops for "
-                "\"generator\", got \"drap\" (did you mean \"drape\"?)",
-                "4:74 expected a count of what is counted only, got one of drape"}));
+  EXPECT_EQ(
+      told(s.faults),
+      (std::vector<std::string>{
+          "1:32 expected a number in [0, 255] for \"colour\", got 300",
+          "2:2 expected a known key of a look (" +
+              [] {
+                std::string keys;
+                for (const Key& key : look_shape().keys) keys += (keys.empty() ? "" : ", ") + key.name;
+                return keys;
+              }() +
+              "), got \"wetnes\" (did you mean \"wetness\"?)",
+          "3:14 expected a known look (a, b), got \"bb\" (did you mean \"b\"?)",
+          "4:33 expected one of fat_tags, adhesions, curtains, drape, omentum, liver_dome, bowel_loops, porta for "
+          "\"generator\", got \"drap\" (did you mean \"drape\"?)",
+          "4:74 expected a count of what is counted only, got one of drape"}));
 }
 
 TEST(LookFile, LooksThatInheritEachOtherInACircleAreAFault) {

@@ -37,21 +37,23 @@ const Table<Look::Relief>& relief() {
 }
 
 const Choices<Surrounding::Generator> kGenerators{
-    {"fat_tags", Surrounding::Generator::fat_tags},      {"adhesions", Surrounding::Generator::adhesions},
-    {"curtains", Surrounding::Generator::curtains},      {"drape", Surrounding::Generator::drape},
-    {"omentum", Surrounding::Generator::omentum},        {"liver_dome", Surrounding::Generator::liver_dome},
-    {"bowel_loops", Surrounding::Generator::bowel_loops}};
+    {"fat_tags", Surrounding::Generator::fat_tags},       {"adhesions", Surrounding::Generator::adhesions},
+    {"curtains", Surrounding::Generator::curtains},       {"drape", Surrounding::Generator::drape},
+    {"omentum", Surrounding::Generator::omentum},         {"liver_dome", Surrounding::Generator::liver_dome},
+    {"bowel_loops", Surrounding::Generator::bowel_loops}, {"porta", Surrounding::Generator::porta}};
 
 const Table<Surrounding>& surrounding() {
   using R = Rows<Surrounding>;
   static const Table<Surrounding> table{
       "surrounding",
       "Anatomy that is drawn only, around a body of this look.",
-      {needed(R::choice("generator", kGenerators, &Surrounding::generator,
-                        "fat_tags: cushions of fat on large bowel; adhesions: strings and veils to the wall; curtains: "
-                        "broad veils to it; drape: peritoneum covers the body and runs out on what is around; omentum: "
-                        "fat on the lowest part of such a wall; liver_dome: the rest of an organ of which only the "
-                        "lower edge is a body; bowel_loops: more bowel beside it, where a wall ends in a floor")),
+      {needed(R::choice(
+           "generator", kGenerators, &Surrounding::generator,
+           "fat_tags: cushions of fat on large bowel; adhesions: strings and veils to the wall; curtains: "
+           "broad veils to it; drape: peritoneum covers the body and runs out on what is around; omentum: "
+           "fat on the lowest part of such a wall; liver_dome: the rest of an organ of which only the "
+           "lower edge is a body; bowel_loops: more bowel beside it, where a wall ends in a floor; porta: fat over "
+           "the ends of strands that go from such a wall into an organ")),
        R::integer("count", &Surrounding::count, 1, 200, "of fat_tags, adhesions, curtains, at most; default {}")}};
   return table;
 }

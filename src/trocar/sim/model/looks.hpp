@@ -20,6 +20,7 @@ struct Surrounding {
     omentum,      ///< fat lies on the lowest part of such a wall (omentum.hpp)
     liver_dome,   ///< only the lower edge is simulated: the rest of the organ (liver_dome.hpp)
     bowel_loops,  ///< more bowel beside it, where a wall ends in a floor (bowel_loops.hpp)
+    porta,        ///< fat over the ends of strands that go from such a wall into an organ (porta.hpp)
   };
   Generator generator{};
   int count = 1;  ///< of those that are counted, at most

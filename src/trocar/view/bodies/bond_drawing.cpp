@@ -10,12 +10,13 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kThreads = 4;                         // of a bond
-constexpr std::uint32_t kRings = 5, kSides = 4;     // of a thread
-constexpr double kThin = 0.00009, kThick = 0.0004;  // [m] radius in its middle, and where it spreads
-constexpr double kSpread = 0.0016;                  // [m] how far from its bond a thread may stand
-constexpr double kBow = 0.18;                       // of its length, to the side
-constexpr double kShred = 0.0012;                   // [m] what is left of one on either side
+constexpr int kThreads = 4;                              // of a bond
+constexpr std::uint32_t kRings = 5, kSides = 4;          // of a thread
+constexpr double kThin = 0.00009, kThick = 0.0004;       // [m] radius in its middle, and where it spreads
+constexpr double kSpread = 0.0016;                       // [m] how far from its bond a thread may stand
+constexpr double kBow = 0.18;                            // of its length, to the side
+constexpr double kShred = 0.0012, kShrivelled = 0.0005;  // [m] what is left of one on either side; where current went
+constexpr std::uint8_t kSinged = 150, kBlack = 240;      // Paint::burn of that
 constexpr std::uint32_t kEach = kRings * kSides;
 
 /// Across `along`, as far as `reach`, another way for every number.
@@ -41,7 +42,7 @@ BondDrawing::BondDrawing(const sim::Model& model, std::size_t set, render::Backe
 
 void BondDrawing::update(const sim::State& state) {
   place(state);
-  m_mesh.move(m_buffer.positions, m_buffer.normals);
+  m_mesh.repaint(m_buffer.positions, m_buffer.normals, m_buffer.paint);
 }
 
 /// Spread where it is rooted, thin elsewhere, bowed to the side.
@@ -72,11 +73,15 @@ void BondDrawing::place(const sim::State& state) {
     for (int k = 0; k < kThreads; ++k) {
       const int number = int(i) * kThreads + k;
       Vec3d from = foot + scatter(along, kSpread, number, 1), to = node + scatter(along, kSpread, number, 2);
-      const bool holds = state.bonds[m_index][i].holds();
+      const interactions::BondState& bond_state = state.bonds[m_index][i];
+      const bool holds = bond_state.holds(), burnt = !holds && !bond_state.raw();
       if (!holds) {
         if (k % 2) std::swap(from, to);
-        to = from + std::min(kShred, 0.4 * length(to - from)) * normalised(to - from, along);
+        to = from + std::min(burnt ? kShrivelled : kShred, 0.4 * length(to - from)) * normalised(to - from, along);
       }
+      const auto singed = std::uint8_t(kSinged + (kBlack - kSinged) * varied(number, 4));
+      for (std::uint32_t v = 0; v < kEach; ++v)
+        m_buffer.paint[std::uint32_t(number) * kEach + v].burn = burnt ? singed : std::uint8_t(0);
       lay_thread(std::uint32_t(number) * kEach, from, to, scatter(along, 1, number, 3), holds);
     }
   }

@@ -21,23 +21,30 @@ PouchDrawing::PouchDrawing(const sim::Model& model, int membrane, render::Backen
       m_look(&look(model, m_membrane->look)),
       m_index(membrane),
       m_torn(m_membrane->sheet.triangles.size(), 0),
-      m_marks(model, BodyId::membrane(std::size_t(membrane))) {
+      m_marks(model, BodyId::membrane(std::size_t(membrane))),
+      m_peeled(model, membrane, {}) {
   for (const auto& t : m_membrane->sheet.triangles)
     for (int node : t) m_whole.push_back(std::uint32_t(node));
   divide();
   m_height.assign(m_places.size(), 0.0f);
+  m_peeled = Peeled(model, membrane, flat_places());
   place(tissue::rest_state(m_membrane->sheet));
   connect(m_torn);
   m_buffer.rest = m_buffer.positions;
   paint();
   place(tissue::rest_state(m_membrane->sheet));
+  m_marks = HeatMarks(model, BodyId::membrane(std::size_t(membrane)), flat_places());
+  coarsen(m_buffer, detail, kBends);
+  m_mesh = OwnedMesh(backend, m_buffer.data());
+}
+
+/// The drawn vertices on the wall's flat triangles, at rest.
+std::vector<Vec3d> PouchDrawing::flat_places() const {
   std::vector<Vec3d> flat(m_places.size());
   for (std::size_t i = 0; i < m_places.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
       flat[i] += double(m_places[i].share[k]) * m_membrane->sheet.network.rest[m_places[i].node[k]];
-  m_marks = HeatMarks(model, BodyId::membrane(std::size_t(membrane)), std::move(flat));
-  coarsen(m_buffer, detail, kBends);
-  m_mesh = OwnedMesh(backend, m_buffer.data());
+  return flat;
 }
 
 /// The small triangles; neighbours share the vertices on their common edge.
@@ -117,30 +124,39 @@ void PouchDrawing::place(const tissue::MembraneState& state) {
       round += at.share[k] * (flat - dot(flat - m_node[at.node[k]], n) * n);
       normal += at.share[k] * n;
     }
-    m_buffer.positions[i] = flat + kRounded * (round - flat) + m_height[i] * normalised(normal, Vec3f{0, 0, 1});
+    m_buffer.positions[i] =
+        flat + kRounded * (round - flat) + (m_height[i] + m_peeled.at(i).high) * normalised(normal, Vec3f{0, 0, 1});
   }
   render::vertex_normals(m_buffer.positions, m_small, m_buffer.normals);
+}
+
+/// What has happened to it: heat, peeling, tears.
+void PouchDrawing::stain() {
+  for (std::size_t i = 0; i < m_places.size(); ++i) {
+    m_buffer.paint[i].burn = std::max(m_marks.burn(i), m_peeled.at(i).burn);
+    m_buffer.paint[i].blood = m_peeled.at(i).blood;
+  }
+  constexpr std::size_t each = 3 * kParts * kParts;
+  for (std::size_t k = 0; k < m_small.size(); ++k)
+    if (m_torn[k / each]) m_buffer.paint[m_small[k]].blood = std::max(m_buffer.paint[m_small[k]].blood, kTornEdge);
 }
 
 void PouchDrawing::update(const sim::State& state) {
   place(state.membranes[std::size_t(m_index)]);
   const std::vector<std::uint8_t>& torn = state.torn[std::size_t(m_index)];
-  const bool burnt = m_marks.update(state);
-  for (std::size_t i = 0; burnt && i < m_buffer.paint.size(); ++i) m_buffer.paint[i].burn = m_marks.burn(i);
-  if (torn == m_torn) {
-    if (burnt)
+  const bool heated = m_marks.update(state), peeled = m_peeled.update(state), parted = torn != m_torn;
+  const bool changed = heated || peeled || parted;
+  m_torn = torn;
+  if (changed) stain();
+  if (!parted) {
+    if (changed)
       m_mesh.update(m_buffer);
     else
       m_mesh.move(m_buffer.positions, m_buffer.normals);
     return;
   }
-  m_torn = torn;
   m_buffer.coarser.clear();
   connect(torn);
-  constexpr std::size_t each = 3 * kParts * kParts;
-  for (Paint& p : m_buffer.paint) p.blood = 0;
-  for (std::size_t k = 0; k < m_small.size(); ++k)
-    if (torn[k / each]) m_buffer.paint[m_small[k]].blood = kTornEdge;
   m_mesh.replace(m_buffer.data());
 }
 

@@ -6,6 +6,7 @@
 #include <trocar/view/base/heat_marks.hpp>
 #include <trocar/view/base/level_of_detail.hpp>
 #include <trocar/view/base/looks.hpp>
+#include <trocar/view/base/peeled.hpp>
 
 namespace trocar::view {
 
@@ -29,6 +30,8 @@ class PouchDrawing {
   void connect(const std::vector<std::uint8_t>& torn);
   void place(const tissue::MembraneState& state);
   void paint();
+  void stain();
+  std::vector<Vec3d> flat_places() const;
 
   const sim::MembraneBody* m_membrane;
   const Look* m_look;
@@ -40,6 +43,7 @@ class PouchDrawing {
   std::vector<Vec3f> m_node, m_node_normal;
   std::vector<float> m_height;  ///< (drawn vertices) relief [m]
   HeatMarks m_marks;
+  Peeled m_peeled;
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;
 };

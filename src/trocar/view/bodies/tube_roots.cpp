@@ -10,15 +10,30 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kRootDepth = 1.6;      // radii below the organ's surface where it ends
-constexpr double kRootSlide = 0.022;    // [m] a ligament goes on along a wall ...
-constexpr double kRootBelow = 0.003;    // [m] ... to below its surface
+constexpr double kRootDepth = 1.6;                          // radii below the organ's surface where it ends
+constexpr double kRootSlide = 0.022;                        // [m] a ligament goes on along a wall ...
+constexpr double kRootBelow = 0.003;                        // [m] ... to below its surface
+constexpr double kRootLeaves = 0.012, kRootBeside = 0.003;  // [m] from a place to the wall: it is not below that
+constexpr double kRootStep = 0.002;                         // [m]
 constexpr double kRootHeadOn = 0.5;     // sine of the angle to a wall above which a strand has a collar there ...
 constexpr double kHeadOnDepth = 0.012;  // [m] ... behind which it ends
 constexpr double kWallNeck = 0.008;     // [m] ... from so far above it on
 constexpr double kNeckFar = 0.011;      // [m] from its end a strand's collar begins at most
 constexpr double kSink = 0.9;           // radii that a strand has sunk into its organ at its end
 constexpr double kRootReach = 0.03;     // [m] a wall farther from a fixed end is not its root
+
+/// How far there is a wall over who goes that way: beyond its border he would come out again.
+double slide_below(const WallSurface::Place& from, Vec3d way, const WallSurface& walls) {
+  const auto covered = [&](double far) {
+    const Vec3d p = from.point + far * way;
+    const WallSurface::Place at = walls.nearest(p);
+    const Vec3d off = p - at.point;
+    return length(off) < kRootLeaves && length(off - dot(off, at.normal) * at.normal) < kRootBeside;
+  };
+  double far = kRootSlide;
+  while (far > 0 && !covered(far)) far -= kRootStep;
+  return std::max(0.0, far);
+}
 
 TubeRow row_at(int piece, double s) {
   TubeRow row;
@@ -74,7 +89,7 @@ TubeRoot TubeDrawing::root_in_wall(const CurveFrame& end, Vec3d onward, double r
     root.target = end.point + (near ? kHeadOnDepth : kRootReach) * onward;
   } else {
     const Vec3d level = normalised(onward - dot(onward, wall.normal) * wall.normal, any_perpendicular(wall.normal));
-    root.target = wall.point + kRootSlide * level - (radius + kRootBelow) * wall.normal;
+    root.target = wall.point + slide_below(wall, level, walls) * level - (radius + kRootBelow) * wall.normal;
     root.direction = normalised(level - 0.3 * wall.normal);
   }
   root.length = length(root.target - end.point);

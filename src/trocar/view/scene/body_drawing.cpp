@@ -63,10 +63,14 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
     if (look(model, model.organ_look(i)).has(Look::Generator::liver_dome))
       m_livers.emplace_back(model, i, liver_shape(i), walls, backend);
   make_aprons(walls);
+  make_portas(backend);
   const render::OpennessBaker baker = shading();
   for (CuttableDrawing& c : m_cuttables) c.shade(baker);
   for (LiverDome& l : m_livers) l.shade(baker);
   make_organs(baker, backend);
+  for (Porta& p : m_portas) p.settle(m_organs[p.solid()], baker);
+  for (std::size_t s = 0; s < m_organs.size(); ++s)
+    if (RawBed::lies_on(model, s)) m_beds.emplace_back(model, s, m_organs[s], backend);
   make_on_organs(walls, backend);
   for (const sim::WallModel& w : model.walls) make_wall(w, baker, backend);
   shade_aprons();
@@ -136,6 +140,7 @@ render::OpennessBaker BodyDrawing::shading() const {
   for (const std::vector<MeshBuffer>* shapes : {&m_apron_shapes, &m_far_apron_shapes})
     for (const MeshBuffer& a : *shapes) occluders.push_back({a.positions, a.indices});
   for (const LiverDome& l : m_livers) occluders.push_back({l.buffer().positions, l.buffer().indices});
+  for (const Porta& p : m_portas) occluders.push_back({p.buffer().positions, p.buffer().indices});
   return render::OpennessBaker(occluders, kShadeCell, kShadeReach);
 }
 
@@ -184,6 +189,16 @@ void BodyDrawing::make_wall(const sim::WallModel& wall, const render::OpennessBa
                                                  .paint = paint,
                                                  .indices = triangles,
                                                  .coarser = coarser});
+}
+
+/// A wall that asks for it has one on every organ that strands of its go into.
+void BodyDrawing::make_portas(render::Backend& backend) {
+  for (std::size_t w = 0; w < m_model->walls.size(); ++w) {
+    if (!look(*m_model, m_model->walls[w].look).has(Look::Generator::porta)) continue;
+    for (std::size_t s = 0; s < m_model->solids.size(); ++s)
+      if (const std::vector<PortaEntry> entries = porta_entries(*m_model, w, s); !entries.empty())
+        m_portas.emplace_back(*m_model, w, s, entries, backend);
+  }
 }
 
 void BodyDrawing::make_aprons(const WallSurface& walls) {
@@ -339,6 +354,8 @@ void BodyDrawing::update(const sim::State& state) {
   }
   for (std::size_t i = 0; i < m_fat.size(); ++i) m_fat[i].update(m_organs[std::size_t(m_fat_on[i])]);
   for (LiverDome& l : m_livers) l.update(state);
+  for (Porta& p : m_portas) p.update(m_organs[p.solid()]);
+  for (RawBed& b : m_beds) b.update(state, m_organs[b.solid()]);
   for (Drape& d : m_drapes) d.update(m_organs);
   m_adhesions->update(m_organs);
   for (TubeDrawing& t : m_tubes) t.update(state);
@@ -391,6 +408,13 @@ void BodyDrawing::list(bool with_walls, const FirstParts& first, const Listing& 
   list_organs(with_walls, first, to);
   for (std::size_t i = 0; with_walls && i < m_livers.size(); ++i)  // without the wall that it lies on it would be a rag
     m_livers[i].list(first.of(BodyId::organ(std::size_t(m_livers[i].organ()))), to);
+  for (Porta& p : m_portas) {
+    if (!with_walls) break;  // without the ligament that it lies on it would be a rag
+    const sim::WallModel& wall = m_model->walls[p.wall()];
+    DrawItem porta = item(p.mesh(), look(*m_model, wall.look), first.wall + p.wall());
+    porta.material.tint = look(*m_model, m_model->solids[p.solid()].look).material.colour;
+    to.add(porta, p.detail(), p.buffer().positions);
+  }
   list_tubes(with_walls, first, to);
   list_vessels(false, first, to);
   if (with_walls && m_adhesions->mesh().id)
@@ -420,6 +444,9 @@ void BodyDrawing::list_vessels(bool in_folds, const FirstParts& first, const Lis
 }
 
 void BodyDrawing::list_organs(bool with_walls, const FirstParts& first, const Listing& to) {
+  // Before what it lies on, which then need not be shaded below it.
+  for (const RawBed& b : m_beds)
+    if (b.any()) to.add(item(b.mesh(), look(*m_model, "gallbladder_bed"), first.of(BodyId::organ(b.solid()))));
   for (std::size_t i = 0; i < m_organs.size(); ++i)
     to.add(item(m_organs[i].mesh(), look(*m_model, m_model->solids[i].look), first.of(BodyId::organ(i))),
            m_details.organs[i], m_organs[i].positions(),

@@ -14,6 +14,8 @@
 #include <trocar/view/anatomy/fat_tags.hpp>
 #include <trocar/view/anatomy/joint.hpp>
 #include <trocar/view/anatomy/liver_dome.hpp>
+#include <trocar/view/anatomy/porta.hpp>
+#include <trocar/view/anatomy/raw_bed.hpp>
 #include <trocar/view/anatomy/ridge.hpp>
 #include <trocar/view/base/heat_marks.hpp>
 #include <trocar/view/base/listing.hpp>
@@ -73,6 +75,7 @@ class BodyDrawing {
   render::OpennessBaker shading() const;
   void make_organs(const render::OpennessBaker& baker, render::Backend& backend);
   void make_on_organs(const WallSurface& walls, render::Backend& backend);
+  void make_portas(render::Backend& backend);
   void make_aprons(const WallSurface& walls);
   void make_wall(const sim::WallModel& wall, const render::OpennessBaker& baker, render::Backend& backend);
   void shade_aprons();
@@ -125,6 +128,8 @@ class BodyDrawing {
   std::vector<std::size_t> m_apron_on;  ///< walls
   DripStains m_stains;                  ///< on the aprons
   std::vector<LiverDome> m_livers;
+  std::vector<Porta> m_portas;
+  std::vector<RawBed> m_beds;
   MeshBuffer m_cavity_shape;
   RigidMesh m_cavity;
   BowelLoops m_bowel;
