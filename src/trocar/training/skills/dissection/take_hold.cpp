@@ -1,3 +1,9 @@
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <trocar/training/observe/bare_wall.hpp>
 #include <trocar/training/observe/hands.hpp>
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
@@ -5,12 +11,14 @@
 namespace trocar::training {
 namespace {
 
-/// Open jaws to a place of an organ or a wall, into it, closed, and a feel whether they hold.
+/// Open jaws to a place of an organ or a wall, into it, closed, and a feel whether they hold. Of a wall that is named
+/// they take what lies barest near there, and nothing else will do.
 class TakeHold final : public Skill {
  public:
   TakeHold(const sim::Model& model, const Given& given)
       : m_hand(given.hand()),
         m_place(model, given),
+        m_wall(given("wall").given ? model.membrane_index(given("wall").word) : -1),
         m_deep(given.number("deep_mm", 0.004)),
         m_closed(given.number("to", 0.95)) {}
 
@@ -18,14 +26,30 @@ class TakeHold final : public Skill {
   enum Phase { kReach, kEnter, kClose };
 
   /// After each failure somewhere else beside it.
-  void start(Operator&, int tries) override {
+  void start(Operator& op, int tries) override {
     constexpr double kBeside = 0.004;  // [m]
+    if (tries == 0) m_missed.clear();
+    if (m_wall >= 0)
+      m_node = wall_to_take(op.model(), op.state(), m_wall, {m_place.point(op, m_hand), op.arm(m_hand).port, m_deep},
+                            m_missed);
     m_beside = kBeside * Vec3d{double(tries % 3) - (tries > 0 ? 1.0 : 0.0), double((tries / 3) % 3), 0};
+  }
+  Vec3d goal(Operator& op) const {
+    if (m_wall < 0) return m_place.point(op, m_hand) + m_beside;
+    return tissue::position(op.model().membranes[size_t(m_wall)].sheet.network,
+                            op.state().membranes[size_t(m_wall)].network, m_node);
+  }
+  bool is_taken(const Operator& op) const {
+    const interactions::ToolState& tool = op.tool_state(m_hand);
+    if (m_wall < 0) return tool.holds > 0;
+    return std::any_of(tool.hold, tool.hold + tool.holds,
+                       [&](const interactions::Hold& h) { return h.body == BodyId::membrane(size_t(m_wall)); });
   }
   Progress work(Operator& op) override {
     constexpr double kPressed = 0.8, kLongest = 4, kFeels = 1.2;  // [N] [s] [s]
+    if (m_wall >= 0 && m_node < 0) return fail("no place of it lies bare");
     Arms::Arm& arm = op.arm(m_hand);
-    const Vec3d at = m_place.point(op, m_hand) + m_beside, along = normalised(at - arm.port);
+    const Vec3d at = goal(op), along = normalised(at - arm.port);
     op.want(arm.tip);
     op.want(at);
     if (m_phase == kReach) {
@@ -35,29 +59,42 @@ class TakeHold final : public Skill {
       const bool there = op.arms().move(m_hand, at + m_deep * along, pace::kCareful);
       if (there || norm(op.tool_state(m_hand).contact_force) > kPressed || m_in_phase > kLongest) go(kClose);
     } else if (op.arms().grip(m_hand, m_closed, 0.8) && m_in_phase > kFeels) {
-      return op.tool_state(m_hand).holds > 0 ? Progress::done : fail("the jaws have not taken it");
+      if (is_taken(op)) return Progress::done;
+      if (m_node >= 0) m_missed.push_back(m_node);
+      return fail("the jaws have not taken it");
     }
     return Progress::working;
   }
 
   int m_hand;
   Place m_place;
+  int m_wall, m_node = -1;
   double m_deep, m_closed;
   Vec3d m_beside;
+  std::vector<int> m_missed;  ///< nodes of the wall
 };
+
+std::string lacks_wall_or_place(const sim::Model& model, const Given& given) {
+  if (given("wall").given && model.membrane_index(given("wall").word) < 0)
+    return fmt::format("there is no wall \"{}\"", given("wall").word);
+  return Place::lacks(model, given);
+}
 
 }  // namespace
 
 const SkillKind kTakeHold{
     "take_hold",
     "take hold of it",
-    std::vector<Parameter>{hand_parameter(),
-                           number_parameter("deep_mm", "how far the open jaws go on beyond the place; 4", 0, 30),
-                           number_parameter("to", "how far the handle closes; 0.95", 0, 1)} +
+    std::vector<Parameter>{
+        hand_parameter(),
+        {"wall", ArgumentKind::word,
+         "a wall: what of it lies barest within 18 mm of the place, and nothing else will do", false},
+        number_parameter("deep_mm", "how far the open jaws go on beyond the place; 4", 0, 30),
+        number_parameter("to", "how far the handle closes; 0.95", 0, 1)} +
         place_parameters(),
     15,
     "Goes with open jaws to a place of an organ or a wall, closes them, and feels whether they hold.",
-    Place::lacks,
+    lacks_wall_or_place,
     &making<TakeHold>};
 
 }  // namespace trocar::training
