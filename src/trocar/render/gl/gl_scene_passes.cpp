@@ -54,6 +54,7 @@ void GlBackend::begin_scene(const Frame& frame, const Target& target, const Layo
   // Mirrors show the picture before, if it was of the same view.
   const bool same_view = m_small.colour && m_small_eye == frame.eye;
   bind_texture(kUnitSmall, GL_TEXTURE_2D, same_view ? m_small.colour.id() : 0);
+  bind_texture(kUnitSmaller, GL_TEXTURE_2D, same_view ? m_smaller.colour.id() : 0);
   m_frame_rows[17] = same_view ? 1.0f : 0.0f;
 }
 
@@ -134,7 +135,7 @@ void GlBackend::draw_item(const Frame& frame, const DrawItem& item, bool blended
     program.set("u_noise", kUnitNoise);
     program.set("u_cells", kUnitCells);
     program.set("u_vessels", material.arcade ? kUnitArcade : material.lining ? kUnitLining : kUnitVessels);
-    program.set("u_before", kUnitSmall);
+    program.set("u_before", material.shading == Shading::metal ? kUnitSmaller : kUnitSmall);  // worn metal blurs
     if (blended && m_rod_count > 0) set_rods_near(frame, item, program);
   }
   program.set("u_blended", blended ? 1.0f : 0.0f);

@@ -75,6 +75,8 @@ const float kLiningBall = 0.12;  // [m] radius of the ball that a lining's vesse
 #if SHADING == 1
 const float kSteelLit = 1.0;  // metal near the lens is no brighter than under this much of the lamp's light
 const float kLine = 1.9, kSheen = 1.15;  // of that, mirrored as a line and as a sheen about it
+const float kBody = 0.16, kBrushed = 0.036;  // ... spread by wear, and by grinding
+const float kMirrors = 1.1, kEdge = 0.2;  // share of its grey that it mirrors of what is around; of the lamp, at edges
 #endif
 
 vec3 along_surface(vec3 v, vec3 n) { return v - n * dot(n, v); }
@@ -217,8 +219,9 @@ void main() {
   float bare = 1.0 - max(blood, char_);
   float ao = OPENNESS;
   float rim = min(1.0 - nv, 0.8), schlick = rim * rim * rim * rim;  // no further: the last pixel would be a dot
-  // Worn steel spreads what it mirrors: all of what is right behind, in its colours, would look like glass.
-  vec3 mirror = mix(0.42 * grey, vec3(0.03), plain);
+  // Worn steel spreads what it mirrors, and mirrors more of it than glass does: dark as that it would look like smoked
+  // glass, and so it would with what is right behind it in all its colours.
+  vec3 mirror = mix(kMirrors * grey, vec3(0.03), plain);
   mirror += (vec3(0.6) - mirror) * (0.45 * schlick * (0.15 + 0.85 * bare));
   // Scratches break a highlight up along the axis, moisture in any direction: only where that stands in beads it clips.
   float broken = (0.15 + 1.2 * smoothstep(0.35, 0.7, broad.a)) * (0.35 + 0.8 * smoothstep(0.42, 0.64, fine.r));
@@ -233,14 +236,17 @@ void main() {
   float line2 = 0.10 * ROUGH2 + min(0.1 * turns, 0.05);
   float line = lobe(nh, line2) * line2 * min(1.0, 0.25 * ROUGH2 / line2) * smoothstep(0.25, 0.75, broken);
   float sheen = lobe(nh, alpha2) * alpha2 * broken * (1.0 - 0.8 * blurred);
+  // Worn edges turn through the way to the lens, wherever they lie: a bright rim, which tells metal from glass.
+  float edge = smoothstep(0.06, 0.4, blurred) * smoothstep(0.05, 0.6, nl) * (0.3 + 0.7 * smoothstep(0.25, 0.6, broken));
   vec3 gloss = mix(vec3(1.0), vec3(0.5), plain) * (kLine * line * bare * bare) + mix(grey, vec3(0.12), plain) * (kSheen * sheen);
+  gloss += vec3(kEdge * edge * bare * (1.0 - SCATTER));
   gloss *= mix(through, vec3(1.0), 0.1);
   vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
   around = mix(vec3((0.1 + 0.3 * smoothstep(-0.2, 0.8, reflect(-V, n).y)) * lit.bounce), around, INVERSE_SQUARE);  // a room
   vec3 from_below = around * clamp(0.9 - 0.6 * n.y - 1.2 * nv, 0.0, 1.0);
-  around = mix(around, vec3(dot(around, vec3(0.3, 0.45, 0.25))), 0.75 * bare);
+  around = mix(around, vec3(dot(around, vec3(0.3, 0.45, 0.25))), 0.45 * bare);
   // The lamp straight on, which is strong near the lens, what comes from all around, and tissue's pink from below.
-  vec3 even = LIGHT_COLOUR * lamp * (mix(0.055, mix(0.13, 0.42, smoothstep(0.5, 1.0, SCATTER)), plain) * nl * nl + 0.012 * lobe(nh, 0.35));
+  vec3 even = LIGHT_COLOUR * lamp * (mix(kBody, mix(0.13, 0.42, smoothstep(0.5, 1.0, SCATTER)), plain) * nl * nl + mix(kBrushed, 0.012, plain) * lobe(nh, mix(0.2, 0.35, plain)));
   even += (BOUNCE * (mix(0.3, 1.0, plain) + 3.0 * rim) + vec3(mix(0.02, 0.21, plain) + AMBIENT)) * lit.bounce + from_below;
   vec3 colour = (grey * even + LIGHT_COLOUR * lamp * gloss + around * mirror) * ao;
 #ifdef FOGGY

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/interactions/verbs/cut.hpp>
 #include <trocar/sim/model/host_views.hpp>
 #include <trocar/view/base/mesh_buffer.hpp>
 #include <trocar/view/base/pinch.hpp>
@@ -15,8 +16,9 @@ Vec3d in_world(const double (&v)[3], const interactions::StrandFrame& f) {
   return v[0] * f.tangent + v[1] * f.normal + v[2] * f.binormal;
 }
 
-// Shares of a tube's radius, our choice: how far it bulges and gathers beside a clip, and is drawn in between its legs.
-constexpr double kPinchBulge = 0.2, kGathers = 0.1, kPinchDrawnIn = 0.25;
+// Shares of a tube's radius, our choice: how far it bulges and gathers beside a clip. What is pressed flat keeps its
+// girth: it spreads between the legs, and a stump beyond them stays half flat.
+constexpr double kPinchBulge = 0.2, kGathers = 0.1, kPinchSpreads = 0.42, kStumpFlat = 0.62;
 
 double leg_length(const Clip& clip) { return clip.length > 0 ? clip.length : kClipLength; }
 
@@ -49,7 +51,22 @@ ClipSeat seat_on_vessel(const Clip& clip, const sim::Model& model, const sim::St
   return {spot.place, vessel_frame(path, spot), vessel_radius(path, s)};
 }
 
+void find_stumps(const Clip& clip, bool normal_along, const sim::State& state, ClipPress& press) {
+  for (int i = 0; i < state.cut_count; ++i) {
+    const interactions::Cut& cut = state.cuts[std::size_t(i)];
+    if (cut.strand != clip.strand || cut.fraction < interactions::kThrough || !closes_end(clip, cut.s)) continue;
+    const double way = std::fabs(cut.s - clip.s);
+    double& end = press.stump[(cut.s > clip.s) == normal_along];
+    end = end > 0 ? std::min(end, way) : way;
+  }
+}
+
 }  // namespace
+
+bool closes_end(const Clip& clip, double end) {
+  constexpr double kWhole = 0.9;  // of the tube between its legs
+  return clip.cover >= kWhole && std::fabs(clip.s - end) < kSealedWithin;
+}
 
 ClipPress press_of(const Clip& clip, const sim::Model& model, const sim::State& state) {
   const auto [centre, frame, radius] =
@@ -64,6 +81,8 @@ ClipPress press_of(const Clip& clip, const sim::Model& model, const sim::State& 
   press.flat = kClipHalfGap / press.radius;
   press.low = -clip.reach;
   press.high = leg_length(clip) - clip.reach;
+  press.s = clip.s;
+  if (clip.strand >= 0) find_stumps(clip, dot(press.normal, frame.tangent) > 0, state, press);
   return press;
 }
 
@@ -88,20 +107,25 @@ std::vector<JawPress> jaws_on(BodyId body, const sim::Model& model, const sim::S
 
 Vec3d pressed(Vec3d p, const ClipPress& press) {
   const Vec3d d = p - press.centre;
-  const double beside = std::fabs(dot(d, press.normal)) - 0.5 * kClipLegWidth, fade = 1.35 * press.radius + 0.0003;
-  if (beside > fade || dot(d, d) > 9 * press.radius * press.radius) return p;
+  const double off = dot(d, press.normal), end = press.stump[off > 0];
+  const double beside = std::fabs(off) - 0.5 * kClipLegWidth, fade = 1.35 * press.radius + 0.0003;
+  const double stays = end > 0 ? kStumpFlat * smooth(kSealedWithin, 0.6 * kSealedWithin, end) : 0;
+  if (beside > std::max(fade, stays > 0 ? end + 2 * press.radius : 0)) return p;
   const double x = dot(d, press.open), z = dot(d, press.axis);
+  if (x * x + z * z > 9 * press.radius * press.radius) return p;
   const double rim = 0.0004;
   const double between = smooth(press.low - rim, press.low + rim, z) * smooth(press.high + rim, press.high - rim, z);
   // Steepest right at the legs, which lie half buried; and there it is gathered like a purse.
-  const double near = 1 - std::clamp(beside / fade, 0.0, 1.0), amount = between * near * near * (1.5 - 0.5 * near);
+  const double near = 1 - std::clamp(beside / fade, 0.0, 1.0),
+               amount = between * std::max(near * near * (1.5 - 0.5 * near), stays);
   const double angle = std::atan2(x, z) + (dot(d, press.normal) > 0 ? 0.7 : 0);
   const double gathers = std::sin(4 * angle + 1) + 0.6 * std::sin(3 * angle + 2.4);
   const double bulge = between * (4 * near * (1 - near) * kPinchBulge + kGathers * gathers * smooth(0.05, 0.7, near));
   const double flattened = x * ((1 + bulge) * (1 - amount) + amount * std::min(1.0, press.flat));
-  double drawn_in = z * (1 + bulge * (1 - amount) - kPinchDrawnIn * amount);
-  if (z > press.low) drawn_in = std::max(drawn_in, press.low + 0.5 * rim);
-  return p + (flattened - x) * press.open + (drawn_in - z) * press.axis;
+  double spread = z * (1 + bulge * (1 - amount) + kPinchSpreads * amount);
+  if (z > press.low) spread = std::max(spread, press.low + 0.5 * rim);  // no farther than the bend and the tips
+  if (z < press.high) spread = std::min(spread, press.high - 0.5 * rim);
+  return p + (flattened - x) * press.open + (spread - z) * press.axis;
 }
 
 Vec3d pressed(Vec3d p, const JawPress& press) {

@@ -15,6 +15,8 @@ struct ClipPress {
   double flat = 0.3;                 ///< radius share that is left across the legs
   double radius = 0;                 ///< of the tube [m]
   double low = 0, high = 0;          ///< legs from and to, along the axis from the centre [m]
+  double s = 0;                      ///< where on its strand [m]
+  double stump[2] = {0, 0};          ///< way to a cut end against and along the normal [m]; 0: there is none near
 };
 
 /// Closed jaws that hold something.
@@ -25,9 +27,13 @@ struct JawPress {
 
 /// Half the clear space between the legs of a closed clip, and how wide and thick a leg is [m].
 inline constexpr double kClipHalfGap = 0.00025, kClipLegWidth = 0.0011, kClipLegThickness = 0.00085;
+/// A cut end that is no farther from a clip is closed by it: it cannot open to a round tube again [m].
+inline constexpr double kSealedWithin = 0.008;
 /// Legs of clips whose applier does not say how long they are [m].
 inline constexpr double kClipLength = 0.0085;
 
+/// Does that clip close a cut end of its strand there, at arc length `end` [m]?
+bool closes_end(const interactions::Clip& clip, double end);
 ClipPress press_of(const interactions::Clip& clip, const sim::Model& model, const sim::State& state);
 /// Clips on a strand.
 std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::State& state);

@@ -15,12 +15,15 @@ using interactions::Cut;
 
 namespace {
 
-constexpr double kBlanched = 0.0030;   // [m] from a clip's middle: blood is pressed out of what its legs hold ...
-constexpr double kCongested = 0.0058;  // [m] ... and stands beside that
-constexpr double kShade = 0.0014;      // [m] beside a clip's legs, where little light comes
-constexpr double kGathered = 0.0028;   // [m] from its middle: there it lies in small folds that run to the legs
-constexpr double kBloodied = 0.0026;   // [m] beside a cut
-constexpr int kTubeFlesh = 20;         // of Paint's blood: a raw face has less where it is muscle and lining
+constexpr double kBlanched = 0.0030;    // [m] from a clip's middle: blood is pressed out of what its legs hold ...
+constexpr double kCongested = 0.0058;   // [m] ... and stands beside that
+constexpr double kShade = 0.0014;       // [m] beside a clip's legs, where little light comes
+constexpr double kGathered = 0.0028;    // [m] from its middle: there it lies in small folds that run to the legs
+constexpr double kBloodied = 0.0026;    // [m] beside a cut
+constexpr int kTubeFlesh = 20;          // of Paint's blood: a raw face has less where it is muscle and lining
+constexpr double kSealedBleeds = 0.35;  // of what smears an open end: blood on the edge of one that a clip closes
+constexpr double kStumpSoaked = 0.5,
+                 kStumpSoakedFrom = 0.0022;  // how far, and from where [m], such an end has its lining's tint
 
 template <class T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
@@ -132,11 +135,21 @@ void TubeDrawing::burn(const sim::State& state) {
   }
 }
 
+/// A clip presses the piece that it sits on, not what was cut off beside it.
+void TubeDrawing::press(const ClipPress& clip) {
+  for (std::size_t i = 0; i < m_rows.size(); ++i) {
+    const StrandPiece& piece = m_layout.pieces[std::size_t(m_rows[i].piece)];
+    if (clip.s < piece.from || clip.s > piece.to) continue;
+    const std::size_t end = m_first[i] + std::size_t(m_rows[i].radius == 0 ? 1 : m_sides);
+    for (std::size_t v = m_first[i]; v < end; ++v)
+      m_buffer.positions[v] = vec_cast<float>(pressed(vec_cast<double>(m_buffer.positions[v]), clip));
+  }
+}
+
 bool TubeDrawing::press(const sim::State& state) {
   const std::vector<ClipPress> clips = clips_on(m_index, *m_model, state);
   const std::vector<JawPress> jaws = jaws_on(BodyId::strand(std::size_t(m_index)), *m_model, state);
-  for (const ClipPress& clip : clips)
-    for (Vec3f& p : m_buffer.positions) p = vec_cast<float>(pressed(vec_cast<double>(p), clip));
+  for (const ClipPress& clip : clips) press(clip);
   for (const JawPress& held : jaws)
     for (Vec3f& p : m_buffer.positions) p = vec_cast<float>(pressed(vec_cast<double>(p), held));
   return !jaws.empty();
@@ -158,16 +171,20 @@ Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint 
   for (const StrandPiece& piece : layout.pieces) {
     if (own.blood > 0) {  // a raw face has its own
       // Its pale flesh is hardly smeared: blood is on the edge and in the lumen.
-      const double bleeds = own.blood < kTubeFlesh ? 0.25 : 1;
+      const double bleeds = own.blood < kTubeFlesh ? 0.25 : sealed(piece, s < 0.5 * (piece.from + piece.to)) ? 0.4 : 1;
       const double uneven = 95 * oozes(angle) + 26 * ragged(m_index + 0.5, angle);
       p.blood = std::uint8_t(std::clamp(own.blood + bleeds * uneven, 4.0, 255.0));
       break;
     }
+    const bool closed_start = sealed(piece, true), closed_end = sealed(piece, false);
     const double stain = kBloodied * std::max(0.15, 0.6 + 0.5 * ragged(m_index + 0.2, angle) + 0.4 * oozes(angle));
     const double much = 0.24 + 0.22 * oozes(angle);
-    if (piece.cut_start && s >= piece.from)
-      p.blood = std::max(p.blood, to_byte(much * smooth(stain, 0, s - piece.from)));
-    if (piece.cut_end && s <= piece.to) p.blood = std::max(p.blood, to_byte(much * smooth(stain, 0, piece.to - s)));
+    const auto bleed = [&](double from_end, bool closed) {
+      p.blood = std::max(p.blood, to_byte((closed ? kSealedBleeds : 1) * much * smooth(stain, 0, from_end)));
+      if (closed) p.tint = std::max(p.tint, to_byte(kStumpSoaked * smooth(kStumpSoakedFrom, 0, from_end)));
+    };
+    if (piece.cut_start && s >= piece.from) bleed(s - piece.from, closed_start);
+    if (piece.cut_end && s <= piece.to) bleed(piece.to - s, closed_end);
   }
   for (const Cut& nick : layout.nicks) {
     const double round = 0.5 + 0.5 * std::cos(angle);

@@ -87,6 +87,8 @@ class TubeDrawing {
   void add_end(int piece);
   double contracted(const StrandPiece& piece, double s) const;
   void add_raw_face(int piece, bool at_start);
+  void add_sealed_face(int piece, bool at_start);
+  bool sealed(const StrandPiece& piece, bool at_start) const;
   void connect();  ///< vertices and triangles of the rows
   void shape_sections();
   void join(const std::vector<std::size_t>& rows, std::uint32_t stride, MeshBuffer& into) const;
@@ -98,6 +100,7 @@ class TubeDrawing {
   std::size_t nearest_first(double s) const;  ///< first vertex of the baked row nearest to s
   void place(const StrandCurve& curve, std::vector<Vec3f>& positions) const;
   bool press(const sim::State& state);  ///< true where jaws hold it
+  void press(const ClipPress& clip);
   Paint paint_at(const Layout& layout, double s, double angle, Paint own) const;
   double radius_at(double s) const;
   double outline(double s, double angle) const;

@@ -17,6 +17,7 @@ constexpr double kFineStep = 0.0004;  // [m] near a clip
 constexpr double kNearClip = 0.004;   // [m]
 constexpr double kNearCut = 0.003;    // [m] blood on it has a ragged border
 constexpr double kSlant = 0.85;       // scissors cut askew: how far a stump's near side lies back, in radii
+constexpr double kSealedSlant = 0.3;  // ... that of one that a clip holds flat
 constexpr double kSlanted = 1.8;      // ... and how far along it, in radii
 constexpr double kTornShare = 0.10, kTornFrom = 0.0012;  // share of the radius and [m]: how ragged its edge is
 constexpr double kTubeBend = 0.01;  // [m] radius with which tubes curve, for rings that are left out
@@ -71,8 +72,41 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   m_rows.insert(m_rows.end(), rows.begin(), rows.end());
 }
 
+/// Is this cut end closed by a clip beside it? A uterine tube's muscle stands open all the same.
+bool TubeDrawing::sealed(const StrandPiece& piece, bool at_start) const {
+  if (m_strand->fimbriated || !(at_start ? piece.cut_start : piece.cut_end)) return false;
+  const double end = at_start ? piece.from : piece.to;
+  return std::any_of(m_layout.clips.begin(), m_layout.clips.end(), [&](const Clip& clip) {
+    return clip.s >= piece.from && clip.s <= piece.to && closes_end(clip, end);
+  });
+}
+
+/// Its wall has rolled in over what was the lumen: pleats that run together to a slit, as pale as the wall, stained by
+/// what the tube carried; a thin line of blood on its edge.
+void TubeDrawing::add_sealed_face(int piece, bool at_start) {
+  const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
+  const double s = at_start ? p.from : p.to, sign = at_start ? -1 : 1, r = radius_at(s) * contracted(p, s);
+  const Paint edge{200, 44, 0, 60}, wall{225, 10, 20, 90}, lining{185, 16, 0, 190}, slit{95, 60, 0, 230};
+  std::vector<TubeRow> rows;
+  const auto row = [&](double along, double radius, double pleats, Paint paint) {
+    rows.push_back({piece, s, sign * along * r, radius * r, pleats, 0, false, paint, sign * kSealedSlant, 0});
+  };
+  row(0, 1, kTornShare, edge);
+  row(0.16, 0.95, 0.12, edge);
+  row(0.34, 0.80, 0.18, wall);
+  row(0.42, 0.62, 0.26, wall);
+  row(0.38, 0.44, 0.34, lining);
+  row(0.24, 0.26, 0.42, lining);
+  row(0.08, 0.12, 0.42, slit);
+  row(0.02, 0, 0, slit);
+  rows.front().crease = !at_start;
+  if (at_start) std::reverse(rows.begin(), rows.end());
+  m_rows.insert(m_rows.end(), rows.begin(), rows.end());
+}
+
 void TubeDrawing::add_start(int piece) {
   const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
+  if (sealed(p, true)) return add_sealed_face(piece, true);
   if (p.cut_start) return add_raw_face(piece, true);
   const double r = radius_at(p.from);
   if (m_start_root.there) return add_root(piece, true);
@@ -83,6 +117,7 @@ void TubeDrawing::add_start(int piece) {
 
 void TubeDrawing::add_end(int piece) {
   const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
+  if (sealed(p, false)) return add_sealed_face(piece, false);
   if (p.cut_end) return add_raw_face(piece, false);
   const double r = radius_at(p.to);
   if (m_strand->fimbriated) return;  // goes over into the fimbriae
@@ -99,8 +134,8 @@ void TubeDrawing::add_piece(const Layout& layout, int piece) {
   for (const double s : stations(layout, p)) {
     const double r = radius_at(s) * contracted(p, s);
     double slant = 0;
-    if (p.cut_start) slant -= kSlant * smooth(kSlanted * r, 0, s - p.from);
-    if (p.cut_end) slant += kSlant * smooth(kSlanted * r, 0, p.to - s);
+    if (p.cut_start) slant -= (sealed(p, true) ? kSealedSlant : kSlant) * smooth(kSlanted * r, 0, s - p.from);
+    if (p.cut_end) slant += (sealed(p, false) ? kSealedSlant : kSlant) * smooth(kSlanted * r, 0, p.to - s);
     const double torn =
         std::max(p.cut_start ? smooth(kTornFrom, 0, s - p.from) : 0, p.cut_end ? smooth(kTornFrom, 0, p.to - s) : 0);
     m_rows.push_back({piece, s, 0, r, kTornShare * torn, 0, first && p.cut_start, {}, slant});

@@ -3,6 +3,7 @@
 #include <trocar/interactions/verbs/cut.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/view/base/looks.hpp>
+#include <trocar/view/base/pinch.hpp>
 #include <trocar/view/fluids/blood_run.hpp>
 #include <trocar/view/fluids/film_splats.hpp>
 #include <trocar/view/fluids/wet_drawing.hpp>
@@ -35,6 +36,13 @@ std::vector<double> areas_below(const interactions::StrandBody& strand) {
     areas[i] += half, areas[i + 1] += half;
   }
   return areas;
+}
+
+/// Is the end of a strand on that side of a cut shut by a clip? Then no blood comes out of it.
+bool shut(const sim::State& state, const interactions::Cut& cut, double side) {
+  return std::any_of(state.clips.begin(), state.clips.begin() + state.clip_count, [&](const interactions::Clip& clip) {
+    return clip.strand == cut.strand && (clip.s - cut.s) * side > 0 && closes_end(clip, cut.s);
+  });
 }
 
 }  // namespace
@@ -141,8 +149,9 @@ void WetDrawing::list_stumps(const sim::State& state, render::Liquid& liquid) co
       const Wound wound{liquid.down, {1, 0, 0}, 1};
       list_stump(wound, end, float(body.model.radius[std::min(e, body.model.radius.size() - 1)]), liquid);
     };
-    if (e > 0) stump(e, e - 1, place.w * element);
-    if (e + 2 < x.size()) stump(e + 1, e + 2, (1 - place.w) * element);
+    const bool oozes = m_model->strands[std::size_t(cut.strand)].fimbriated;  // though shut: its wall is all muscle
+    if (e > 0 && (oozes || !shut(state, cut, -1))) stump(e, e - 1, place.w * element);
+    if (e + 2 < x.size() && (oozes || !shut(state, cut, 1))) stump(e + 1, e + 2, (1 - place.w) * element);
   }
 }
 

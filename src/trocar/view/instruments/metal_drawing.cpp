@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/sim/model/state.hpp>
 #include <trocar/view/base/pinch.hpp>
@@ -28,6 +30,15 @@ float soil_on(const sim::State& state, std::size_t hand) {
   soil += kCut * std::min(state.cut_count, 5) + kOpened * std::min(state.opening_count, 2);
   soil += kScar * std::min(state.scarred_count, 60);
   return float(std::min(1.0, soil));
+}
+
+/// Does a fold hang where that clip lies, or does its vessel run in one?
+bool in_fold(const interactions::Clip& clip, const sim::Model& model) {
+  const auto hangs_there = [&](const auto& fold) {
+    return fold.strand == clip.strand && clip.s >= fold.from && clip.s <= fold.to;
+  };
+  return clip.strand < 0 || std::any_of(model.drawn_folds.begin(), model.drawn_folds.end(), hangs_there) ||
+         std::any_of(model.membranes.begin(), model.membranes.end(), hangs_there);
 }
 
 /// 0..1: from where a touch pales tissue to where it has given all its blood.
@@ -138,7 +149,8 @@ void MetalDrawing::list_clips(const sim::State& state, const FirstParts& first, 
     DrawItem drawn = item({}, *m_titanium, first.clips);
     const Vec3f bend = vec_cast<float>(at.centre + at.low * at.axis);
     // Its legs pinch the fold beside the tube, too, which is whole in the simulation and would lie over them.
-    const Vec3f before_fold = kBeforeFold * normalised(to.frame.camera.position - bend, Vec3f{});
+    const float before = in_fold(c, model) ? kBeforeFold : 0;
+    const Vec3f before_fold = before * normalised(to.frame.camera.position - bend, Vec3f{});
     drawn.transform = to_world({turn, bend + before_fold});
     to.add(mesh->second, drawn, m_clip_detail);
   }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/numerics/portable.hpp>
+#include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/bodies/drawn_holders.hpp>
 #include <trocar/view/objects/fat_drawing.hpp>
 
@@ -18,6 +19,7 @@ constexpr double kThreadFrom = 1.7, kThreadTo = 8;  // spacings between which a 
 constexpr double kThin = 0.00008, kThick = 0.0005;  // [m] a thread's radius in its middle and at its ends
 constexpr std::uint32_t kRings = 5, kSides = 4;     // of a thread
 constexpr std::size_t kMostThreads = 400;
+constexpr float kRootAtMost = 3;    // spacings that a root may be drawn out and still carry a film
 constexpr float kNodule = 1.22f;    // of its lobules' size: how large one is drawn
 constexpr float kRag = 3;           // septa that hold a lobule: with fewer it is a rag
 constexpr double kSmallest = 0.72;  // of its size, without any
@@ -72,16 +74,19 @@ void add_nothing(MeshBuffer& b) {
 
 }  // namespace
 
-FatDrawing::FatDrawing(const sim::Model& model, render::Backend& backend) : m_model(&model), m_surface(kCell) {
+FatDrawing::FatDrawing(const sim::Model& model, render::Backend& backend)
+    : m_model(&model), m_areolar(nullptr), m_surface(kCell) {
   const sim::State drawn = sim::initial_state(model);
   std::size_t i = 0;
   for (const interactions::FatBody& body : interactions::part_of<Fat>(model.objects).list) {
+    m_areolar = &look(model, "areolar");  // only here: not every set of looks has fat
     Drawn& d = m_bodies.emplace_back();
     d.body = &body;
     d.look = &look(model, body.look);
     for (const interactions::FatNodule& n : body.nodules) d.nodules.push_back({&look(model, n.look), {}, {}});
     draw(d, drawn, interactions::part_of<Fat>(drawn.objects)[i++]);
     d.mesh = OwnedMesh(backend, m_buffer.data());
+    d.veils = OwnedMesh(backend, d.veil_buffer.data());
     for (Drawn::Nodule& n : d.nodules) n.mesh = OwnedMesh(backend, n.buffer.data());
   }
 }
@@ -139,9 +144,43 @@ void FatDrawing::add_roots(const Drawn& d, const sim::State& state, const intera
     const interactions::Bond& root = d.body->roots.bonds[i];
     if (!fat.roots[i].holds() || m_held[std::size_t(root.node)] >= kRag) continue;
     const Vec3d foot = holders.foot(root.hold), lobule = position(m, fat.fat, root.node);
+    if (length(lobule - foot) > kThreadTo * m.spacing) continue;  // keyframes of a recording do not know what parted
     add_thread(foot, lobule, m.network.rest[std::size_t(root.node)],
                burn_of(m, fat.fat.lobules[std::size_t(root.node)]), m_buffer);
   }
+}
+
+/// In the gaps between lobules, and to what they are rooted on, as long as that holds.
+void FatDrawing::add_veils(Drawn& d, const sim::State& state, const interactions::FatBodyState& fat) const {
+  const tissue::FatModel& m = d.body->fat;
+  const DrawnHolders holders(*m_model, state);
+  VeilFrame frame;
+  std::vector<int> at(std::size_t(m.lobules()), -1);
+  for (std::size_t i = 0; i < m_lobules.size(); ++i) {
+    at[std::size_t(m_numbers[i])] = int(i);
+    frame.places.push_back(m_lobules[i].place);
+    frame.rest.push_back(m_lobules[i].rest);
+  }
+  const auto link = [&](int a, int b) {
+    if (a >= 0 && b >= 0) frame.links.push_back({a, b});
+  };
+  for (int i = 0; i < m.septa(); ++i)
+    if (holding(m, fat.fat, i) > 0) link(at[std::size_t(septum_end(m, i, 0))], at[std::size_t(septum_end(m, i, 1))]);
+  for (std::size_t i = 0; i < d.body->roots.bonds.size(); ++i) {
+    const interactions::Bond& root = d.body->roots.bonds[i];
+    const int lobule = at[std::size_t(root.node)];
+    const Vec3f foot = vec_cast<float>(holders.foot(root.hold));
+    if (!fat.roots[i].holds() || lobule < 0) continue;
+    if (length(foot - frame.places[std::size_t(lobule)]) > kRootAtMost * float(m.spacing)) continue;
+    link(lobule, int(frame.places.size()));
+    frame.places.push_back(foot);
+    frame.rest.push_back(frame.rest[std::size_t(lobule)]);
+  }
+  d.veil_buffer = {};
+  for (const FatVeil& veil : fat_veils(frame, float(m.spacing))) add_veil(frame, veil, float(m.spacing), d.veil_buffer);
+  d.veiled = !d.veil_buffer.indices.empty();
+  if (!d.veiled) add_nothing(d.veil_buffer);
+  render::vertex_normals(d.veil_buffer.positions, d.veil_buffer.indices, d.veil_buffer.normals);
 }
 
 void FatDrawing::draw(Drawn& d, const sim::State& state, const interactions::FatBodyState& fat) {
@@ -153,6 +192,7 @@ void FatDrawing::draw(Drawn& d, const sim::State& state, const interactions::Fat
   d.any = !m_buffer.indices.empty();
   if (!d.any) add_nothing(m_buffer);
   draw_nodules(d);
+  add_veils(d, state, fat);
 }
 
 void FatDrawing::update(const sim::State& state) {
@@ -161,6 +201,7 @@ void FatDrawing::update(const sim::State& state) {
     if (!moved(m_bodies[i], now[i].fat)) continue;
     draw(m_bodies[i], state, now[i]);
     m_bodies[i].mesh.replace(m_buffer.data());
+    m_bodies[i].veils.replace(m_bodies[i].veil_buffer.data());
     for (Drawn::Nodule& n : m_bodies[i].nodules) n.mesh.replace(n.buffer.data());
   }
 }
@@ -168,6 +209,7 @@ void FatDrawing::update(const sim::State& state) {
 void FatDrawing::list(std::size_t first, const Listing& to) {
   for (std::size_t i = 0; i < m_bodies.size(); ++i) {
     if (m_bodies[i].any) to.add(item(m_bodies[i].mesh.handle(), *m_bodies[i].look, first + i));
+    if (m_bodies[i].veiled) to.add(item(m_bodies[i].veils.handle(), *m_areolar, first + i));
     for (const Drawn::Nodule& n : m_bodies[i].nodules)
       if (n.any) to.add(item(n.mesh.handle(), *n.look, first + i));
   }

@@ -1,4 +1,5 @@
-// Fat as it is drawn: one surface around its lobules, and threads of septa between those that have been drawn apart.
+// Fat as it is drawn: one surface around its lobules, threads of septa between those that have been drawn apart, and
+// sheer films in the gaps between them (fat_veils.hpp).
 // What is left of it on a duct is small, and hangs by threads.
 #pragma once
 
@@ -7,6 +8,7 @@
 #include <trocar/sim/model/state.hpp>
 #include <trocar/view/base/listing.hpp>
 #include <trocar/view/objects/fat_surface.hpp>
+#include <trocar/view/objects/fat_veils.hpp>
 
 namespace trocar::view {
 
@@ -23,6 +25,9 @@ class FatDrawing {
     const interactions::FatBody* body;
     const Look* look;
     OwnedMesh mesh;
+    OwnedMesh veils;
+    MeshBuffer veil_buffer;
+    bool veiled = false;  ///< is there any film?
     /// A lymph node in it.
     struct Nodule {
       const Look* look;
@@ -39,9 +44,11 @@ class FatDrawing {
   void draw(Drawn& drawn, const sim::State& state, const interactions::FatBodyState& fat);
   void add_lobules(Drawn& drawn, const tissue::FatState& state);
   void draw_nodules(Drawn& drawn);
+  void add_veils(Drawn& drawn, const sim::State& state, const interactions::FatBodyState& fat) const;
   void add_roots(const Drawn& drawn, const sim::State& state, const interactions::FatBodyState& fat);
 
   const sim::Model* m_model;
+  const Look* m_areolar;
   FatSurface m_surface;
   MeshBuffer m_buffer;
   std::vector<DrawnLobule> m_lobules;

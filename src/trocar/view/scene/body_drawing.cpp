@@ -318,7 +318,10 @@ void BodyDrawing::make_membranes(render::Backend& backend) {
       m_membrane_of.push_back(i);
     }
   }
-  for (std::size_t i = 0; i < m_model->bonds.size(); ++i) m_bonds.emplace_back(*m_model, i, backend);
+  for (std::size_t i = 0; i < m_model->bonds.size(); ++i) {
+    m_bonds.emplace_back(*m_model, i, backend);
+    m_veils.emplace_back(*m_model, i, backend);
+  }
   for (std::size_t i = 0; i < m_model->bonds.size(); ++i)
     if (m_model->bonds[i].breaches) m_breaches.emplace_back(*m_model, i, backend);
 }
@@ -366,6 +369,7 @@ void BodyDrawing::update(const sim::State& state) {
   for (MembraneDrawing& m : m_membranes) m.update(state);
   for (PouchDrawing& p : m_pouches) p.update(state);
   for (BondDrawing& b : m_bonds) b.update(state);
+  for (BondVeils& v : m_veils) v.update(state);
   for (BreachDrawing& b : m_breaches) b.update(state);
   for (DrawnVessels& v : m_vessels) v.drawing.update(state);
   for (MarkDrawing& m : m_marks) m.update(state, m_tubes);
@@ -514,6 +518,8 @@ void BodyDrawing::list_folds(bool with_walls, const FirstParts& first, const Lis
            m_pouches[i].burnt() || held(BodyId::membrane(std::size_t(m_pouch_of[i]))));
   for (const BondDrawing& b : m_bonds)
     to.add(item(b.mesh(), look(*m_model, "adhesion"), first.of(BodyId::membrane(b.membrane()))));
+  for (const BondVeils& v : m_veils)
+    if (v.any()) to.add(item(v.mesh(), look(*m_model, "areolar"), first.of(BodyId::membrane(v.membrane()))));
   for (const BreachDrawing& b : m_breaches)
     if (b.any()) to.add(item(b.mesh(), look(*m_model, "liver_raw"), first.of(BodyId::organ(std::size_t(b.organ())))));
 }

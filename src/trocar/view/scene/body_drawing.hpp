@@ -19,7 +19,6 @@
 #include <trocar/view/anatomy/ridge.hpp>
 #include <trocar/view/base/heat_marks.hpp>
 #include <trocar/view/base/listing.hpp>
-#include <trocar/view/bodies/bond_drawing.hpp>
 #include <trocar/view/bodies/breach_drawing.hpp>
 #include <trocar/view/bodies/cuttable_drawing.hpp>
 #include <trocar/view/bodies/mark_drawing.hpp>
@@ -30,6 +29,8 @@
 #include <trocar/view/bodies/tube_drawing.hpp>
 #include <trocar/view/bodies/vessel_drawing.hpp>
 #include <trocar/view/bodies/wall_surface.hpp>
+#include <trocar/view/bonds/bond_drawing.hpp>
+#include <trocar/view/bonds/bond_veils.hpp>
 #include <trocar/view/fluids/drip_stains.hpp>
 
 namespace trocar::view {
@@ -111,6 +112,7 @@ class BodyDrawing {
   std::vector<PouchDrawing> m_pouches;
   std::vector<std::size_t> m_membrane_of, m_pouch_of;  ///< their numbers in the Model
   std::vector<BondDrawing> m_bonds;
+  std::vector<BondVeils> m_veils;
   std::vector<BreachDrawing> m_breaches;
   std::vector<MarkDrawing> m_marks;
   std::vector<DrawnVessels> m_vessels;

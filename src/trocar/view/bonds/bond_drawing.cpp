@@ -4,16 +4,16 @@
 
 #include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
-#include <trocar/view/bodies/bond_drawing.hpp>
 #include <trocar/view/bodies/drawn_holders.hpp>
+#include <trocar/view/bonds/bond_drawing.hpp>
 
 namespace trocar::view {
 namespace {
 
 constexpr int kThreads = 4;                              // of a bond
 constexpr std::uint32_t kRings = 5, kSides = 4;          // of a thread
-constexpr double kThin = 0.00009, kThick = 0.0004;       // [m] radius in its middle, and where it spreads
-constexpr double kSpread = 0.0016;                       // [m] how far from its bond a thread may stand
+constexpr double kThin = 0.00004, kThick = 0.00012;      // [m] radius in its middle, and where it spreads
+constexpr double kSpread = 0.0012;                       // [m] how far from its bond a thread may stand
 constexpr double kBow = 0.18;                            // of its length, to the side
 constexpr double kShred = 0.0012, kShrivelled = 0.0005;  // [m] what is left of one on either side; where current went
 constexpr std::uint8_t kSinged = 150, kBlack = 240;      // Paint::burn of that
