@@ -13,7 +13,7 @@ constexpr int kEachAtMost = 2;                     // films that begin at a plac
 constexpr std::size_t kMostVeils = 240;
 constexpr int kMostLinks = 7;                   // of the way round
 constexpr int kVeilAlong = 8, kVeilAcross = 4;  // vertices
-constexpr float kHollow = 0.25f;                // of the way to the other side, how far its free border is drawn in
+constexpr float kDrawnIn = 0.25f;               // of the way to the other side, how far its free border is drawn in
 
 using Near = std::vector<std::vector<int>>;
 
@@ -114,7 +114,7 @@ void add_veil(const VeilFrame& frame, const FatVeil& veil, float spacing, MeshBu
     const auto place = [&](std::size_t n) { return of[std::size_t(veil[n])]; };
     const Vec3f border = (1 - u) * place(0) + u * place(veil.size() - 1);
     const Vec3f back = place(k) + (x - float(k)) * (place(k + 1) - place(k));
-    const float hollow = kHollow * 4 * u * (1 - u) * (1 - v);
+    const float hollow = kDrawnIn * 4 * u * (1 - u) * (1 - v);
     return border + (v + hollow * (1 - v)) * (back - border);
   };
   const double apart =
