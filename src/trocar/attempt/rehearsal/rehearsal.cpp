@@ -131,13 +131,22 @@ class Attempt {
     double points = 0;
     for (const training::ErrorMade& e : errors) points += e.points;
     const bool failed = std::any_of(errors.begin(), errors.end(), [](const training::ErrorMade& e) { return e.fail; });
-    if (failed || points > m_patience.points) fail(errors.back().code + " " + errors.back().name);
+    if (failed || points > m_patience.points) fail(what_went_wrong(errors));
     if (m_performer.gave_up())
       fail(m_performer.difficulties().empty() ? "given up" : m_performer.difficulties().back());
   }
 
+  /// The errors of the last moments: the last one alone is often what another one led to.
+  std::string what_went_wrong(const std::vector<training::ErrorMade>& errors) const {
+    constexpr double kLately = 3;  // [s]
+    std::string all;
+    for (const training::ErrorMade& e : errors)
+      if (e.at > now() - kLately) all += (all.empty() ? "" : ", ") + e.code + " " + e.name;
+    return all;
+  }
+
   [[noreturn]] void fail(const std::string& why) {
-    fmt::print(stderr, "rehearsal: {:.0f} s: {} (of {:.0f} s)\n", now(), why, m_board->seconds);
+    fmt::print(stderr, "rehearsal: {:.0f} s, \"{}\": {} (of {:.0f} s)\n", now(), m_performer.goal(), why, m_board->seconds);
     std::fflush(nullptr);
     const double* const failed = m_board->failed_at.data();
     const auto before = std::count_if(failed, failed + m_board->failures,

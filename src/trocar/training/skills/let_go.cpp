@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
 
@@ -15,12 +17,14 @@ class LetGo final : public Skill {
 
   void start(Operator& op, int) override { m_depth = op.tool_state(m_hand).depth - m_back; }
   Progress work(Operator& op) override {
-    constexpr double kLoose = 0.7;  // of the handle
+    constexpr double kLoose = 0.7, kSlow = 2;  // of the handle [s] all the way
     op.posture(m_hand).end();
     op.want(op.arm(m_hand).tip);
     if (m_back <= 0 || m_phase == kOpen) return op.arms().grip(m_hand, 0, 0.4) ? Progress::done : Progress::working;
     if (m_phase == kLoosen) {
-      if (op.arms().grip(m_hand, kLoose, 0.4)) go(kBack);
+      const bool loose = op.arms().grip(m_hand, std::min(kLoose, op.arm(m_hand).handle), 0.4);
+      if (loose && op.tool_state(m_hand).holds > 0) op.arms().grip(m_hand, 0, kSlow);  // it would tear on the way back
+      if (loose && op.tool_state(m_hand).holds == 0) go(kBack);
     } else if (op.arms().move_to_depth(m_hand, m_depth, pace::kCareful)) {
       go(kOpen);
     }
