@@ -146,7 +146,8 @@ class Attempt {
   }
 
   [[noreturn]] void fail(const std::string& why) {
-    fmt::print(stderr, "rehearsal: {:.0f} s, \"{}\": {} (of {:.0f} s)\n", now(), m_performer.goal(), why, m_board->seconds);
+    fmt::print(stderr, "rehearsal: {:.0f} s, \"{}\": {} (of {:.0f} s)\n", now(), m_performer.goal(), why,
+               m_board->seconds);
     std::fflush(nullptr);
     const double* const failed = m_board->failed_at.data();
     const auto before = std::count_if(failed, failed + m_board->failures,

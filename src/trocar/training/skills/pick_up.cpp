@@ -66,21 +66,28 @@ class PickUp final : public Skill {
   Vec3d m_beside, m_from;
 };
 
-/// What is held to a place, the camera on the jaws.
+/// What is held to a place, the camera on the jaws. What pulls back is given time, and goes slowly.
 class Carry final : public Skill {
  public:
   Carry(const sim::Model&, const Given& given)
-      : m_hand(given.hand()), m_at{given.number("x_mm", 0), given.number("y_mm", 0), given.number("z_mm", 0)} {}
+      : m_hand(given.hand()),
+        m_at{given.number("x_mm", 0), given.number("y_mm", 0), given.number("z_mm", 0)},
+        m_minds_pull(given("pull_N").given),
+        m_most(given.number("pull_N", 0)) {}
 
  private:
   Progress work(Operator& op) override {
     op.want(op.arm(m_hand).tip);
     op.want(m_at);
     if (op.tool_state(m_hand).holds == 0) return fail("it slipped out of the jaws");
-    return op.arms().move(m_hand, m_at, pace::kTravel) ? Progress::done : Progress::working;
+    if (m_minds_pull && norm(op.tool_state(m_hand).pull) > m_most) return Progress::working;
+    const double speed = m_minds_pull ? pace::kCareful : pace::kTravel;
+    return op.arms().move(m_hand, m_at, speed) ? Progress::done : Progress::working;
   }
   int m_hand;
   Vec3d m_at;
+  bool m_minds_pull;
+  double m_most;  ///< [N]
 };
 
 std::string lacks_object(const sim::Model& model, const Given& given) {
@@ -101,15 +108,17 @@ const SkillKind kPickUp{
     "Puts half open jaws around an object that lies about, closes them, and draws it back a little.",
     lacks_object,
     &making<PickUp>};
-const SkillKind kCarry{"carry",
-                       "carry what is held",
-                       {hand_parameter("that holds it"),
-                        {"x_mm", ArgumentKind::number, "to the patient's left", true, -1000, 1000},
-                        {"y_mm", ArgumentKind::number, "towards the head", true, -1000, 1000},
-                        {"z_mm", ArgumentKind::number, "to the front", true, -1000, 1000}},
-                       15,
-                       "Carries what the jaws hold to a place.",
-                       nothing,
-                       &making<Carry>};
+const SkillKind kCarry{
+    "carry",
+    "carry what is held",
+    {hand_parameter("that holds it"),
+     {"x_mm", ArgumentKind::number, "to the patient's left", true, -1000, 1000},
+     {"y_mm", ArgumentKind::number, "towards the head", true, -1000, 1000},
+     {"z_mm", ArgumentKind::number, "to the front", true, -1000, 1000},
+     number_parameter("pull_N", "it goes slowly, and waits while it pulls harder; as it likes", 0, 50)},
+    15,
+    "Carries what the jaws hold to a place.",
+    nothing,
+    &making<Carry>};
 
 }  // namespace trocar::training
