@@ -152,6 +152,17 @@ TEST(Skills, CutGoesBetweenTheClips) {
   EXPECT_NEAR(run.state.cuts[0].s, 0.024, 0.003);
 }
 
+TEST(Skills, EaseFollowsWhatPullsUntilItHardlyDoes) {
+  const std::vector<PlanTask> take{at_tube(kApproach, kGrasper, 0.056), task(kEnter, kGrasper), task(kGrasp, kGrasper),
+                                   task(kDraw, kGrasper).set("towards", "head").set("by_mm", 0.02)};
+  const Performance drawn(plan_of({goal("draw", take)}));
+  ASSERT_GT(norm(drawn.state.tools[kGrasper].pull), 0.4) << drawn.difficulties();
+  const Performance eased(plan_of({goal("draw", take), goal("ease", {task(kEase, kGrasper).set("pull_N", 0.2)})}));
+  EXPECT_EQ(eased.difficulties(), "");
+  EXPECT_GT(held_arc(eased.model, eased.state, kGrasper, kTube), 0) << "it holds on";
+  EXPECT_LT(norm(eased.state.tools[kGrasper].pull), 0.25);
+}
+
 TEST(Skills, WithdrawStopsAtItsDepth) {
   const Performance run(plan_of({goal("back", {task(kWithdraw, kGrasper).set("to_mm", 0.03).set("pace", "brisk")})}));
   EXPECT_EQ(run.difficulties(), "");
