@@ -143,21 +143,19 @@ void BondVeils::lay_film(std::size_t pair, const VeilTie& a, const VeilTie& b, b
     }
 }
 
-/// What is left along both sides where nothing hangs any more; between the two hems nothing is seen.
+/// What is left where nothing hangs any more: between this pair on the organ or on the wall. A strip that had both
+/// would go all the way between them, wherever the wall is carried.
 void BondVeils::lay_hems(std::size_t pair, const VeilTie& a, const VeilTie& b) {
-  constexpr int kHalf = kVeilRows / 2;
+  const bool on_organ = varied(int(pair), 20) < 0.5;
   for (int c = 0; c < kVeilColumns; ++c) {
     const double u = double(c) / (kVeilColumns - 1);
     const Vec3d foot = a.foot + u * (b.foot - a.foot), node = a.node + u * (b.node - a.node);
     const Vec3d way = node - foot, along = normalised(way, Vec3d{0, 0, 1});
-    const int number = int(pair) * kVeilColumns + c;
-    const auto hem = [&](double share, int k) {
-      return share * std::min(kHem * (0.3 + 1.2 * varied(number, k)), 0.4 * length(way)) - (1 - share) * kVeilSunk;
-    };
+    const double hem = std::min(kHem * (0.3 + 1.2 * varied(int(pair) * kVeilColumns + c, 21)), 0.4 * length(way));
     for (int r = 0; r < kVeilRows; ++r) {
-      const bool low = r <= kHalf;
-      const double share = double(low ? r : kVeilRows - 1 - r) / kHalf, end = share < 1 ? 1 - share : 0;
-      put(pair, c, r, low ? foot + hem(share, 21) * along : node - hem(share, 22) * along, kVeilDense * end, 0.4 * end);
+      const double share = double(r) / (kVeilRows - 1);
+      const Vec3d off = (share * hem - (1 - share) * kVeilSunk) * along;
+      put(pair, c, r, on_organ ? foot + off : node - off, kVeilDense * (1 - share), 0.4 * (1 - share));
     }
   }
 }
