@@ -10,7 +10,7 @@ constexpr double kContact = 300;         // [N/m] a lobule at an instrument, imp
 constexpr double kContactDamped = 0.02;  // [N s/m]
 constexpr double kQuickest = 0.0012;     // [m] a tick, beyond the instrument's way
 constexpr double kSlips = 0.005;         // [m/s] above it friction is Coulomb's, below it viscous
-constexpr double kCompressed = 0.6;      // thickness between jaws that just hold it, of its diameter
+constexpr double kFatCompressed = 0.6;   // thickness between jaws that just hold it, of its diameter
 constexpr float kStays = 10;             // [N s/m] what is gone is nowhere: its node is kept where it was
 constexpr size_t kLoadsPerLobule = 12;
 
@@ -150,7 +150,7 @@ Vec3d Fat::point(const Models& models, const States& states, const Hold& hold) n
 }
 
 double Fat::thickness(const Models& models, const Hold& hold) noexcept {
-  return 2 * kCompressed * models.list[hold.body.index()].fat.radius;
+  return 2 * kFatCompressed * models.list[hold.body.index()].fat.radius;
 }
 
 bool Fat::whole(const States& states, const Hold& hold) noexcept {

@@ -59,8 +59,9 @@ void advance(StepContext& c, CuttableRef r) noexcept {
   carry_held_nodes(c, r);
   before_network(c, r);
   const tissue::Hands hands = loads.handled() ? tissue::Hands::on : tissue::Hands::off;
-  c.work.organ_reports[r.organ()] = tissue::advance(model_of(c.model, r).body, loads.sorted, loads.reaction,
-                                                    c.state.cuttables[r.index], c.work.cuttable_work[r.index], hands);
+  c.work.organ_reports[r.organ()] =
+      tissue::advance(model_of(c.model, r).body, loads.sorted, loads.reaction, c.state.cuttables[r.index],
+                      c.work.cuttable_work[r.index], hands, c.work.organ_scars[r.organ()]);
   after_network(c, r);
   settle_held_nodes(c, r);
   carry_along(c, {r.id(),

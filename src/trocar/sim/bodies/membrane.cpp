@@ -60,7 +60,7 @@ void advance(StepContext& c, MembraneRef r) noexcept {
   interactions::NetworkLoads& loads = c.work.membrane_loads[i];
   loads.sort();
   c.work.membrane_reports[i] = tissue::advance(m.sheet, c.work.targets[i], loads.sorted, loads.reaction,
-                                               c.state.membranes[i], c.work.membrane_work[i]);
+                                               c.state.membranes[i], c.work.membrane_work[i], c.work.membrane_scars[i]);
   c.work.leaks[i] = tissue::leak(m.sheet, c.state.torn[i], c.work.membrane_work[i], c.state.membranes[i]);
   c.work.leaks[c.model.membranes.size() + i] = leak_by_duct(c, r);
   carry_along(c, {r.id(), c.work.sheets[i].surface, c.state.torn[i], m.sheet.network.fixed, m.sheet.thickness,

@@ -44,7 +44,7 @@ void advance(StepContext& c, SolidRef s) noexcept {
   const tissue::Hands hands = loads.handled() ? tissue::Hands::on : tissue::Hands::off;
   c.work.organ_reports[s.organ()] =
       tissue::advance(model_of(c.model, s).network, loads.sorted, loads.reaction, c.state.solids[s.index],
-                      c.work.solid_work[s.index], nullptr, hands);
+                      c.work.solid_work[s.index], nullptr, hands, c.work.organ_scars[s.organ()]);
   after_network(c, s);
   settle_held_nodes(c, s);
 }

@@ -8,7 +8,7 @@ namespace trocar::sim {
 namespace {
 
 constexpr size_t kOrganLoads = 8192, kStrandLoads = 2048, kMembraneLoads = 8192;
-constexpr size_t kScarLoads = 40;  // of a scarred cell: six edges and four springs across faces, two loads an end
+constexpr size_t kCellSprings = 10;  // six edges and four across faces
 
 /// 0 .. n-1, the costliest first: what begins last should be short, or all threads wait for one.
 std::vector<int> by_cost(const std::vector<double>& cost) {
@@ -44,10 +44,12 @@ size_t rows_of_organ(const Model& model, size_t organ) {
 Work make_work(const Model& model, core::ThreadPool* pool) {
   Work w;
   w.pool = pool;
+  const size_t scars = model.energy.there ? size_t(kMaxScarred) : 0;
   for (const SolidModel& s : model.solids) {
     w.poses.push_back(tissue::make_pose(s.skin));
     w.solid_work.push_back(tissue::make_work(s.network));
     w.organ_loads.emplace_back().reserve(kOrganLoads + s.anchors.size());
+    w.organ_scars.emplace_back().reserve(scars);
     w.parts.resize(std::max(w.parts.size(), size_t(s.network.nodes)));
     w.skins.push_back(&s.skin);
     w.beyond.resize(std::max(w.beyond.size(), size_t(s.network.rows)));
@@ -58,8 +60,8 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     w.skins.push_back(&w.cuttable_skins.back().skin);
     w.poses.push_back(tissue::make_pose(*w.skins.back()));
     w.cuttable_work.push_back(tissue::make_work(c.body));
-    const size_t scars = model.energy.there ? kScarLoads * size_t(kMaxScarred) : 0;
-    w.organ_loads.emplace_back().reserve(kOrganLoads + c.body.anchors.size() + scars);
+    w.organ_loads.emplace_back().reserve(kOrganLoads + c.body.anchors.size());
+    w.organ_scars.emplace_back().reserve(kCellSprings * scars);
     w.beyond.resize(std::max(w.beyond.size(), size_t(c.body.rows)));
   }
   for (const StaticOrgan& o : model.statics) {
@@ -86,6 +88,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
   for (const MembraneBody& m : model.membranes) {
     w.sheet_poses.push_back(tissue::make_pose(m.skin));
     w.membrane_loads.emplace_back().reserve(kMembraneLoads);
+    w.membrane_scars.emplace_back().reserve(scars);
     w.membrane_models.push_back(&m.sheet);
     w.membrane_work.push_back(tissue::make_work(m.sheet, kMembraneLoads));
     w.pulls.emplace_back(m.holds.size());

@@ -37,6 +37,7 @@ struct Work {
   std::vector<interactions::TouchBook> touches;                  ///< (hands) this tick's
   std::array<interactions::WallStop, kMaxTools> wall_stops;      ///< (hands)
   std::vector<interactions::NetworkLoads> organ_loads;           ///< (organs)
+  std::vector<std::vector<tissue::ScarredSpring>> organ_scars;   ///< (organs) those of this tick
   std::vector<interactions::StrandLoads> strand_loads;
   std::vector<tissue::NetworkWork> solid_work;
   std::vector<tissue::CuttableWork> cuttable_work;
@@ -51,6 +52,7 @@ struct Work {
   std::vector<interactions::SheetView> sheets;  ///< (membranes)
   std::vector<double> sheet_gaps;               ///< (hands x membranes) apart by at least this much [m]
   std::vector<interactions::NetworkLoads> membrane_loads;
+  std::vector<std::vector<tissue::ScarredSpring>> membrane_scars;  ///< (membranes) those of this tick
   std::vector<tissue::MembraneWork> membrane_work;
   std::vector<const tissue::MembraneModel*> membrane_models;  ///< (membranes) of the Model
   std::vector<tissue::Leak> leaks;                            ///< (2 membranes) of this tick: by the wall, by the duct
@@ -89,22 +91,23 @@ struct Work {
   static void fields(S& s, V&& v) {
     v("pool", s.pool, core::kMadeOnce), v("poses", s.poses), v("surfaces", s.surfaces), v("shapes", s.shapes),
         v("shapes_before", s.shapes_before), v("touches", s.touches), v("wall_stops", s.wall_stops),
-        v("organ_loads", s.organ_loads), v("strand_loads", s.strand_loads), v("solid_work", s.solid_work),
-        v("cuttable_work", s.cuttable_work), v("static_work", s.static_work), v("strand_work", s.strand_work),
-        v("ends", s.ends), v("end_reactions", s.end_reactions), v("parts", s.parts), v("beyond", s.beyond),
-        v("organ_reports", s.organ_reports), v("strand_reports", s.strand_reports),
+        v("organ_loads", s.organ_loads), v("organ_scars", s.organ_scars), v("strand_loads", s.strand_loads),
+        v("solid_work", s.solid_work), v("cuttable_work", s.cuttable_work), v("static_work", s.static_work),
+        v("strand_work", s.strand_work), v("ends", s.ends), v("end_reactions", s.end_reactions), v("parts", s.parts),
+        v("beyond", s.beyond), v("organ_reports", s.organ_reports), v("strand_reports", s.strand_reports),
         v("membrane_reports", s.membrane_reports), v("sheet_poses", s.sheet_poses), v("sheets", s.sheets),
-        v("sheet_gaps", s.sheet_gaps), v("membrane_loads", s.membrane_loads), v("membrane_work", s.membrane_work),
-        v("membrane_models", s.membrane_models, core::kMadeOnce), v("leaks", s.leaks), v("objects", s.objects),
-        v("pulls", s.pulls), v("targets", s.targets), v("wave_force", s.wave_force), v("hosts", s.hosts),
-        v("vessel_points", s.vessel_points), v("vessel_posed", s.vessel_posed), v("flow", s.flow), v("open", s.open),
-        v("closed", s.closed), v("flows", s.flows), v("walls", s.walls), v("busy", s.busy), v("impact_at", s.impact_at),
-        v("bleeds", s.bleeds), v("bleed_count", s.bleed_count), v("heat", s.heat), v("heat_sources", s.heat_sources),
-        v("steam", s.steam), v("current_flows", s.current_flows), v("fluids", s.fluids), v("wet", s.wet),
-        v("wounds", s.wounds), v("wet_tools", s.wet_tools), v("valves", s.valves), v("nodes", s.nodes),
-        v("cuttable_skins", s.cuttable_skins), v("skins", s.skins, core::kMadeOnce),
-        v("organ_order", s.organ_order, core::kMadeOnce), v("strand_order", s.strand_order, core::kMadeOnce),
-        v("membrane_order", s.membrane_order, core::kMadeOnce), v("skin_order", s.skin_order, core::kMadeOnce);
+        v("sheet_gaps", s.sheet_gaps), v("membrane_loads", s.membrane_loads), v("membrane_scars", s.membrane_scars),
+        v("membrane_work", s.membrane_work), v("membrane_models", s.membrane_models, core::kMadeOnce),
+        v("leaks", s.leaks), v("objects", s.objects), v("pulls", s.pulls), v("targets", s.targets),
+        v("wave_force", s.wave_force), v("hosts", s.hosts), v("vessel_points", s.vessel_points),
+        v("vessel_posed", s.vessel_posed), v("flow", s.flow), v("open", s.open), v("closed", s.closed),
+        v("flows", s.flows), v("walls", s.walls), v("busy", s.busy), v("impact_at", s.impact_at), v("bleeds", s.bleeds),
+        v("bleed_count", s.bleed_count), v("heat", s.heat), v("heat_sources", s.heat_sources), v("steam", s.steam),
+        v("current_flows", s.current_flows), v("fluids", s.fluids), v("wet", s.wet), v("wounds", s.wounds),
+        v("wet_tools", s.wet_tools), v("valves", s.valves), v("nodes", s.nodes), v("cuttable_skins", s.cuttable_skins),
+        v("skins", s.skins, core::kMadeOnce), v("organ_order", s.organ_order, core::kMadeOnce),
+        v("strand_order", s.strand_order, core::kMadeOnce), v("membrane_order", s.membrane_order, core::kMadeOnce),
+        v("skin_order", s.skin_order, core::kMadeOnce);
   }
 };
 

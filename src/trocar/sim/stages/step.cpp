@@ -50,7 +50,7 @@ constexpr Stage kStages[] = {
     {"touch tissue", touch_tissue},
     {"touch organs", touch_organs},
     {"adhere", apply_adhesion},
-    {"pull scars", pull_scars},
+    {"gather scars", gather_scars},
     {"beat", beat},
     {"press with drops", press_with_drops},
     {"pull on borders", pull_on_borders},

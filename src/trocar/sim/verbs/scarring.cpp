@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 
-#include <trocar/interactions/couplings/scarred_spring.hpp>
 #include <trocar/sim/bodies/static_organ.hpp>
 #include <trocar/sim/bodies/views.hpp>
 #include <trocar/sim/model/bodies.hpp>
@@ -133,61 +132,50 @@ void scar(StepContext& c, const ElectrodeTouch& touch, StrandRef r) noexcept {
 
 // ---- what it does
 
-/// A body's nodes and the loads of a tick on them.
-struct Nodes {
-  tissue::NodeView view;
-  interactions::NetworkLoads& loads;
-  double tick = 0;  ///< [s]
-};
+using Springs = std::vector<tissue::ScarredSpring>;
 
-void pull(const Nodes& nodes, int a, int b, double k, double l, const Scar& scar) noexcept {
-  pull_scarred(nodes.view, {a, b, k, l, double(scar.share), double(scar.stiff)}, nodes.tick, nodes.loads);
-}
+Springs& springs_of(StepContext& c, SolidRef r) noexcept { return c.work.organ_scars[r.organ()]; }
+Springs& springs_of(StepContext& c, CuttableRef r) noexcept { return c.work.organ_scars[r.organ()]; }
+Springs& springs_of(StepContext& c, MembraneRef r) noexcept { return c.work.membrane_scars[r.index]; }
 
-void pull_spring(const tissue::NetworkModel& m, const tissue::NetworkState& state, const Nodes& nodes,
-                 const Scar& scar) noexcept {
+void add_spring(const tissue::NetworkModel& m, const tissue::NetworkState& state, const Scar& scar,
+                Springs& to) noexcept {
   const double k = double(tissue::spring_scale(m, state, scar.spring)) * tissue::spring_stiffness(m, scar.spring);
-  pull(nodes, m.spring_nodes[size_t(2 * scar.spring)], m.spring_nodes[size_t(2 * scar.spring + 1)], k,
-       double(m.spring_rest[size_t(scar.spring)]), scar);
+  to.push_back({m.spring_nodes[size_t(2 * scar.spring)], m.spring_nodes[size_t(2 * scar.spring + 1)], k,
+                double(m.spring_rest[size_t(scar.spring)]), double(scar.share), double(scar.stiff)});
 }
 
 /// A cell's share of the springs along its edges and across its faces.
-void pull_cell(const tissue::CuttableModel& m, const geometry::CuttableTets& tets, const Nodes& nodes,
-               const Scar& scar) noexcept {
+void add_cell(const tissue::CuttableModel& m, const geometry::CuttableTets& tets, const Scar& scar,
+              Springs& to) noexcept {
   const tissue::CellSprings& brings = m.brings[size_t(scar.spring)];
   const geometry::Tet& cell = tets.cells[size_t(scar.spring)];
-  const auto pull_between = [&](int a, int b, float k_l2, float ratio) {
+  const auto add_between = [&](int a, int b, float k_l2, float ratio) {
     const double drawn = length(tets.rest[size_t(b)] - tets.rest[size_t(a)]);
-    pull(nodes, a, b, double(k_l2) / (drawn * drawn), double(ratio) * drawn, scar);
+    to.push_back({a, b, double(k_l2) / (drawn * drawn), double(ratio) * drawn, double(scar.share), double(scar.stiff)});
   };
   for (size_t e = 0; e < 6; ++e)
-    pull_between(cell[size_t(tissue::kCellEdges[e][0])], cell[size_t(tissue::kCellEdges[e][1])], brings.edge[e],
-                 brings.edge_ratio[e]);
+    add_between(cell[size_t(tissue::kCellEdges[e][0])], cell[size_t(tissue::kCellEdges[e][1])], brings.edge[e],
+                brings.edge_ratio[e]);
   for (size_t f = 0; f < 4; ++f) {
     const std::int32_t beyond = tets.across[size_t(scar.spring)][f];
     if (beyond < 0) continue;
     const geometry::Tet& faces = tets.across[size_t(beyond)];
     const auto face = std::find(faces.begin(), faces.end(), scar.spring) - faces.begin();
-    pull_between(cell[f], tets.cells[size_t(beyond)][size_t(face)], brings.cross[f], brings.cross_ratio[f]);
+    add_between(cell[f], tets.cells[size_t(beyond)][size_t(face)], brings.cross[f], brings.cross_ratio[f]);
   }
 }
 
-void pull(StepContext& c, const Scar& scar, SolidRef r) noexcept {
-  const tissue::NetworkModel& m = model_of(c.model, r).network;
-  const tissue::NetworkState& s = c.state.solids[r.index];
-  pull_spring(m, s, {view_of(m, s), c.work.organ_loads[r.organ()], m.tick}, scar);
+void add(StepContext& c, const Scar& scar, SolidRef r) noexcept {
+  add_spring(model_of(c.model, r).network, c.state.solids[r.index], scar, springs_of(c, r));
 }
-void pull(StepContext& c, const Scar& scar, CuttableRef r) noexcept {
-  const tissue::CuttableModel& m = model_of(c.model, r).body;
-  const tissue::CuttableState& s = c.state.cuttables[r.index];
-  pull_cell(m, s.tets, {view_of(m, s), c.work.organ_loads[r.organ()], m.tick}, scar);
+void add(StepContext& c, const Scar& scar, CuttableRef r) noexcept {
+  add_cell(model_of(c.model, r).body, c.state.cuttables[r.index].tets, scar, springs_of(c, r));
 }
-void pull(StepContext& c, const Scar& scar, MembraneRef r) noexcept {
-  const tissue::NetworkModel& m = model_of(c.model, r).sheet.network;
-  const tissue::NetworkState& s = c.state.membranes[r.index].network;
-  pull_spring(m, s, {view_of(m, s), c.work.membrane_loads[r.index], m.tick}, scar);
+void add(StepContext& c, const Scar& scar, MembraneRef r) noexcept {
+  add_spring(model_of(c.model, r).sheet.network, c.state.membranes[r.index].network, scar, springs_of(c, r));
 }
-void pull(StepContext&, const Scar&, StrandRef) noexcept {}  // those have changed themselves
+void add(StepContext&, const Scar&, StrandRef) noexcept {}  // those have changed themselves
 
 }  // namespace
 
@@ -195,10 +183,12 @@ void scar_tissue(StepContext& c, const ElectrodeTouch& touch) noexcept {
   visit(c.model, touch.contact.body, [&](auto body) { scar(c, touch, body); });
 }
 
-void pull_scars(StepContext& c) noexcept {
+void gather_scars(StepContext& c) noexcept {
+  for (Springs& of : c.work.organ_scars) of.clear();
+  for (Springs& of : c.work.membrane_scars) of.clear();
   for (int i = 0; i < c.state.scarred_count; ++i) {
     const Scar& scar = c.state.scarred[size_t(i)];
-    visit(c.model, scar.body, [&](auto body) { pull(c, scar, body); });
+    visit(c.model, scar.body, [&](auto body) { add(c, scar, body); });
   }
 }
 

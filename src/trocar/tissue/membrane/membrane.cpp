@@ -5,6 +5,7 @@
 #include <trocar/core/field_hash.hpp>
 #include <trocar/tissue/base/float4.hpp>
 #include <trocar/tissue/membrane/membrane.hpp>
+#include <trocar/tissue/network/network_scars.hpp>
 
 namespace trocar::tissue {
 namespace {
@@ -143,7 +144,8 @@ void border_pulls(const MembraneModel& m, const MembraneState& s, MembraneWork& 
 }
 
 StepReport advance(const MembraneModel& m, std::span<const Vec3d> targets, std::span<const NodeLoad> loads,
-                   std::span<Vec3f> reactions, MembraneState& s, MembraneWork& w) noexcept {
+                   std::span<Vec3f> reactions, MembraneState& s, MembraneWork& w,
+                   std::span<const ScarredSpring> springs) noexcept {
   for (std::size_t h = 0; h < m.held_nodes.size(); ++h) {
     const int i = m.held_nodes[h];
     const Vec3d way = targets.empty() ? Vec3d{} : targets[h] - position(m.network, s.network, i);
@@ -154,12 +156,16 @@ StepReport advance(const MembraneModel& m, std::span<const Vec3d> targets, std::
   const double dt = m.tick / m.bend_steps;
   const float share = 1.0f / float(m.bend_steps);
   const bool several = m.bend_steps > 1 && reactions.size() <= w.reaction.size();
+  LoadedBody body = loaded_body(m.network);
+  ScarredSprings scars(body, springs, w.network.scars);
   for (int step = 0; step < m.bend_steps; ++step) {
+    scars.mark(s.network.nodes);
     bending_forces(m, s, w.force);
     kick(m, s, w.force, dt);
     if (encloses(m)) press(m, s, w, dt);
+    scars.ease(s.network.nodes);
     const std::span<Vec3f> part = several ? std::span<Vec3f>(w.reaction.data(), reactions.size()) : reactions;
-    report = report | advance(m.network, loads, part, s.network, w.network);
+    report = report | advance(m.network, loads, part, s.network, w.network, nullptr, Hands::off, springs);
     if (!several) continue;
     for (std::size_t i = 0; i < reactions.size(); ++i) reactions[i] += share * part[i];
   }

@@ -191,8 +191,10 @@ void border_pulls(const MembraneModel& model, const MembraneState& state, Membra
 /// @param targets    (held nodes) where they are when the tick ends, or empty: they stay
 /// @param loads      sorted by node, as for a network
 /// @param reactions  (loads) or empty: mean force that each load exerted on its node [N]
+/// @param scars      springs that heat has changed
 StepReport advance(const MembraneModel& model, std::span<const Vec3d> targets, std::span<const NodeLoad> loads,
-                   std::span<Vec3f> reactions, MembraneState& state, MembraneWork& work) noexcept;
+                   std::span<Vec3f> reactions, MembraneState& state, MembraneWork& work,
+                   std::span<const ScarredSpring> scars = {}) noexcept;
 
 /// After springs were cut: bending across torn triangles ends, and what is enclosed runs out.
 /// @param parted (triangles) 1 = cut open

@@ -7,13 +7,10 @@
 #include <trocar/tissue/network/network.hpp>
 #include <trocar/tissue/network/network_kernels.hpp>
 #include <trocar/tissue/network/network_loads.hpp>
+#include <trocar/tissue/network/network_scars.hpp>
 
 namespace trocar::tissue {
 namespace {
-
-LoadedBody loaded(const NetworkModel& m) {
-  return {m.nodes, m.dt, m.gamma, m.substeps, m.origin, m.mass, m.fixed, m.row_of_node};
-}
 
 GuardedBody guarded_of(const NetworkModel& m, const NetworkState& s) {
   return {.cells = m.tets,
@@ -83,9 +80,11 @@ int first_non_finite(const NetworkModel& m, const NetworkState& s) {
 }  // namespace
 
 StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::span<Vec3f> reactions, NetworkState& s,
-                   NetworkWork& w, core::ThreadPool* pool, Hands hands) noexcept {
-  const LoadedBody body = loaded(m);
+                   NetworkWork& w, core::ThreadPool* pool, Hands hands,
+                   std::span<const ScarredSpring> springs) noexcept {
+  LoadedBody body = loaded_body(m);
   StepReport report = check_loads(body, loads);
+  ScarredSprings scars(body, springs, w.scars);
   ImplicitLoads pull(body, loads, w.loaded);
   const GuardedBody guarded = guarded_of(m, s);
   Guard guard(guarded, {s.tet_phase, s.open_tets, s.tick}, {w.open_tets, w.below}, s.nodes, hands);
@@ -93,11 +92,15 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
   KernelArgs args = kernel_args(m, s);
   bool fine = true;
   for (int i = 0; i < m.substeps; ++i) {
-    if (m.bulk.impulses > 0 && i % (m.substeps / m.bulk.impulses) == 0)
+    if (m.bulk.impulses > 0 && i % (m.substeps / m.bulk.impulses) == 0) {
+      scars.mark(s.nodes);
       push_volumes(m.volume_cells, s.tet_phase, m.bulk, m.tick / m.bulk.impulses, m.dt, s.nodes, w.volume);
+      scars.ease(s.nodes);
+    }
     args.in = s.nodes.data();
     args.out = w.other.data();
     fine = run_substep(args, w.forces, pool) && fine;
+    scars.apply(args.in, args.out);
     guard.mend(args.in, args.out);
     fine = pull.apply(args.in, args.out) && fine;
     guard.catch_leaps(args.in, args.out);

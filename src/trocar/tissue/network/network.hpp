@@ -37,6 +37,7 @@
 #include <trocar/tissue/network/guard.hpp>
 #include <trocar/tissue/network/loaded_node.hpp>
 #include <trocar/tissue/network/node_view.hpp>
+#include <trocar/tissue/network/scarred_spring.hpp>
 #include <trocar/tissue/network/volume_force.hpp>
 
 namespace trocar::tissue {
@@ -161,11 +162,12 @@ struct NetworkWork {
   std::vector<int> open_tets;        ///< capacity: tets
   std::vector<std::uint8_t> folded;  ///< (rows)
   std::vector<std::uint16_t> below;  ///< (tet packs)
+  ScarWork scars;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
     v("other", s.other), v("forces", s.forces), v("loaded", s.loaded), v("volume", s.volume),
-        v("open_tets", s.open_tets), v("folded", s.folded), v("below", s.below);
+        v("open_tets", s.open_tets), v("folded", s.folded), v("below", s.below), v("scars", s.scars);
   }
 };
 
@@ -191,10 +193,11 @@ NetworkWork make_work(const NetworkModel& model, int threads = 1);
 /// One tick. Loads must be sorted by node (otherwise kBadLoad). `reactions` (as long as loads, or empty) receives the
 /// force each load exerted on its node, averaged over the tick [N]; what holds the tissue feels the opposite.
 /// @param hands  on: folded cells are not driven home, as hands may be what keeps them folded
+/// @param scars  springs that heat has changed (network_scars.hpp)
 /// Bits depend neither on the pool nor on the SIMD width.
 StepReport advance(const NetworkModel& model, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
-                   NetworkState& state, NetworkWork& work, core::ThreadPool* pool = nullptr,
-                   Hands hands = Hands::off) noexcept;
+                   NetworkState& state, NetworkWork& work, core::ThreadPool* pool = nullptr, Hands hands = Hands::off,
+                   std::span<const ScarredSpring> scars = {}) noexcept;
 
 inline NodeView view_of(const NetworkModel& model, const NetworkState& state) noexcept {
   return {state.nodes, model.row_of_node, model.origin};

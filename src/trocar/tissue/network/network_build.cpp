@@ -440,6 +440,8 @@ NetworkWork make_work(const NetworkModel& m, int threads) {
   w.open_tets.resize(m.tets.size());
   w.folded.resize(m.rows);
   w.below.resize(m.tet_packs.size());
+  w.scars.inertia.resize(std::size_t(m.nodes));
+  w.scars.nodes.resize(std::size_t(m.nodes));
   if (m.bulk.impulses > 0) w.volume.resize(m.tets.size(), std::size_t(m.rows));
   return w;
 }

@@ -31,6 +31,9 @@ struct LoadedBody {
   std::span<const std::uint8_t> fixed;  ///< (nodes) Held bits
   std::span<const int> row_of_node;     ///< (nodes)
 };
+inline LoadedBody loaded_body(const NetworkModel& m) noexcept {
+  return {m.nodes, m.dt, m.gamma, m.substeps, m.origin, m.mass, m.fixed, m.row_of_node};
+}
 
 /// kBadLoad with the first load that is unsound or out of order.
 StepReport check_loads(const LoadedBody& body, std::span<const NodeLoad> loads) noexcept;

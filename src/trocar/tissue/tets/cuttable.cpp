@@ -7,6 +7,7 @@
 #include <trocar/geometry/tets/tet_volume.hpp>
 #include <trocar/tissue/network/network_kernels.hpp>
 #include <trocar/tissue/network/network_loads.hpp>
+#include <trocar/tissue/network/network_scars.hpp>
 #include <trocar/tissue/network/stability.hpp>
 #include <trocar/tissue/tets/cuttable.hpp>
 
@@ -347,10 +348,11 @@ void make_current(const CuttableModel& m, const CuttableState& s, CuttableWork& 
 }
 
 StepReport advance(const CuttableModel& m, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
-                   CuttableState& s, CuttableWork& w, Hands hands) noexcept {
+                   CuttableState& s, CuttableWork& w, Hands hands, std::span<const ScarredSpring> springs) noexcept {
   make_current(m, s, w);
-  const LoadedBody body{s.tets.nodes, m.dt, m.gamma, m.substeps, m.origin, w.mass, w.fixed, m.row_of_node};
+  LoadedBody body{s.tets.nodes, m.dt, m.gamma, m.substeps, m.origin, w.mass, w.fixed, m.row_of_node};
   StepReport report = check_loads(body, loads);
+  ScarredSprings scars(body, springs, w.scars);
   ImplicitLoads pull(body, loads, w.loaded);
   const GuardedBody guarded = guarded_of(m, s, w);
   Guard guard(guarded, {s.tet_phase, s.open_tets, s.tick}, {w.open_tets, w.below}, s.nodes, hands);
@@ -358,11 +360,15 @@ StepReport advance(const CuttableModel& m, std::span<const NodeLoad> loads, std:
   KernelArgs args = kernel_args(m, w);
   bool fine = true;
   for (int i = 0; i < m.substeps; ++i) {
-    if (m.bulk.impulses > 0 && i % (m.substeps / m.bulk.impulses) == 0)
+    if (m.bulk.impulses > 0 && i % (m.substeps / m.bulk.impulses) == 0) {
+      scars.mark(s.nodes);
       push_volumes(w.volume_cells, {}, m.bulk, m.tick / m.bulk.impulses, m.dt, s.nodes, w.volume);
+      scars.ease(s.nodes);
+    }
     args.in = s.nodes.data();
     args.out = w.other.data();
     fine = kernels().substep(args, 0, w.slices) && fine;
+    scars.apply(args.in, args.out);
     guard.mend(args.in, args.out);
     fine = pull.apply(args.in, args.out) && fine;
     guard.catch_leaps(args.in, args.out);

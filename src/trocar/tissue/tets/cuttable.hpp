@@ -130,6 +130,7 @@ struct CuttableWork {
   VolumeCells volume_cells;          ///< empty where there is no volume force
   VolumeWork volume;                 ///< the same
   geometry::CutWork cut;
+  ScarWork scars;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
@@ -139,7 +140,7 @@ struct CuttableWork {
         v("around", s.around), v("node_of_row", s.node_of_row), v("now", s.now), v("guarded", s.guarded),
         v("guarded_packs", s.guarded_packs), v("part", s.part), v("parts", s.parts), v("largest_part", s.largest_part),
         v("open_tets", s.open_tets), v("folded", s.folded), v("below", s.below), v("loaded", s.loaded),
-        v("volume_cells", s.volume_cells), v("volume", s.volume), v("cut", s.cut);
+        v("volume_cells", s.volume_cells), v("volume", s.volume), v("cut", s.cut), v("scars", s.scars);
   }
 };
 
@@ -153,7 +154,8 @@ std::uint64_t version_of(const CuttableModel& model, const geometry::CuttableTet
 
 /// One tick; loads and reactions as for a network. Nodes are numbered as described, doubles after them.
 StepReport advance(const CuttableModel& model, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
-                   CuttableState& state, CuttableWork& work, Hands hands = Hands::off) noexcept;
+                   CuttableState& state, CuttableWork& work, Hands hands = Hands::off,
+                   std::span<const ScarredSpring> scars = {}) noexcept;
 
 /// Makes the scratch what the State says, where it is not: `part` and `parts` may then be asked. advance() and cut() do
 /// so themselves.

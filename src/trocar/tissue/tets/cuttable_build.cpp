@@ -191,6 +191,8 @@ CuttableWork make_work(const CuttableModel& m) {
   w.loaded.resize(nodes);
   if (m.bulk.impulses > 0) make_room_for_volumes(m, w);
   w.cut = geometry::make_work(m.drawn);
+  w.scars.inertia.resize(nodes);
+  w.scars.nodes.resize(nodes);
   return w;
 }
 
