@@ -80,10 +80,16 @@ class Carry final : public Skill {
     op.want(op.arm(m_hand).tip);
     op.want(m_at);
     if (op.tool_state(m_hand).holds == 0) return fail("it slipped out of the jaws");
-    if (m_minds_pull && norm(op.tool_state(m_hand).pull) > m_most) return Progress::working;
+    if (m_minds_pull && strains(op)) return Progress::working;
     const double speed = m_minds_pull ? pace::kCareful : pace::kTravel;
     return op.arms().move(m_hand, m_at, speed) ? Progress::done : Progress::working;
   }
+  /// It pulls too hard already, and would still harder on the way: what gives way to the pull need not wait.
+  bool strains(const Operator& op) const {
+    const double(&pull)[3] = op.tool_state(m_hand).pull;
+    return norm(pull) > m_most && dot(m_at - op.arm(m_hand).tip, Vec3d{pull[0], pull[1], pull[2]}) <= 0;
+  }
+
   int m_hand;
   Vec3d m_at;
   bool m_minds_pull;
@@ -115,7 +121,7 @@ const SkillKind kCarry{
      {"x_mm", ArgumentKind::number, "to the patient's left", true, -1000, 1000},
      {"y_mm", ArgumentKind::number, "towards the head", true, -1000, 1000},
      {"z_mm", ArgumentKind::number, "to the front", true, -1000, 1000},
-     number_parameter("pull_N", "it goes slowly, and waits while it pulls harder; as it likes", 0, 50)},
+     number_parameter("pull_N", "it goes slowly, and waits while it pulls harder, unless the way gives in to that; as it likes", 0, 50)},
     15,
     "Carries what the jaws hold to a place.",
     nothing,
