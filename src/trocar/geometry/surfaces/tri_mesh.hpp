@@ -1,7 +1,7 @@
 // Triangle meshes as two plain arrays, and what is asked of them while a scene compiles: normals, area, volume, whether
-// the surface is closed, neighbours, and a small OBJ reader and writer.
+// the surface is closed, neighbours. Files of them: surface_files/surface_file.hpp.
 //
-//   TriMesh mesh = read_obj(stream, "organ.obj");
+//   const TriMesh mesh = joined(read_surface_file("organ.obj"));
 //   if (!check_edges(mesh).closed()) ...
 //   const Csr neighbours = vertex_neighbours(mesh);
 //   for (int other : neighbours.row(vertex)) ...
@@ -10,9 +10,7 @@
 #pragma once
 
 #include <array>
-#include <iosfwd>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <trocar/numerics/vec3.hpp>
@@ -70,11 +68,5 @@ Csr vertex_triangles(const TriMesh& mesh);
 /// Vertices closer than `distance` in every coordinate's rounded grid become one; degenerate triangles go.
 /// For meshes from files that repeat the vertices of seams.
 TriMesh merged_vertices(const TriMesh& mesh, double distance);
-
-/// Positions and triangles, 17 digits, so that reading gives the same numbers back.
-void write_obj(std::ostream& out, const TriMesh& mesh);
-/// Reads `v` and `f` lines (polygons become fans, texture and normal indices are skipped, negative indices count from
-/// the end), ignores the rest. Throws core::BadInput with all faults of the file, named `name`.
-TriMesh read_obj(std::istream& in, const std::string& name);
 
 }  // namespace trocar::geometry
