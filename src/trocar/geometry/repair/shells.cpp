@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/geometry/repair/shells.hpp>
+#include <trocar/geometry/surfaces/groups.hpp>
+#include <trocar/numerics/portable.hpp>
+
+namespace trocar::geometry {
+namespace {
+
+void enclose(Bounds& box, Vec3d p) {
+  for (int k = 0; k < 3; ++k) {
+    box.low[k] = std::min(box.low[k], p[k]);
+    box.high[k] = std::max(box.high[k], p[k]);
+  }
+}
+
+/// Of a triangle as seen from the origin.
+double solid_angle(Vec3d a, Vec3d b, Vec3d c) {
+  const double la = length(a), lb = length(b), lc = length(c);
+  return 2 * portable::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+}
+
+bool is_within(Vec3d p, const Bounds& box) {
+  for (int k = 0; k < 3; ++k)
+    if (!(p[k] >= box.low[k] && p[k] <= box.high[k])) return false;
+  return true;
+}
+
+void number_shells(const TriMesh& mesh, const EdgeTable& edges, Shells& shells) {
+  Groups groups(mesh.triangles.size());
+  edges.for_each([&](std::span<const EdgeUse> uses) {
+    for (const EdgeUse& use : uses) groups.join(uses[0].triangle, use.triangle);
+  });
+  shells.of.assign(mesh.triangles.size(), -1);
+  for (int t = 0; t < int(mesh.triangles.size()); ++t) {
+    if (corner_twice(mesh.triangles[t])) continue;
+    const int root = groups.root(t);
+    if (root == t) {
+      shells.of[t] = int(shells.list.size());
+      shells.list.emplace_back();
+      shells.list.back().first = t;
+      shells.list.back().box = bounds({});
+    }
+    shells.of[t] = shells.of[root];
+  }
+}
+
+/// Shells that face inwards within another one are cavities.
+void find_cavities(const TriMesh& mesh, Shells& shells) {
+  int looked = 0;
+  constexpr int most = 1000;  // each of them looks at all triangles
+  for (int s = 0; s < int(shells.list.size()) && looked < most; ++s) {
+    Shell& shell = shells.list[s];
+    if (!(shell.volume < 0) || shell.turned_edges > 0) continue;
+    const Vec3d place = mesh.positions[mesh.triangles[shell.first][0]];
+    const bool surrounded = std::any_of(shells.list.begin(), shells.list.end(), [&](const Shell& other) {
+      return &other != &shell && other.volume > 0 && is_within(place, other.box);
+    });
+    if (!surrounded) continue;
+    ++looked;
+    shell.is_cavity = turns_around(mesh, shells, place, s) > 0.5;
+  }
+}
+
+}  // namespace
+
+Shells shells_of(const TriMesh& mesh, const EdgeTable& edges, const std::vector<Rim>& rims) {
+  Shells shells;
+  number_shells(mesh, edges, shells);
+  for (int t = 0; t < int(mesh.triangles.size()); ++t) {
+    if (shells.of[t] < 0) continue;
+    Shell& shell = shells.list[shells.of[t]];
+    const auto& corners = mesh.triangles[t];
+    const Vec3d origin = mesh.positions[mesh.triangles[shell.first][0]], twice = area_vector(mesh, t);
+    ++shell.triangles;
+    shell.area += 0.5 * length(twice);
+    shell.volume += dot(twice, mesh.positions[corners[0]] - origin) / 6;
+    for (const int v : corners) enclose(shell.box, mesh.positions[v]);
+  }
+  edges.for_each([&](std::span<const EdgeUse> uses) {
+    Shell& shell = shells.list[shells.of[uses[0].triangle]];
+    shell.open_edges += uses.size() == 1;
+    shell.crowded_edges += uses.size() > 2;
+    shell.turned_edges += uses.size() == 2 && uses[0].upwards == uses[1].upwards;
+  });
+  for (const Rim& rim : rims) {
+    Shell& shell = shells.list[shells.of[rim.triangles[0]]];
+    shell.volume += fan_six_volumes(mesh, rim, mesh.positions[mesh.triangles[shell.first][0]]) / 6;
+    shell.caps += fan_twice_area(mesh, rim) / 2;
+  }
+  find_cavities(mesh, shells);
+  return shells;
+}
+
+double turns_around(const TriMesh& mesh, const Shells& shells, Vec3d place, int except) {
+  double sum = 0;
+  for (int t = 0; t < int(mesh.triangles.size()); ++t) {
+    if (shells.of[t] < 0 || shells.of[t] == except) continue;
+    const auto& [a, b, c] = mesh.triangles[t];
+    sum += solid_angle(mesh.positions[a] - place, mesh.positions[b] - place, mesh.positions[c] - place);
+  }
+  return sum / (4 * portable::pi);
+}
+
+}  // namespace trocar::geometry
