@@ -5,7 +5,6 @@
 #include <trocar/geometry/surfaces/crossings.hpp>
 #include <trocar/geometry/surfaces/groups.hpp>
 #include <trocar/geometry/tets/tet_faces.hpp>
-#include <trocar/numerics/portable.hpp>
 
 namespace trocar::geometry {
 namespace {
@@ -127,18 +126,6 @@ bool is_degenerate(const TriMesh& mesh, int triangle) {
     longest2 = std::max(longest2, dot(side, side));
   }
   return !(length(area_vector(mesh, triangle)) > kNoHeight * longest2);
-}
-
-double least_angle_deg(const TriMesh& mesh, int triangle) {
-  const auto& t = mesh.triangles[triangle];
-  const double twice = length(area_vector(mesh, triangle));
-  double least = portable::pi;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3d p = mesh.positions[t[k]];
-    least = std::min(
-        least, portable::atan2(twice, dot(mesh.positions[t[(k + 1) % 3]] - p, mesh.positions[t[(k + 2) % 3]] - p)));
-  }
-  return least * 180 / portable::pi;
 }
 
 Diagnosis examine(const TriMesh& mesh, const ExamineOptions& options) {

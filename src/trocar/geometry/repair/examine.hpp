@@ -89,6 +89,5 @@ std::vector<int> fans_of(const TriMesh& mesh, const EdgeTable& edges);
 /// Is it a place that lengths and volumes can be taken of?
 bool is_place(Vec3d p);
 bool is_degenerate(const TriMesh& mesh, int triangle);
-double least_angle_deg(const TriMesh& mesh, int triangle);
 
 }  // namespace trocar::geometry

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include <trocar/geometry/repair/edge_table.hpp>
+#include <trocar/geometry/surfaces/edge_table.hpp>
 
 namespace trocar::geometry {
 

@@ -46,20 +46,32 @@ void number_shells(const TriMesh& mesh, const EdgeTable& edges, Shells& shells) 
   }
 }
 
+/// Some places of a shell, spread over its triangles: near an open end another shell does not quite go around it.
+std::vector<Vec3d> places_on(const TriMesh& mesh, const Shells& shells, int shell) {
+  constexpr int some = 5;
+  std::vector<Vec3d> out;
+  const int every = std::max(1, shells.list[shell].triangles / some);
+  int seen = 0;
+  for (int t = shells.list[shell].first; t < int(mesh.triangles.size()); ++t)
+    if (shells.of[t] == shell && seen++ % every == 0) out.push_back(mesh.positions[mesh.triangles[t][0]]);
+  return out;
+}
+
 /// Shells that face inwards within another one are cavities.
 void find_cavities(const TriMesh& mesh, Shells& shells) {
   int looked = 0;
-  constexpr int most = 1000;  // each of them looks at all triangles
+  constexpr int most = 200;  // each of them looks at all triangles, some times
   for (int s = 0; s < int(shells.list.size()) && looked < most; ++s) {
     Shell& shell = shells.list[s];
     if (!(shell.volume < 0) || shell.turned_edges > 0) continue;
-    const Vec3d place = mesh.positions[mesh.triangles[shell.first][0]];
+    const std::vector<Vec3d> places = places_on(mesh, shells, s);
     const bool surrounded = std::any_of(shells.list.begin(), shells.list.end(), [&](const Shell& other) {
-      return &other != &shell && other.volume > 0 && is_within(place, other.box);
+      return &other != &shell && other.volume > 0 && is_within(places[0], other.box);
     });
     if (!surrounded) continue;
     ++looked;
-    shell.is_cavity = turns_around(mesh, shells, place, s) > 0.5;
+    shell.is_cavity = std::any_of(places.begin(), places.end(),
+                                  [&](Vec3d p) { return turns_around(mesh, shells, p, s) > 0.7; });
   }
 }
 

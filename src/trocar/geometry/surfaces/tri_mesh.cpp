@@ -3,6 +3,7 @@
 #include <map>
 
 #include <trocar/geometry/surfaces/tri_mesh.hpp>
+#include <trocar/numerics/portable.hpp>
 
 namespace trocar::geometry {
 namespace {
@@ -69,6 +70,18 @@ double area(const TriMesh& mesh) {
   double sum = 0.0;
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) sum += 0.5 * length(area_vector(mesh, t));
   return sum;
+}
+
+double least_angle_deg(const TriMesh& mesh, int t) {
+  const auto& corners = mesh.triangles[t];
+  const double twice = length(area_vector(mesh, t));
+  double least = portable::pi;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3d p = mesh.positions[corners[k]];
+    least = std::min(
+        least, portable::atan2(twice, dot(mesh.positions[corners[(k + 1) % 3]] - p, mesh.positions[corners[(k + 2) % 3]] - p)));
+  }
+  return least * 180 / portable::pi;
 }
 
 double volume(const TriMesh& mesh) {

@@ -28,6 +28,8 @@ Vec3d area_vector(const TriMesh& mesh, int t);
 /// mesh inscribed in a sphere gets the sphere's normals exactly. [Max 1999, Weights for computing vertex normals]
 std::vector<Vec3d> vertex_normals(const TriMesh& mesh);
 double area(const TriMesh& mesh);
+/// The smallest angle of triangle t [degrees].
+double least_angle_deg(const TriMesh& mesh, int t);
 /// Enclosed volume (closed meshes): positive where triangles face outwards.
 double volume(const TriMesh& mesh);
 /// Centre of the enclosed volume (closed meshes).

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include <trocar/geometry/repair/edge_table.hpp>
+#include <trocar/geometry/surfaces/edge_table.hpp>
 
 namespace trocar::geometry {
 

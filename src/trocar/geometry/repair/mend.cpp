@@ -1,0 +1,98 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <trocar/geometry/repair/cleaned.hpp>
+#include <trocar/geometry/repair/degenerate.hpp>
+#include <trocar/geometry/repair/mend.hpp>
+#include <trocar/geometry/repair/oriented.hpp>
+#include <trocar/geometry/repair/parted.hpp>
+#include <trocar/geometry/repair/untangled.hpp>
+#include <trocar/geometry/tets/tet_faces.hpp>
+
+namespace trocar::geometry {
+namespace {
+
+class MeshMending {
+ public:
+  MeshMending(const TriMesh& mesh, const MendOptions& options) : m_options(options) {
+    m_out.mesh = mesh;
+    m_out.before = examine(mesh, {options.tolerance});
+  }
+
+  MendedMesh run() {
+    if (m_out.before.is_body() && m_out.before.unused.empty()) {
+      m_out.after = m_out.before;
+      return std::move(m_out);
+    }
+    clean();
+    close();
+    uncross();
+    m_out.after = examine(m_out.mesh, {m_options.tolerance});
+    tell_what_is_left();
+    return std::move(m_out);
+  }
+
+ private:
+  MendOptions m_options;
+  MendedMesh m_out;
+
+  void take(Repaired done) {
+    m_out.mesh = std::move(done.mesh);
+    m_out.changes.insert(m_out.changes.end(), done.changes.begin(), done.changes.end());
+    m_out.left.insert(m_out.left.end(), done.left.begin(), done.left.end());
+  }
+
+  void clean() {
+    take(without_broken(m_out.mesh));
+    const double size = diagonal(bounds(m_out.mesh.positions));
+    take(welded(m_out.mesh, m_options.tolerance * size));
+    take(without_duplicates(m_out.mesh));
+    take(without_unused(m_out.mesh));
+    take(with_borders_welded(m_out.mesh, m_options.crack * size));
+    take(parted(m_out.mesh));
+    take(without_degenerate(m_out.mesh));
+    take(oriented(m_out.mesh));
+    take(without_small_shells(m_out.mesh, m_options.smallest_shell, true));
+  }
+
+  void close() {
+    take(with_holes_closed(m_out.mesh, m_options.holes));
+    take(without_degenerate(m_out.mesh));
+    take(oriented(m_out.mesh));
+  }
+
+  void uncross() {
+    if (!check_edges(m_out.mesh).closed()) return;
+    Repaired eased = untangled(m_out.mesh);
+    const bool still = !eased.left.empty();
+    if (still && m_options.refill && refill()) return;
+    take(std::move(eased));
+  }
+
+  bool refill() {
+    Refilled fresh = refilled(m_out.mesh, m_options.refilling);
+    if (fresh.mesh.triangles.empty()) {
+      m_out.left.push_back("it could not be made anew: " + fresh.why);
+      return false;
+    }
+    m_out.mesh = parted(fresh.mesh).mesh;
+    m_out.was_refilled = true;
+    m_out.changes.push_back({"refilled", 1,
+                             fmt::format("made anew with cells of {:.3g} mm, {:.3g} mm off at most", 1000 * fresh.cell,
+                                         1000 * fresh.farthest)});
+    return true;
+  }
+
+  void tell_what_is_left() {
+    if (m_out.after.is_body()) return;
+    for (const Finding& f : findings(m_out.after))
+      if (f.fault != MeshFault::several_shells && f.fault != MeshFault::slivers) m_out.left.push_back(f.words);
+  }
+};
+
+}  // namespace
+
+MendedMesh mend(const TriMesh& mesh, const MendOptions& options) { return MeshMending(mesh, options).run(); }
+
+}  // namespace trocar::geometry
