@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include <trocar/geometry/surfaces/edge_table.hpp>
 #include <trocar/geometry/remesh/editable.hpp>
+#include <trocar/geometry/surfaces/edge_table.hpp>
 
 namespace trocar::geometry {
 

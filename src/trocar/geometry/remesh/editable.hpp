@@ -1,5 +1,5 @@
-// A triangle mesh that is changed edge by edge: edges collapse, are split and flipped, and it stays the manifold that it
-// was. What remeshing, thinning out and patching are made of.
+// A triangle mesh that is changed edge by edge: edges collapse, are split and flipped, and it stays the manifold that
+// it was. What remeshing, thinning out and patching are made of.
 //
 //   EditableMesh work(mesh);
 //   if (work.can_collapse(a, b)) work.collapse(a, b);      // a goes, its triangles take b

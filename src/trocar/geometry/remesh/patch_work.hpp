@@ -23,7 +23,8 @@ class PatchWork {
   /// @param faces  alive; the surface around them needs no more than to be there
   PatchWork(EditableMesh& mesh, std::vector<int> faces);
 
-  /// Splits triangles until their edges are as long as those around the border, and flips edges to keep them well shaped.
+  /// Splits triangles until their edges are as long as those around the border, and flips edges to keep them well
+  /// shaped.
   void refine();
   /// Moves the vertices within.
   void fair(PatchShape shape);

@@ -11,14 +11,19 @@ namespace trocar::geometry {
 namespace {
 
 constexpr double kLongEdge = 4.0 / 3, kShortEdge = 4.0 / 5;  ///< of the wanted length [Botsch & Kobbelt 2004]
-constexpr double kLeastTurnKept = 0.5;                        ///< cosine between a triangle before and after a change
+constexpr double kLeastTurnKept = 0.5;                       ///< cosine between a triangle before and after a change
 
 constexpr const char* kTooFine = "longer edges expected: the surface would have too many triangles";
 
 class Remeshing {
  public:
   Remeshing(const TriMesh& mesh, double edge, const RemeshOptions& options)
-      : m_given(mesh), m_tree(mesh), m_work(mesh), m_edge(edge), m_most(options.most_triangles), m_sharp(portable::cos(options.sharp_deg * portable::pi / 180)) {}
+      : m_given(mesh),
+        m_tree(mesh),
+        m_work(mesh),
+        m_edge(edge),
+        m_most(options.most_triangles),
+        m_sharp(portable::cos(options.sharp_deg * portable::pi / 180)) {}
 
   void round() {
     split_long();
@@ -77,8 +82,9 @@ class Remeshing {
   bool collapsed(int a, int b) {
     const int kept_a = kept_at(a), kept_b = kept_at(b);
     const bool kept = is_kept(a, b);
-    if (kept_a > 0 && kept_b > 0 && !kept) return false;        // across from one kept edge to another
-    const bool a_stays = kept_a > 0 && (kept_b == 0 || kept_a != 2), b_stays = kept_b > 0 && (kept_a == 0 || kept_b != 2);
+    if (kept_a > 0 && kept_b > 0 && !kept) return false;  // across from one kept edge to another
+    const bool a_stays = kept_a > 0 && (kept_b == 0 || kept_a != 2),
+               b_stays = kept_b > 0 && (kept_a == 0 || kept_b != 2);
     if (a_stays && b_stays) return false;
     const int from = a_stays ? b : a, into = a_stays ? a : b;
     const bool to_middle = !a_stays && !b_stays && !(kept_a > 0);
@@ -191,8 +197,7 @@ Remeshed remeshed(const TriMesh& mesh, double edge, const RemeshOptions& options
   if (!(edge > 0)) throw std::invalid_argument("an edge longer than 0 expected");
   Remeshed out{mesh, 0, 0, volume(mesh), 0, 0};
   if (mesh.triangles.empty()) return out;
-  if (area(mesh) / (0.433 * edge * edge) > options.most_triangles)
-    throw std::invalid_argument(kTooFine);
+  if (area(mesh) / (0.433 * edge * edge) > options.most_triangles) throw std::invalid_argument(kTooFine);
   Remeshing work(mesh, edge, options);
   for (int round = 0; round < options.rounds; ++round) work.round();
   out.mesh = work.taken();

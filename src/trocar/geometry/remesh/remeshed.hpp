@@ -14,7 +14,7 @@ namespace trocar::geometry {
 
 struct RemeshOptions {
   int rounds = 6;
-  double sharp_deg = 50;      ///< edges at which the surface turns by more are kept
+  double sharp_deg = 50;  ///< edges at which the surface turns by more are kept
   int most_triangles = 2'000'000;
 };
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/geometry/surfaces/edge_table.hpp>
 #include <trocar/geometry/remesh/smoothed.hpp>
+#include <trocar/geometry/surfaces/edge_table.hpp>
 
 namespace trocar::geometry {
 namespace {

@@ -1,5 +1,6 @@
 // A surface is smoothed and keeps its volume: passes that shrink and passes that swell in turn [Taubin 1995, A signal
-// processing approach to fair surface design], and at the end a shift along the normals that gives back what is missing.
+// processing approach to fair surface design], and at the end a shift along the normals that gives back what is
+// missing.
 //
 //   const Smoothed organ = smoothed(mesh, 10);
 //   say(organ.volume_before, organ.volume);

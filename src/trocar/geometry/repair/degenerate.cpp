@@ -2,19 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <trocar/geometry/repair/degenerate.hpp>
 #include <trocar/geometry/remesh/editable.hpp>
+#include <trocar/geometry/repair/degenerate.hpp>
 #include <trocar/geometry/repair/examine.hpp>
 
 namespace trocar::geometry {
 namespace {
 
 constexpr int kFlatRounds = 10;
-constexpr double kNeedle = 1e-3;  ///< an edge that much shorter than the longest one collapses rather
+constexpr double kNeedle = 4;         ///< times the height that is none: an edge shorter than that collapses
+constexpr double kLastResort = 1e-3;  ///< of the longest side: a short one collapses where nothing can be flipped
 
 class Flat {
  public:
-  explicit Flat(const TriMesh& mesh) : m_work(mesh) {}
+  Flat(const TriMesh& mesh, double height) : m_work(mesh), m_height(height) {}
 
   int remove_all() {
     int count = 0;
@@ -35,6 +36,7 @@ class Flat {
 
  private:
   EditableMesh m_work;
+  double m_height;
 
   double side(int f, int k) const {
     const auto& t = m_work.face(f);
@@ -57,19 +59,19 @@ class Flat {
     const double most = side(f, longest(f));
     return most > 0 ? length(m_work.area_vector(f)) / (most * most) : 0;
   }
-  bool is_flat_face(int f) const { return !(lowness(f) > kNoHeight); }
+  bool is_flat_face(int f) const { return !(lowness(f) > kNoHeight) || lowness(f) * side(f, longest(f)) < m_height; }
 
   bool remove(int f) {
     const int l = longest(f), s = shortest(f);
-    const bool needle = side(f, s) <= kNeedle * side(f, l);
-    if (needle && collapsed(f, s)) return true;
+    const double low = std::max(m_height, kNoHeight * side(f, l));
+    if (side(f, s) <= kNeedle * low && collapsed(f, s)) return true;
     const auto t = m_work.face(f);
     const int a = t[l], b = t[(l + 1) % 3];
     if (m_work.sides(a, b).count == 1) {  // its long edge is a border: the other two become it
       m_work.kill(f);
       return true;
     }
-    return flipped(f, a, b) || (!needle && collapsed(f, s));
+    return flipped(f, a, b) || (side(f, s) <= kLastResort * side(f, l) && collapsed(f, s));
   }
 
   bool collapsed(int f, int k) {
@@ -97,13 +99,11 @@ class Flat {
 
 }  // namespace
 
-Repaired without_degenerate(const TriMesh& mesh) {
+Repaired without_degenerate(const TriMesh& mesh, double height) {
   Repaired out{mesh, {}, {}};
   const int twice = int(std::count_if(mesh.triangles.begin(), mesh.triangles.end(), corner_twice));
-  int flat = 0;
-  for (int t = 0; t < int(mesh.triangles.size()); ++t) flat += is_degenerate(mesh, t);
-  if (flat == 0) return out;
-  Flat work(mesh);
+  Flat work(mesh, height);
+  if (twice + work.left() == 0) return out;
   const int removed = twice + work.remove_all();
   if (removed > 0) out.mesh = work.taken();
   out.tell("without_degenerate", removed, "triangle without area taken out", "triangles without area taken out");

@@ -6,7 +6,8 @@
 
 namespace trocar::geometry {
 
-/// @param mesh  where edges have more than two triangles, what is degenerate there stays; see parted()
-Repaired without_degenerate(const TriMesh& mesh);
+/// @param mesh    where edges have more than two triangles, what is degenerate there stays; see parted()
+/// @param height  [m] lower ones go, too; the surface moves by about as much at most
+Repaired without_degenerate(const TriMesh& mesh, double height = 0);
 
 }  // namespace trocar::geometry

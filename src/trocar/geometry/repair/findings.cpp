@@ -65,7 +65,7 @@ std::vector<Finding> findings(const Diagnosis& d) {
   add(MeshFault::crossings, d.crossings.size(),
       fmt::format("{}{} that cross", d.all_crossings ? "" : "more than ",
                   counted(d.crossings.size(), "pair of triangles", "pairs of triangles")),
-      "untangled");
+      "resolved");
   add(MeshFault::several_shells, d.shells.list.size() > 1 ? d.shells.list.size() : 0, shells_in_words(d),
       "without_small_shells");
   add(MeshFault::slivers, d.slivers.size(),

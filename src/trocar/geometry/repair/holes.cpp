@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <trocar/geometry/surfaces/edge_table.hpp>
-#include <trocar/geometry/repair/holes.hpp>
 #include <trocar/geometry/remesh/patch_work.hpp>
+#include <trocar/geometry/repair/holes.hpp>
 #include <trocar/geometry/repair/rim_bridge.hpp>
 #include <trocar/geometry/repair/rim_patch.hpp>
 #include <trocar/geometry/repair/shells.hpp>
+#include <trocar/geometry/surfaces/edge_table.hpp>
+#include <trocar/geometry/surfaces/groups.hpp>
 
 namespace trocar::geometry {
 namespace {
@@ -21,19 +22,26 @@ constexpr double kSmallLid = 0.05;
 class HoleClosing {
  public:
   HoleClosing(const TriMesh& mesh, const HoleOptions& options)
-      : m_mesh(mesh), m_options(options), m_edges(mesh), m_rims(rims_of(mesh, m_edges)),
-        m_shells(shells_of(mesh, m_edges, m_rims)), m_neighbours(vertex_neighbours(mesh)), m_work(mesh),
+      : m_mesh(mesh),
+        m_options(options),
+        m_edges(mesh),
+        m_rims(rims_of(mesh, m_edges)),
+        m_shells(shells_of(mesh, m_edges, m_rims)),
+        m_neighbours(vertex_neighbours(mesh)),
+        m_work(mesh),
         m_closed(m_rims.size()) {}
 
   Repaired run() {
-    leave_sheets();
-    if (m_options.rings) close_walls();
+    Groups joined(m_shells.list.size());
+    if (m_options.rings) close_walls(joined);
+    leave_sheets(joined);
     for (std::size_t r = 0; r < m_rims.size(); ++r)
       if (!m_closed[r]) close(m_rims[r]);
     refine(m_flat, PatchShape::stretched);
     refine(m_curved, PatchShape::continued);
     m_out.mesh = m_rings + m_lids > 0 ? m_work.taken() : m_mesh;
-    m_out.tell("with_holes_closed", m_rings, "wall closed by a ring between its rims", "walls closed by rings between their rims");
+    m_out.tell("with_holes_closed", m_rings, "wall closed by a ring between its rims",
+               "walls closed by rings between their rims");
     m_out.tell("with_holes_closed", m_lids, "hole closed", "holes closed");
     if (m_lids > 0) m_out.changes.back().words += fmt::format(", the largest of {:.3g} cm2", 1e4 * m_largest);
     return std::move(m_out);
@@ -53,28 +61,31 @@ class HoleClosing {
   double m_largest = 0;  ///< [m^2] of a lid
   Repaired m_out;
 
-  void leave_sheets() {
-    std::vector<bool> is_sheet(m_shells.list.size());
-    for (std::size_t s = 0; s < is_sheet.size(); ++s) {
-      const Shell& shell = m_shells.list[s];
-      is_sheet[s] = !m_options.sheets && shell.open_edges > 0 && shell.caps > kSheetLids * shell.area;
-      if (is_sheet[s])
-        m_out.left.push_back(fmt::format("a sheet of {:.3g} cm2 is left open: it encloses nothing", 1e4 * shell.area));
-    }
-    for (std::size_t r = 0; r < m_rims.size(); ++r)
-      m_closed[r] = is_sheet[m_shells.of[m_rims[r].triangles[0]]];
-  }
+  int shell_of(const Rim& rim) const { return m_shells.of[rim.triangles[0]]; }
 
-  void close_walls() {
-    std::vector<Rim> open = m_rims;
-    for (std::size_t r = 0; r < open.size(); ++r) open[r].is_loop = open[r].is_loop && !m_closed[r];
-    for (const auto& [outer, inner] : concentric_rims(m_mesh, open)) {
+  void close_walls(Groups& joined) {
+    for (const auto& [outer, inner] : concentric_rims(m_mesh, m_rims)) {
       const auto ring = rim_bridge(m_mesh, m_rims[outer], m_rims[inner]);
       if (ring.empty()) continue;
       for (const auto& t : ring) m_work.add_face(t);
       m_closed[outer] = m_closed[inner] = true;
+      joined.join(shell_of(m_rims[outer]), shell_of(m_rims[inner]));
       ++m_rings;
     }
+  }
+
+  /// What would be closed by lids that are as large as itself is left; shells that rings have joined count as one.
+  void leave_sheets(Groups& joined) {
+    std::vector<double> area(m_shells.list.size()), lids(area.size());
+    for (std::size_t s = 0; s < area.size(); ++s) area[joined.root(int(s))] += m_shells.list[s].area;
+    for (std::size_t r = 0; r < m_rims.size(); ++r)
+      if (!m_closed[r]) lids[joined.root(shell_of(m_rims[r]))] += 0.5 * fan_twice_area(m_mesh, m_rims[r]);
+    const auto is_sheet = [&](int s) { return !m_options.sheets && lids[s] > kSheetLids * area[s]; };
+    for (int s = 0; s < int(area.size()); ++s)
+      if (is_sheet(s))
+        m_out.left.push_back(fmt::format("a sheet of {:.3g} cm2 is left open: it encloses nothing", 1e4 * area[s]));
+    for (std::size_t r = 0; r < m_rims.size(); ++r)
+      if (is_sheet(joined.root(shell_of(m_rims[r])))) m_closed[r] = true;
   }
 
   void close(const Rim& rim) {
@@ -84,8 +95,7 @@ class HoleClosing {
     }
     std::vector<int> loop(rim.vertices.rbegin(), rim.vertices.rend());  // the patch runs against the surface
     const double lid = 0.5 * fan_twice_area(m_mesh, rim);
-    const bool curved = m_options.smooth && lid < kSmallLid * m_shells.list[m_shells.of[rim.triangles[0]]].area &&
-                        !is_tube_end(rim);
+    const bool curved = m_options.smooth && lid < kSmallLid * m_shells.list[shell_of(rim)].area && !is_tube_end(rim);
     std::vector<int>& group = curved ? m_curved : m_flat;
     m_largest = std::max(m_largest, lid);
     const auto triangles = rim_patch(patch_loop(rim, loop));

@@ -1,6 +1,6 @@
 // Holes are closed: rims of walls by a ring between them (rim_bridge.hpp), others by a patch (rim_patch.hpp) that is as
-// fine as what is around it. Small ones go on as the surface does; where a tube ends, or a lid is large, it is stretched
-// like a soap film (remesh/patch_work.hpp).
+// fine as what is around it. Small ones go on as the surface does; where a tube ends, or a lid is large, it is
+// stretched like a soap film (remesh/patch_work.hpp).
 //
 //   const Repaired closed = with_holes_closed(mesh);
 //   for (const std::string& words : closed.left) ...     // "a sheet of 12 cm2 is left open"
@@ -13,10 +13,10 @@
 namespace trocar::geometry {
 
 struct HoleOptions {
-  bool rings = true;     ///< between rims of a wall; otherwise lids on both
-  bool smooth = true;    ///< small patches go on as the surface does; otherwise all are stretched
-  bool refine = true;    ///< patches are as fine as what is around; otherwise they have no vertices of their own
-  bool sheets = false;   ///< close those, too
+  bool rings = true;    ///< between rims of a wall; otherwise lids on both
+  bool smooth = true;   ///< small patches go on as the surface does; otherwise all are stretched
+  bool refine = true;   ///< patches are as fine as what is around; otherwise they have no vertices of their own
+  bool sheets = false;  ///< close those, too
 };
 /// Lids that are more than this share of a shell's area close a sheet; half a ball has one of 0.5.
 inline constexpr double kSheetLids = 0.7;

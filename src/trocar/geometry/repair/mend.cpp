@@ -7,7 +7,9 @@
 #include <trocar/geometry/repair/mend.hpp>
 #include <trocar/geometry/repair/oriented.hpp>
 #include <trocar/geometry/repair/parted.hpp>
+#include <trocar/geometry/repair/resolved.hpp>
 #include <trocar/geometry/repair/untangled.hpp>
+#include <trocar/geometry/surfaces/crossings.hpp>
 #include <trocar/geometry/tets/tet_faces.hpp>
 
 namespace trocar::geometry {
@@ -36,6 +38,7 @@ class MeshMending {
  private:
   MendOptions m_options;
   MendedMesh m_out;
+  double m_near = 0;  ///< [m] what is nearer is one
 
   void take(Repaired done) {
     m_out.mesh = std::move(done.mesh);
@@ -46,28 +49,65 @@ class MeshMending {
   void clean() {
     take(without_broken(m_out.mesh));
     const double size = diagonal(bounds(m_out.mesh.positions));
-    take(welded(m_out.mesh, m_options.tolerance * size));
+    m_near = m_options.tolerance * size;
+    take(welded(m_out.mesh, m_near));
     take(without_duplicates(m_out.mesh));
     take(without_unused(m_out.mesh));
     take(with_borders_welded(m_out.mesh, m_options.crack * size));
     take(parted(m_out.mesh));
-    take(without_degenerate(m_out.mesh));
+    take(without_degenerate(m_out.mesh, m_near));
     take(oriented(m_out.mesh));
     take(without_small_shells(m_out.mesh, m_options.smallest_shell, true));
   }
 
   void close() {
     take(with_holes_closed(m_out.mesh, m_options.holes));
-    take(without_degenerate(m_out.mesh));
+    take(without_degenerate(m_out.mesh, m_near));
     take(oriented(m_out.mesh));
   }
 
+  /// Of what is closed; sheets that were left open are set aside.
   void uncross() {
-    if (!check_edges(m_out.mesh).closed()) return;
-    Repaired eased = untangled(m_out.mesh);
-    const bool still = !eased.left.empty();
-    if (still && m_options.refill && refill()) return;
-    take(std::move(eased));
+    TriMesh sheets = set_aside_open();
+    if (!m_out.mesh.triangles.empty()) {
+      Repaired cut = resolved(m_out.mesh);
+      if (cut.left.empty()) {
+        take(std::move(cut));
+        thin_out();
+      } else {
+        Repaired eased = untangled(m_out.mesh);
+        if (eased.left.empty() || !m_options.refill || !refill()) take(std::move(eased));
+      }
+    }
+    append(m_out.mesh, sheets);
+  }
+
+  /// Takes shells with holes, and such as are not of one mind, out of the mesh.
+  TriMesh set_aside_open() {
+    const EdgeTable edges(m_out.mesh);
+    const Shells shells = shells_of(m_out.mesh, edges, {});
+    TriMesh closed{m_out.mesh.positions, {}}, open = closed;
+    for (std::size_t t = 0; t < m_out.mesh.triangles.size(); ++t)
+      (shells.list[shells.of[t]].closed() ? closed : open).triangles.push_back(m_out.mesh.triangles[t]);
+    if (open.triangles.empty()) return {};
+    m_out.mesh = without_unused(closed).mesh;
+    return without_unused(open).mesh;
+  }
+
+  static void append(TriMesh& to, const TriMesh& mesh) {
+    const int shift = int(to.positions.size());
+    to.positions.insert(to.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    for (const auto& [a, b, c] : mesh.triangles) to.triangles.push_back({a + shift, b + shift, c + shift});
+  }
+
+  /// Along lines of crossing there are triangles that hardly have an area: those that can go without a new crossing do.
+  void thin_out() {
+    for (const double height : {m_near, 0.1 * m_near, 0.0}) {
+      Repaired thinner = without_degenerate(m_out.mesh, height);
+      if (!thinner.changed()) continue;
+      if (check_edges(thinner.mesh).closed() && self_crossings(thinner.mesh).pairs.empty())
+        return take(std::move(thinner));
+    }
   }
 
   bool refill() {

@@ -5,8 +5,8 @@
 //   const MendedMesh organ = mend(file_mesh);
 //   if (!organ.after.is_body()) say(organ.left);       // "a sheet of 12 cm2 is left open: it encloses nothing"
 //
-// A mesh that is a body already stays as it is, to the bit. What comes out is one (Diagnosis::is_body()), or `left` says
-// what could not be done. Lengths in metres.
+// A mesh that is a body already stays as it is, to the bit. What comes out is one (Diagnosis::is_body()), or `left`
+// says what could not be done. Lengths in metres.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct MendOptions {
   double crack = 1e-3;           ///< the same for borders, where no edge there is short
   double smallest_shell = 1e-3;  ///< open shells of less than this share of the largest one's area are left out
   HoleOptions holes;
-  bool refill = true;            ///< make anew what crosses, where nothing else helps
+  bool refill = true;  ///< make anew what crosses, where nothing else helps
   RefillOptions refilling;
 };
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/geometry/surfaces/edge_table.hpp>
 #include <trocar/geometry/remesh/editable.hpp>
 #include <trocar/geometry/repair/parted.hpp>
+#include <trocar/geometry/surfaces/edge_table.hpp>
 #include <trocar/geometry/surfaces/groups.hpp>
 #include <trocar/numerics/portable.hpp>
 

@@ -1,5 +1,5 @@
-// A surface that passes through itself is made anew from what it encloses: the field of distances (volumes/field.hpp) is
-// filled with cells (tets/stuffing.hpp), and their skin is the new surface. Also a sheet gets a thickness that way.
+// A surface that passes through itself is made anew from what it encloses: the field of distances (volumes/field.hpp)
+// is filled with cells (tets/stuffing.hpp), and their skin is the new surface. Also a sheet gets a thickness that way.
 //
 //   const Refilled body = refilled(mesh);                     // as fine as the mesh is, as far as that is bounded
 //   const Refilled wall = thickened(sheet, 0.002);            // 2 mm
@@ -15,13 +15,13 @@
 namespace trocar::geometry {
 
 struct RefillOptions {
-  double cell = 0;            ///< [m] edge of the cubes; 0: three quarters of the mesh's mean edge
-  int most_cells = 1'500'000; ///< larger cubes where there would be more
+  double cell = 0;             ///< [m] edge of the cubes; 0: three quarters of the mesh's mean edge
+  int most_cells = 1'500'000;  ///< larger cubes where there would be more
 };
 
 struct Refilled {
-  TriMesh mesh;      ///< closed; empty where nothing could be made, with the reason in `why`
-  double cell = 0;   ///< [m] that it was made with
+  TriMesh mesh;         ///< closed; empty where nothing could be made, with the reason in `why`
+  double cell = 0;      ///< [m] that it was made with
   double farthest = 0;  ///< [m] of the given mesh's vertices from the new surface
   std::string why;
 };

@@ -7,10 +7,10 @@
 namespace trocar::geometry {
 namespace {
 
-constexpr double kOnePlane = 0.8;       ///< cosine between the planes of two rims
-constexpr double kPlaneOff = 0.6;       ///< of one from the other's plane, in radii of the outer one
-constexpr double kWithin = 0.95;        ///< share of the inner one's corners that lie within the outer one
-constexpr std::size_t kMostRims = 2000; ///< that are looked at for pairs
+constexpr double kOnePlane = 0.8;               ///< cosine between the planes of two rims
+constexpr double kPlaneOff = 0.6;               ///< of one from the other's plane, in radii of the outer one
+constexpr double kWithin = 0.8;                 ///< share of the inner one's corners that lie within the outer one
+constexpr std::size_t kMostRims = 2000;         ///< that are looked at for pairs
 constexpr std::size_t kMostBridge = 4'000'000;  ///< corners of one times corners of the other
 
 /// A rim as a flat shape.
@@ -50,7 +50,8 @@ bool is_inside(const TriMesh& mesh, const Rim& outline, const FlatRim& plane, Ve
   return inside;
 }
 
-bool is_within(const TriMesh& mesh, const Rim& outer, const FlatRim& around, const Rim& inner, const FlatRim& flat_inner) {
+bool is_within(const TriMesh& mesh, const Rim& outer, const FlatRim& around, const Rim& inner,
+               const FlatRim& flat_inner) {
   if (!(flat_inner.area < around.area) || dot(flat_inner.normal, around.normal) > -kOnePlane) return false;
   if (std::fabs(dot(flat_inner.middle - around.middle, around.normal)) > kPlaneOff * around.radius) return false;
   if (length(flat_inner.middle - around.middle) > around.radius) return false;

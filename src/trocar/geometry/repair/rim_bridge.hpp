@@ -1,5 +1,5 @@
-// Walls with an outer and an inner surface end in two rims, one within the other: a bowel that was cut, a vessel. A ring
-// of triangles between the two closes the wall and leaves the lumen open, where a lid on each would close that.
+// Walls with an outer and an inner surface end in two rims, one within the other: a bowel that was cut, a vessel. A
+// ring of triangles between the two closes the wall and leaves the lumen open, where a lid on each would close that.
 //
 //   for (const auto& [outer, inner] : concentric_rims(mesh, rims)) add(rim_bridge(mesh, rims[outer], rims[inner]));
 #pragma once

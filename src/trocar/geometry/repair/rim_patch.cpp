@@ -22,7 +22,10 @@ double turn_between(Vec3d a, Vec3d b) { return a == Vec3d{} || b == Vec3d{} ? 0 
 class PatchTable {
  public:
   PatchTable(const PatchLoop& loop, std::vector<int> corners)
-      : m_loop(loop), m_corners(std::move(corners)), m_count(int(m_corners.size())), m_runs(std::size_t(m_count) * m_count) {}
+      : m_loop(loop),
+        m_corners(std::move(corners)),
+        m_count(int(m_corners.size())),
+        m_runs(std::size_t(m_count) * m_count) {}
 
   bool fill() {
     for (int i = 0; i + 1 < m_count; ++i) at(i, i + 1).normal = outside(i);

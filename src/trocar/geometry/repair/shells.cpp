@@ -70,8 +70,8 @@ void find_cavities(const TriMesh& mesh, Shells& shells) {
     });
     if (!surrounded) continue;
     ++looked;
-    shell.is_cavity = std::any_of(places.begin(), places.end(),
-                                  [&](Vec3d p) { return turns_around(mesh, shells, p, s) > 0.7; });
+    shell.is_cavity =
+        std::any_of(places.begin(), places.end(), [&](Vec3d p) { return turns_around(mesh, shells, p, s) > 0.7; });
   }
 }
 
@@ -109,6 +109,16 @@ double turns_around(const TriMesh& mesh, const Shells& shells, Vec3d place, int 
   double sum = 0;
   for (int t = 0; t < int(mesh.triangles.size()); ++t) {
     if (shells.of[t] < 0 || shells.of[t] == except) continue;
+    const auto& [a, b, c] = mesh.triangles[t];
+    sum += solid_angle(mesh.positions[a] - place, mesh.positions[b] - place, mesh.positions[c] - place);
+  }
+  return sum / (4 * portable::pi);
+}
+
+double turns_without(const TriMesh& mesh, int triangle, Vec3d place) {
+  double sum = 0;
+  for (int t = 0; t < int(mesh.triangles.size()); ++t) {
+    if (t == triangle) continue;
     const auto& [a, b, c] = mesh.triangles[t];
     sum += solid_angle(mesh.positions[a] - place, mesh.positions[b] - place, mesh.positions[c] - place);
   }

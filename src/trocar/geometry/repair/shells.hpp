@@ -37,5 +37,7 @@ Shells shells_of(const TriMesh& mesh, const EdgeTable& edges, const std::vector<
 /// From solid angles [van Oosterom & Strackee 1983].
 /// @param except  the shell whose triangles do not count, or -1
 double turns_around(const TriMesh& mesh, const Shells& shells, Vec3d place, int except);
+/// The same of all triangles but one.
+double turns_without(const TriMesh& mesh, int triangle, Vec3d place);
 
 }  // namespace trocar::geometry

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kEaseRounds = 8, kCutRounds = 4;
 constexpr double kEaseReach = 0.5;  ///< of its edges' mean, so far a vertex is moved at most
-constexpr double kScrap = 0.05;  ///< an open piece that is smaller than this share of the largest one goes
+constexpr double kScrap = 0.05;     ///< an open piece that is smaller than this share of the largest one goes
 
 /// A crossing surface, and how often it does.
 struct Tangle {

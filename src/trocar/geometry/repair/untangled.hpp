@@ -13,7 +13,8 @@ namespace trocar::geometry {
 /// Of a surface no more than this share is cut out.
 inline constexpr double kMostCutOut = 0.25;
 
-/// @param mesh  closed, each edge with two triangles that agree. What comes out is that, too, and has no more crossings.
+/// @param mesh  closed, each edge with two triangles that agree. What comes out is that, too, and has no more
+/// crossings.
 Repaired untangled(const TriMesh& mesh);
 
 }  // namespace trocar::geometry

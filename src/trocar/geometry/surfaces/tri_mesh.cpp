@@ -78,8 +78,8 @@ double least_angle_deg(const TriMesh& mesh, int t) {
   double least = portable::pi;
   for (int k = 0; k < 3; ++k) {
     const Vec3d p = mesh.positions[corners[k]];
-    least = std::min(
-        least, portable::atan2(twice, dot(mesh.positions[corners[(k + 1) % 3]] - p, mesh.positions[corners[(k + 2) % 3]] - p)));
+    least = std::min(least, portable::atan2(twice, dot(mesh.positions[corners[(k + 1) % 3]] - p,
+                                                       mesh.positions[corners[(k + 2) % 3]] - p)));
   }
   return least * 180 / portable::pi;
 }
