@@ -18,9 +18,7 @@ inline TriMesh turned_inside_out(TriMesh mesh) {
   return mesh;
 }
 inline TriMesh together(TriMesh a, const TriMesh& b) {
-  const int n = int(a.positions.size());
-  a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
-  for (const auto& [i, j, k] : b.triangles) a.triangles.push_back({i + n, j + n, k + n});
+  append(a, b);
   return a;
 }
 /// Every triangle with corners of its own, as STL has them.
@@ -70,6 +68,30 @@ inline TriMesh boxes_at_a_corner() {
   for (auto& t : mesh.triangles)
     for (int& v : t) v = v == 8 ? 7 : v;
   return mesh;
+}
+
+/// A strip of quads around a ring with a half turn: it has one side only.
+inline TriMesh moebius_strip(int around) {
+  TriMesh mesh;
+  for (int i = 0; i < around; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / around;
+    const Vec3d out{std::cos(angle), std::sin(angle), 0};
+    const Vec3d across = 0.3 * (std::cos(angle / 2) * out + Vec3d{0, 0, std::sin(angle / 2)});
+    mesh.positions.push_back(out - across);
+    mesh.positions.push_back(out + across);
+  }
+  for (int i = 0; i < around; ++i) {
+    const bool last = i + 1 == around;
+    const int a = 2 * i, b = a + 1, c = last ? 1 : a + 2, d = last ? 0 : a + 3;
+    mesh.triangles.push_back({a, b, d});
+    mesh.triangles.push_back({a, d, c});
+  }
+  return mesh;
+}
+/// A wall: an outer and an inner tube, each open at both ends, the inner one facing the lumen.
+inline TriMesh open_wall(double radius, double inner, double length, int around, int rounds) {
+  return together(open_tube(radius, length, around, rounds),
+                  turned_inside_out(open_tube(inner, length, around + 3, rounds)));
 }
 
 }  // namespace trocar::geometry

@@ -58,15 +58,26 @@ class Remeshing {
     return int(std::count_if(ring.begin(), ring.end(), [&](int w) { return is_kept(v, w); }));
   }
 
+  /// The longest first: what is left over has no needles.
   void split_long() {
-    for (int f = 0; f < m_work.faces(); ++f)
-      for (int k = 0; k < 3; ++k) {
-        const int a = m_work.face(f)[k], b = m_work.face(f)[(k + 1) % 3];
-        if (!m_work.alive(f) || edge_length(a, b) <= kLongEdge * m_edge) continue;
+    struct Long {
+      double length;
+      int a, b;
+    };
+    for (std::vector<Long> found(1); !found.empty();) {
+      found.clear();
+      for (int f = 0; f < m_work.faces(); ++f)
+        for (int k = 0; m_work.alive(f) && k < 3; ++k) {
+          const int a = m_work.face(f)[k], b = m_work.face(f)[(k + 1) % 3];
+          const bool once = a < b || m_work.sides(a, b).count == 1;
+          if (once && edge_length(a, b) > kLongEdge * m_edge) found.push_back({edge_length(a, b), a, b});
+        }
+      std::stable_sort(found.begin(), found.end(), [](const Long& x, const Long& y) { return x.length > y.length; });
+      for (const auto& [size, a, b] : found) {
         m_work.split(a, b, 0.5 * (m_work.place(a) + m_work.place(b)));
         if (m_work.living_faces() > m_most) throw std::invalid_argument(kTooFine);
-        k = -1;  // the face has changed
       }
+    }
   }
 
   void collapse_short() {

@@ -94,12 +94,6 @@ class MeshMending {
     return without_unused(open).mesh;
   }
 
-  static void append(TriMesh& to, const TriMesh& mesh) {
-    const int shift = int(to.positions.size());
-    to.positions.insert(to.positions.end(), mesh.positions.begin(), mesh.positions.end());
-    for (const auto& [a, b, c] : mesh.triangles) to.triangles.push_back({a + shift, b + shift, c + shift});
-  }
-
   /// Along lines of crossing there are triangles that hardly have an area: those that can go without a new crossing do.
   void thin_out() {
     for (const double height : {m_near, 0.1 * m_near, 0.0}) {
@@ -125,7 +119,7 @@ class MeshMending {
   }
 
   void tell_what_is_left() {
-    if (m_out.after.is_body()) return;
+    if (m_out.after.is_body()) return m_out.left.clear();  // what one repair left, another has mended
     for (const Finding& f : findings(m_out.after))
       if (f.fault != MeshFault::several_shells && f.fault != MeshFault::slivers) m_out.left.push_back(f.words);
   }

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include <trocar/geometry/repair/oriented.hpp>
 #include <trocar/geometry/repair/parted.hpp>
 #include <trocar/geometry/repair/shells.hpp>
@@ -116,7 +114,8 @@ Repaired oriented(const TriMesh& mesh) {
         if (turn[shells.of[t]]) turn_over(out.mesh.triangles[t]);
       break;
     }
-    out.left.push_back(fmt::format("a surface with one side only is parted along {} edges", flood.torn.size()));
+    out.tell("oriented", int(flood.torn.size()), "edge parted, as the surface has one side only",
+             "edges parted, as the surface has one side only");
     before = parted_along(before, flood.torn).mesh;
     out.mesh = before;
   }

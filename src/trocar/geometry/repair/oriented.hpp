@@ -1,6 +1,6 @@
 // All triangles of a shell face the same way, and shells face outwards.
 //
-//   const Repaired good = oriented(mesh);        // good.left says which shells have one side only
+//   const Repaired good = oriented(mesh);
 //
 // Closed shells that were of one mind before and face inwards inside of another one are walls of cavities, and stay so.
 // Open ones that were of one mind stay as they are: which side is which is seen once they are closed. Others are judged

@@ -180,12 +180,6 @@ std::optional<TriMesh> resolved_at_once(const TriMesh& mesh) {
   return std::nullopt;
 }
 
-void append(TriMesh& to, const TriMesh& mesh) {
-  const int shift = int(to.positions.size());
-  to.positions.insert(to.positions.end(), mesh.positions.begin(), mesh.positions.end());
-  for (const auto& [a, b, c] : mesh.triangles) to.triangles.push_back({a + shift, b + shift, c + shift});
-}
-
 /// One shell after the other: where three surfaces meet in a point all at once do not come off. Cavities come last.
 std::optional<TriMesh> resolved_by_shells(const TriMesh& mesh) {
   constexpr std::size_t most = 64;

@@ -91,11 +91,7 @@ TriMesh joined(const SurfaceFile& file) {
   TriMesh all;
   all.positions.reserve(items_of(file, true));
   all.triangles.reserve(items_of(file, false));
-  for (const SurfacePart& part : file.parts) {
-    const int shift = int(all.positions.size());
-    all.positions.insert(all.positions.end(), part.mesh.positions.begin(), part.mesh.positions.end());
-    for (const auto& [a, b, c] : part.mesh.triangles) all.triangles.push_back({a + shift, b + shift, c + shift});
-  }
+  for (const SurfacePart& part : file.parts) append(all, part.mesh);
   return all;
 }
 

@@ -161,6 +161,12 @@ Csr vertex_triangles(const TriMesh& mesh) {
   return from_pairs(static_cast<int>(mesh.positions.size()), std::move(pairs));
 }
 
+void append(TriMesh& mesh, const TriMesh& other) {
+  const int shift = int(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + shift, b + shift, c + shift});
+}
+
 TriMesh merged_vertices(const TriMesh& mesh, double distance) {
   TriMesh result;
   std::map<std::array<long long, 3>, int> known;  // ordered: the numbering follows the first use only

@@ -67,6 +67,9 @@ Csr vertex_neighbours(const TriMesh& mesh);
 /// For each vertex the triangles that use it, ascending.
 Csr vertex_triangles(const TriMesh& mesh);
 
+/// Puts the second mesh behind the first.
+void append(TriMesh& mesh, const TriMesh& other);
+
 /// Vertices closer than `distance` in every coordinate's rounded grid become one; degenerate triangles go.
 /// For meshes from files that repeat the vertices of seams.
 TriMesh merged_vertices(const TriMesh& mesh, double distance);
