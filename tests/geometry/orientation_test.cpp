@@ -66,14 +66,14 @@ TEST(Orientation, AStepOfTheLastBitOffAPlaneIsSeenFromEveryOrderOfCorners) {
 }
 
 TEST(Crossings, TrianglesCrossWhereAnEdgeOfOneGoesThroughTheOther) {
-  const Corners flat{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}};
+  const TriangleCorners flat{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}};
   EXPECT_TRUE(triangles_cross(flat, {{{0.5, 0.5, -1}, {0.5, 0.5, 1}, {3, 3, 0.5}}}));
   EXPECT_FALSE(triangles_cross(flat, {{{0.5, 0.5, 0.1}, {0.5, 0.5, 1}, {3, 3, 0.5}}}));
   EXPECT_FALSE(triangles_cross(flat, {{{2, 2, -1}, {2, 2, 1}, {3, 3, 0}}}));
 }
 
 TEST(Crossings, WhatTouchesCrosses) {
-  const Corners flat{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}};
+  const TriangleCorners flat{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}};
   EXPECT_TRUE(triangles_cross(flat, {{{0.5, 0.5, 0}, {0.5, 0.5, 1}, {3, 3, 1}}}));      // a corner on the face
   EXPECT_TRUE(triangles_cross(flat, {{{1, 0, 0}, {1, -1, 1}, {2, -1, 1}}}));            // a corner on an edge
   EXPECT_TRUE(triangles_cross(flat, {{{1, -1, 0}, {1, 1, 0}, {1, 0, 3}}}));             // an edge on the face
@@ -97,7 +97,7 @@ TEST(Crossings, AgreeWithDistancesOfRandomTriangles) {
   core::Random random(9);
   int crossed = 0;
   for (int round = 0; round < 3000; ++round) {
-    Corners p{random_place(random), random_place(random), random_place(random)}, q = p;
+    TriangleCorners p{random_place(random), random_place(random), random_place(random)}, q = p;
     for (Vec3d& corner : q) corner = random_place(random);
     double nearest = 1e9;
     for (std::size_t k = 0; k < 3; ++k) {

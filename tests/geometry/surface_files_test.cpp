@@ -188,6 +188,8 @@ TEST(UnitGuess, TheExtentOfAnOrganSuggestsItsUnit) {
   EXPECT_EQ(guess(6.4).metres, 0.01);
   EXPECT_EQ(guess(6.4).also, (std::vector<double>{0.001}));
   EXPECT_TRUE(guess(380.5).also.empty());
+  EXPECT_EQ(guess(28.3).metres, 0.001) << "a jaw: few programs write centimetres";
+  EXPECT_EQ(guess(28.3).also, (std::vector<double>{0.01}));
   EXPECT_EQ(guess(1e6).metres, 0);
   EXPECT_EQ(guess(380.5).words, "longest side 380.5: 38 cm in millimetres, 3.81 m in centimetres, 380 m in metres");
   EXPECT_EQ(guess_unit(bounds({})).metres, 0);

@@ -5,6 +5,12 @@
 #include <trocar/geometry/surfaces/orientation.hpp>
 
 namespace trocar::geometry {
+namespace {
+
+constexpr std::size_t kMostLines = 3000;      ///< in one triangle
+constexpr std::size_t kMostTriples = 20'000;  ///< of one mesh
+
+}  // namespace
 
 bool CrossingCuts::find(const TriMesh& mesh, const std::vector<std::array<int, 2>>& pairs) {
   m_mesh = &mesh;
@@ -13,15 +19,17 @@ bool CrossingCuts::find(const TriMesh& mesh, const std::vector<std::array<int, 2
       std::all_of(pairs.begin(), pairs.end(), [&](const auto& pair) { return add_pair(pair[0], pair[1]); });
   if (!good) return false;
   for (auto& [edge, points] : m_edges) std::sort(points.begin(), points.end());
-  for (const auto& [triangle, of] : m_triangles) meet_in_threes(triangle);
+  for (const auto& [triangle, of] : m_triangles)
+    if (!meet_in_threes(triangle)) return false;
   add_segments();
   return true;
 }
 
 /// Lines of one triangle that cross each other: there its two partners cross, too.
-void CrossingCuts::meet_in_threes(int triangle) {
+bool CrossingCuts::meet_in_threes(int triangle) {
   const std::vector<int>& lines = m_triangles[triangle].lines;
-  if (lines.size() < 2) return;
+  if (lines.size() < 2) return true;
+  if (lines.size() > kMostLines || m_triples.size() > kMostTriples) return false;
   const Vec3d n = area_vector(*m_mesh, triangle), size{std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)};
   const int thin = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
   const int u = (thin + 1) % 3, v = (thin + 2) % 3;
@@ -37,17 +45,18 @@ void CrossingCuts::meet_in_threes(int triangle) {
           side_of_line(c, d, a, u, v) * side_of_line(c, d, b, u, v) < 0)
         add_triple(lines[i], lines[j]);
     }
+  return true;
 }
 
 /// The point in which two lines of one triangle cross, once for all three triangles that meet there.
-bool CrossingCuts::add_triple(int line, int other) {
+void CrossingCuts::add_triple(int line, int other) {
   std::array<int, 4> all{m_lines[line].triangles[0], m_lines[line].triangles[1], m_lines[other].triangles[0],
                          m_lines[other].triangles[1]};
   std::sort(all.begin(), all.end());
   const auto end = std::unique(all.begin(), all.end());
-  if (end - all.begin() != 3) return false;
+  if (end - all.begin() != 3) return;
   const auto [at, fresh] = m_triples.try_emplace({all[0], all[1], all[2]}, int(m_places.size()));
-  if (!fresh) return true;
+  if (!fresh) return;
   const auto place = [&](int of, std::size_t k) { return m_places[m_lines[of].ends[0][k]]; };
   const Vec3d a = place(line, 0), b = place(line, 1), c = place(other, 0), d = place(other, 1);
   const Vec3d across = cross(b - a, d - c);
@@ -55,12 +64,9 @@ bool CrossingCuts::add_triple(int line, int other) {
   m_places.push_back(a + along * (b - a));
   const Vec3d point = m_places.back();
   for (const int t : {all[0], all[1], all[2]}) m_triangles[t].within.push_back(at->second);
-  for (int l = 0; l < int(m_lines.size()); ++l) {
-    const auto& pair = m_lines[l].triangles;
-    const auto is_one = [&](int t) { return t == all[0] || t == all[1] || t == all[2]; };
-    if (is_one(pair[0]) && is_one(pair[1])) m_lines[l].within.push_back({length(point - place(l, 0)), at->second});
-  }
-  return true;
+  for (const auto& pair : {std::array{all[0], all[1]}, {all[0], all[2]}, {all[1], all[2]}})
+    if (const auto found = m_line_of.find(pair); found != m_line_of.end())
+      m_lines[found->second].within.push_back({length(point - place(found->second, 0)), at->second});
 }
 
 void CrossingCuts::add_segments() {
@@ -137,6 +143,7 @@ bool CrossingCuts::add_pair(int s, int t) {
   const int end_s = shared.empty() ? points[1] : of_s[shared[0][0]],
             end_t = shared.empty() ? points[1] : of_t[shared[0][1]];
   for (const int triangle : {s, t}) m_triangles[triangle].lines.push_back(int(m_lines.size()));
+  m_line_of[{std::min(s, t), std::max(s, t)}] = int(m_lines.size());
   m_lines.push_back({{s, t}, {{{points[0], end_s}, {points[0], end_t}}}, {}});
   return true;
 }

@@ -2,7 +2,7 @@
 // once whoever asks, and the segments between them in which two triangles meet. Used by resolved.cpp only.
 //
 //   CrossingCuts cuts;
-//   if (cuts.find(mesh, pairs)) ...            // false: not in general position, something only touches
+//   if (cuts.find(mesh, pairs)) ...            // false: something only touches, or too many points
 #pragma once
 
 #include <array>
@@ -39,7 +39,8 @@ class CrossingCuts {
   };
   const TriMesh* m_mesh = nullptr;
   std::vector<Line> m_lines;
-  std::map<std::array<int, 3>, int> m_triples;  ///< by three triangles, ascending
+  std::map<std::array<int, 2>, int> m_line_of;  ///< by two triangles, ascending
+  std::map<std::array<int, 3>, int> m_triples;  ///< by three
   std::vector<Vec3d> m_places;
   std::map<std::array<int, 3>, int> m_points;  ///< by edge (lower vertex first) and triangle
   std::map<int, OfTriangle> m_triangles;
@@ -50,8 +51,8 @@ class CrossingCuts {
   int point(int low, int high, int triangle);
   bool add_pair(int s, int t);
   bool pierce(int s, int side, int t, std::vector<int>& points);
-  void meet_in_threes(int triangle);
-  bool add_triple(int line, int other);
+  bool meet_in_threes(int triangle);
+  void add_triple(int line, int other);
   void add_segments();
 };
 

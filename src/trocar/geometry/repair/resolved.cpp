@@ -19,7 +19,7 @@ namespace trocar::geometry {
 namespace {
 
 constexpr double kNudges[] = {0, 1e-8, 1e-7, 1e-6};  ///< of the box's diagonal
-constexpr double kMostWindingWork = 3e8;             ///< solid angles of one mesh: some seconds
+constexpr double kMostWindingWork = 1e8;            ///< solid angles for one mesh: some seconds
 constexpr double kCrumb = 1e-4;                      ///< of the area: a shell that was cut off and is smaller goes
 constexpr double kWindingDoubt = 0.2;                ///< off a whole number of turns
 
@@ -140,10 +140,11 @@ TriMesh without_crumbs(TriMesh mesh, int old_vertices) {
 }
 
 /// The pieces that have inside behind them and outside in front.
-std::optional<TriMesh> boundary_of(const TriMesh& mesh, const CutMesh& cut) {
+std::optional<TriMesh> boundary_of(const TriMesh& mesh, const CutMesh& cut, double& work_left) {
   std::vector<int> largest;
   const std::vector<int> patch = patches_of(cut.mesh, largest);
-  if (double(largest.size()) * double(mesh.triangles.size()) > kMostWindingWork) return std::nullopt;
+  work_left -= double(largest.size()) * double(mesh.triangles.size());
+  if (work_left < 0) return std::nullopt;
   std::vector<bool> keep(largest.size());
   for (std::size_t p = 0; p < largest.size(); ++p) {
     const auto& [a, b, c] = cut.mesh.triangles[largest[p]];
@@ -160,13 +161,14 @@ std::optional<TriMesh> boundary_of(const TriMesh& mesh, const CutMesh& cut) {
 
 bool is_resolved(const TriMesh& mesh) { return check_edges(mesh).closed() && self_crossings(mesh).pairs.empty(); }
 
-std::optional<TriMesh> resolved_at_once(const TriMesh& mesh) {
+std::optional<TriMesh> resolved_at_once(const TriMesh& mesh, double& work_left) {
   const Pairs given = self_crossings(mesh).pairs;
   if (given.empty()) return mesh;
   const Bounds box = bounds(mesh.positions);
   const double size = length(box.high - box.low);
   std::uint64_t round = 0;
   for (const double nudge : kNudges) {
+    if (work_left < 0) break;
     const TriMesh work = nudge > 0 ? nudged(mesh, given, nudge * size, ++round) : mesh;
     const Crossings found = nudge > 0 ? self_crossings(work) : Crossings{given, int(given.size()) < kMostCrossings};
     if (!found.all) return std::nullopt;
@@ -174,14 +176,14 @@ std::optional<TriMesh> resolved_at_once(const TriMesh& mesh) {
     if (!cuts.find(work, found.pairs)) continue;
     const std::optional<CutMesh> cut = cut_along(work, cuts);
     if (!cut) continue;
-    std::optional<TriMesh> boundary = boundary_of(work, *cut);
+    std::optional<TriMesh> boundary = boundary_of(work, *cut, work_left);
     if (boundary && !boundary->triangles.empty() && is_resolved(*boundary)) return boundary;
   }
   return std::nullopt;
 }
 
 /// One shell after the other: where three surfaces meet in a point all at once do not come off. Cavities come last.
-std::optional<TriMesh> resolved_by_shells(const TriMesh& mesh) {
+std::optional<TriMesh> resolved_by_shells(const TriMesh& mesh, double& work_left) {
   constexpr std::size_t most = 64;
   const EdgeTable edges(mesh);
   const Shells shells = shells_of(mesh, edges, {});
@@ -193,10 +195,10 @@ std::optional<TriMesh> resolved_by_shells(const TriMesh& mesh) {
       TriMesh one{mesh.positions, {}};
       for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         if (shells.of[t] == s) one.triangles.push_back(mesh.triangles[t]);
-      const std::optional<TriMesh> own = cavities ? std::optional(one) : resolved_at_once(one);
+      const std::optional<TriMesh> own = cavities ? std::optional(one) : resolved_at_once(one, work_left);
       if (!own) return std::nullopt;
       append(all, without_unused(*own).mesh);
-      const std::optional<TriMesh> sum = resolved_at_once(all);
+      const std::optional<TriMesh> sum = resolved_at_once(all, work_left);
       if (!sum) return std::nullopt;
       all = *sum;
     }
@@ -209,8 +211,9 @@ Repaired resolved(const TriMesh& mesh) {
   Repaired out{mesh, {}, {}};
   const int before = int(self_crossings(mesh).pairs.size());
   if (before == 0) return out;
-  std::optional<TriMesh> done = resolved_at_once(mesh);
-  if (!done) done = resolved_by_shells(mesh);
+  double work_left = kMostWindingWork;
+  std::optional<TriMesh> done = resolved_at_once(mesh, work_left);
+  if (!done) done = resolved_by_shells(mesh, work_left);
   if (!done) {
     out.left.push_back(fmt::format("{} pairs of triangles that cross could not be cut along their crossing", before));
     return out;

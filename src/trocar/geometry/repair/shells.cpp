@@ -57,21 +57,26 @@ std::vector<Vec3d> places_on(const TriMesh& mesh, const Shells& shells, int shel
   return out;
 }
 
-/// Shells that face inwards within another one are cavities.
+/// Shells that face inwards within another one are cavities. Beyond a bound of work it is enough to be within its box.
 void find_cavities(const TriMesh& mesh, Shells& shells) {
-  int looked = 0;
-  constexpr int most = 200;  // each of them looks at all triangles, some times
-  for (int s = 0; s < int(shells.list.size()) && looked < most; ++s) {
+  double work = 0;
+  constexpr double most = 1e8;  // solid angles: some seconds
+  for (int s = 0; s < int(shells.list.size()); ++s) {
     Shell& shell = shells.list[s];
     if (!(shell.volume < 0) || shell.turned_edges > 0) continue;
-    const std::vector<Vec3d> places = places_on(mesh, shells, s);
-    const bool surrounded = std::any_of(shells.list.begin(), shells.list.end(), [&](const Shell& other) {
-      return &other != &shell && other.volume > 0 && is_within(places[0], other.box);
-    });
+    std::vector<Vec3d> places = places_on(mesh, shells, s);
+    bool surrounded = false, by_open = false;
+    for (const Shell& other : shells.list) {
+      if (&other == &shell || !(other.volume > 0) || !is_within(places[0], other.box)) continue;
+      surrounded = true;
+      by_open = by_open || !other.closed();
+    }
     if (!surrounded) continue;
-    ++looked;
-    shell.is_cavity =
-        std::any_of(places.begin(), places.end(), [&](Vec3d p) { return turns_around(mesh, shells, p, s) > 0.7; });
+    if (!by_open) places.resize(1);
+    work += double(places.size()) * double(mesh.triangles.size());
+    shell.is_cavity = work > most || std::any_of(places.begin(), places.end(), [&](Vec3d p) {
+                        return turns_around(mesh, shells, p, s) > 0.7;
+                      });
   }
 }
 

@@ -15,7 +15,10 @@ struct LengthUnit {
 constexpr LengthUnit kLengthUnits[] = {{1, "metres"}, {0.01, "centimetres"}, {0.001, "millimetres"}};
 
 /// How many times longer or shorter than usual.
-double oddness(double length) { return std::max(length / kUsualBody, kUsualBody / length); }
+double oddness(double longest, const LengthUnit& unit) {
+  const double length = longest * unit.metres;
+  return std::max(length / kUsualBody, kUsualBody / length) * (unit.metres == 0.01 ? kSeldom : 1);
+}
 
 std::string length_in_words(double metres) {
   if (metres >= 1) return fmt::format("{:.3g} m", metres);
@@ -34,7 +37,7 @@ UnitGuess guess_unit(const Bounds& box) {
   }
   std::vector<LengthUnit> units(std::begin(kLengthUnits), std::end(kLengthUnits));
   std::stable_sort(units.begin(), units.end(), [&](const LengthUnit& a, const LengthUnit& b) {
-    return oddness(longest * a.metres) < oddness(longest * b.metres);
+    return oddness(longest, a) < oddness(longest, b);
   });
   guess.words = fmt::format("longest side {:.4g}:", longest);
   for (const LengthUnit& unit : units) {

@@ -12,7 +12,7 @@ namespace {
 struct FlatAxes {
   int first, second;
 };
-bool flat_axes(const Corners& t, FlatAxes& axes) {
+bool flat_axes(const TriangleCorners& t, FlatAxes& axes) {
   const Vec3d n = cross(t[1] - t[0], t[2] - t[0]), size{std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)};
   const int thin = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
   for (int k = 0; k < 3; ++k) {  // rounding may have chosen one in which it is a line
@@ -22,7 +22,7 @@ bool flat_axes(const Corners& t, FlatAxes& axes) {
   return false;
 }
 
-bool point_in_flat(Vec3d p, const Corners& t, FlatAxes axes) {
+bool point_in_flat(Vec3d p, const TriangleCorners& t, FlatAxes axes) {
   const int a = side_of_line(t[0], t[1], p, axes.first, axes.second);
   const int b = side_of_line(t[1], t[2], p, axes.first, axes.second);
   const int c = side_of_line(t[2], t[0], p, axes.first, axes.second);
@@ -43,7 +43,7 @@ bool flat_segments_meet(Vec3d p, Vec3d q, Vec3d a, Vec3d b, FlatAxes axes) {
 }
 
 /// Has the segment pq a point in common with the triangle?
-bool segment_meets(Vec3d p, Vec3d q, const Corners& t) {
+bool segment_meets(Vec3d p, Vec3d q, const TriangleCorners& t) {
   const int above = side_of_plane(t[0], t[1], t[2], p), below = side_of_plane(t[0], t[1], t[2], q);
   if (above * below > 0) return false;
   if (above == 0 && below == 0) {
@@ -59,7 +59,7 @@ bool segment_meets(Vec3d p, Vec3d q, const Corners& t) {
   return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
 }
 
-bool edges_meet(const Corners& of, const Corners& t) {
+bool edges_meet(const TriangleCorners& of, const TriangleCorners& t) {
   for (std::size_t k = 0; k < 3; ++k)
     if (segment_meets(of[k], of[(k + 1) % 3], t)) return true;
   return false;
@@ -73,14 +73,14 @@ bool folded_onto(Vec3d v, Vec3d w, Vec3d p, Vec3d q) {
   return side_of_line(v, w, p, axes.first, axes.second) == side_of_line(v, w, q, axes.first, axes.second);
 }
 
-bool has_area(const Corners& t) {
+bool has_area(const TriangleCorners& t) {
   FlatAxes axes{};
   return flat_axes(t, axes);
 }
 
 }  // namespace
 
-bool triangles_cross(const Corners& p, const Corners& q) {
+bool triangles_cross(const TriangleCorners& p, const TriangleCorners& q) {
   std::array<std::size_t, 3> in_p{}, in_q{};
   std::size_t shared = 0;
   for (std::size_t i = 0; i < 3; ++i)
@@ -100,10 +100,10 @@ Crossings self_crossings(const TriMesh& mesh) {
   std::vector<int> number;
   const auto corners = [&mesh](int t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    return Corners{mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+    return TriangleCorners{mesh.positions[a], mesh.positions[b], mesh.positions[c]};
   };
   for (int t = 0; t < int(mesh.triangles.size()); ++t) {
-    const Corners p = corners(t);
+    const TriangleCorners p = corners(t);
     if (!finite(p[0]) || !finite(p[1]) || !finite(p[2]) || !has_area(p)) continue;
     sound.triangles.push_back(mesh.triangles[t]);
     number.push_back(t);
@@ -111,12 +111,13 @@ Crossings self_crossings(const TriMesh& mesh) {
   if (number.empty()) return found;
   const TriangleTree tree(sound);
   long long tests = 0;
+  const long long most = std::max(kMostCrossingTests, kMostCrossingTestsEach * static_cast<long long>(number.size()));
   for (int i = 0; i < int(number.size()) && found.all; ++i) {
-    const Corners p = corners(number[i]);
+    const TriangleCorners p = corners(number[i]);
     tree.visit(tree.box_of(i), [&](int j) {
       if (j <= i || !found.all) return;
       if (triangles_cross(p, corners(number[j]))) found.pairs.push_back({number[i], number[j]});
-      found.all = ++tests < kMostCrossingTests && int(found.pairs.size()) < kMostCrossings;
+      found.all = ++tests < most && int(found.pairs.size()) < kMostCrossings;
     });
   }
   std::sort(found.pairs.begin(), found.pairs.end());

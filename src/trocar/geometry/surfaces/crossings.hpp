@@ -5,7 +5,7 @@
 //   const Crossings found = self_crossings(mesh);
 //   for (const auto& [a, b] : found.pairs) ...
 //
-// Corners are the same where their places are, whatever their numbers: seams that were split do not cross. What
+// TriangleCorners are the same where their places are, whatever their numbers: seams that were split do not cross. What
 // touches, crosses: a corner on another triangle, an edge on another edge. Triangles without area cross nothing, and
 // two of the same three corners are duplicates, which examine() tells apart.
 #pragma once
@@ -17,8 +17,9 @@
 
 namespace trocar::geometry {
 
-inline constexpr int kMostCrossings = 20'000;                ///< pairs that are told
-inline constexpr long long kMostCrossingTests = 50'000'000;  ///< pairs that are looked at: some seconds
+inline constexpr int kMostCrossings = 20'000;  ///< pairs that are told
+/// Pairs that are looked at: so many, or as many times the number of triangles if that is more.
+inline constexpr long long kMostCrossingTests = 10'000'000, kMostCrossingTestsEach = 60;
 
 struct Crossings {
   std::vector<std::array<int, 2>> pairs;  ///< triangles, ascending, the lower one first
@@ -27,7 +28,7 @@ struct Crossings {
 /// @param mesh  coordinates finite; where they are not, the triangle crosses nothing
 Crossings self_crossings(const TriMesh& mesh);
 
-using Corners = std::array<Vec3d, 3>;
-bool triangles_cross(const Corners& p, const Corners& q);
+using TriangleCorners = std::array<Vec3d, 3>;
+bool triangles_cross(const TriangleCorners& p, const TriangleCorners& q);
 
 }  // namespace trocar::geometry
