@@ -53,9 +53,10 @@ void EditableMesh::neighbours(int vertex, std::vector<int>& out) const {
 }
 
 bool EditableMesh::on_border(int vertex) const {
-  std::vector<int> around;
-  neighbours(vertex, around);
-  return std::any_of(around.begin(), around.end(), [&](int w) { return sides(vertex, w).count != 2; });
+  for (const int f : m_faces_at[vertex])
+    for (const int w : m_faces[f])
+      if (w != vertex && sides(vertex, w).count != 2) return true;
+  return false;
 }
 
 bool EditableMesh::can_collapse(int from, int into) const {

@@ -42,6 +42,7 @@ class Remeshing {
   int m_most;
   double m_sharp;
   std::vector<int> m_ring;
+  std::vector<char> m_border;  ///< of vertices, while edges are flipped
 
   double edge_length(int a, int b) const { return length(m_work.place(a) - m_work.place(b)); }
 
@@ -129,21 +130,23 @@ class Remeshing {
 
   /// Edges too many or too few: six are best, on a border four.
   int off_valence(int v, int change) const {
-    const int own = int(m_work.faces_at(v).size()) + (m_work.on_border(v) ? 1 : 0) + change;
-    const int off = own - (m_work.on_border(v) ? 4 : 6);
+    const int own = int(m_work.faces_at(v).size()) + m_border[v] + change;
+    const int off = own - (m_border[v] ? 4 : 6);
     return off * off;
   }
 
   void flip_edges() {
+    m_border.resize(m_work.vertices());  // flips change no border
+    for (int v = 0; v < m_work.vertices(); ++v) m_border[v] = m_work.on_border(v);
     for (int f = 0; f < m_work.faces(); ++f)
       for (int k = 0; m_work.alive(f) && k < 3; ++k) {
         const int a = m_work.face(f)[k], b = m_work.face(f)[(k + 1) % 3];
-        if (!m_work.can_flip(a, b) || is_kept(a, b)) continue;
         const EditableMesh::Sides at = m_work.sides(a, b);
+        if (a > b || at.count != 2) continue;
         const int c = m_work.opposite(at.face[0], a, b), d = m_work.opposite(at.face[1], a, b);
         const int before = off_valence(a, 0) + off_valence(b, 0) + off_valence(c, 0) + off_valence(d, 0);
         const int after = off_valence(a, -1) + off_valence(b, -1) + off_valence(c, 1) + off_valence(d, 1);
-        if (after >= before) continue;
+        if (after >= before || is_kept(a, b) || !m_work.can_flip(a, b)) continue;
         const Vec3d n = m_work.area_vector(at.face[0]) + m_work.area_vector(at.face[1]);
         m_work.flip(a, b);
         if (!faces_along(at.face[0], n) || !faces_along(at.face[1], n)) m_work.flip(c, d);

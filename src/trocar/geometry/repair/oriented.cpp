@@ -8,9 +8,6 @@
 namespace trocar::geometry {
 namespace {
 
-/// A shell is a sheet where the square of its volume, against the cube of its area, is below this share of a ball's.
-constexpr double kSheetRoundness = 1e-4;
-
 bool runs_along(const std::array<int, 3>& t, int from, int to) {
   const int k = corner_of(t, from);
   return t[(k + 1) % 3] == to;
@@ -58,11 +55,6 @@ class Flood {
   }
 };
 
-bool is_sheet(const Shell& shell) {
-  const double ball = shell.area * shell.area * shell.area / (36 * 3.14159265358979323846);
-  return !(shell.volume * shell.volume > kSheetRoundness * ball);
-}
-
 /// Which shells, now of one mind, shall be turned as a whole.
 std::vector<bool> shells_to_turn(const TriMesh& before, const std::vector<bool>& flooded, const TriMesh& mesh) {
   const EdgeTable edges(mesh);
@@ -76,7 +68,7 @@ std::vector<bool> shells_to_turn(const TriMesh& before, const std::vector<bool>&
     }
   for (std::size_t s = 0; s < turn.size(); ++s) {
     const Shell& shell = shells.list[s];
-    if (is_sheet(shell))
+    if (shell.is_sheet())
       turn[s] = turned_area[s] > 0.5 * shell.area;
     else if (shell.open_edges > 0)
       turn[s] = any[s] && shell.volume < 0;

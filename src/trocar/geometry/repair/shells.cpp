@@ -57,30 +57,42 @@ std::vector<Vec3d> places_on(const TriMesh& mesh, const Shells& shells, int shel
   return out;
 }
 
-/// Shells that face inwards within another one are cavities. Beyond a bound of work it is enough to be within its box.
+/// Shells that face inwards within another one are cavities; beyond a bound of work all that face inwards are.
 void find_cavities(const TriMesh& mesh, Shells& shells) {
   double work = 0;
   constexpr double most = 1e8;  // solid angles: some seconds
+  std::vector<int> bodies;      // what may go around others
+  for (int s = 0; s < int(shells.list.size()); ++s)
+    if (shells.list[s].volume > 0 && !shells.list[s].is_sheet()) bodies.push_back(s);
   for (int s = 0; s < int(shells.list.size()); ++s) {
     Shell& shell = shells.list[s];
-    if (!(shell.volume < 0) || shell.turned_edges > 0) continue;
-    std::vector<Vec3d> places = places_on(mesh, shells, s);
+    if (!(shell.volume < 0) || shell.turned_edges > 0 || shell.is_sheet()) continue;
+    shell.is_cavity = work > most && !bodies.empty();
+    if (work > most) continue;
+    const Vec3d place = mesh.positions[mesh.triangles[shell.first][0]];
     bool surrounded = false, by_open = false;
-    for (const Shell& other : shells.list) {
-      if (&other == &shell || !(other.volume > 0) || !is_within(places[0], other.box)) continue;
+    for (const int b : bodies) {
+      if (!is_within(place, shells.list[b].box)) continue;
       surrounded = true;
-      by_open = by_open || !other.closed();
+      by_open = by_open || !shells.list[b].closed();
     }
+    work += double(bodies.size());
     if (!surrounded) continue;
-    if (!by_open) places.resize(1);
+    std::vector<Vec3d> places{place};
+    if (by_open) places = places_on(mesh, shells, s);
     work += double(places.size()) * double(mesh.triangles.size());
-    shell.is_cavity = work > most || std::any_of(places.begin(), places.end(), [&](Vec3d p) {
-                        return turns_around(mesh, shells, p, s) > 0.7;
-                      });
+    shell.is_cavity =
+        std::any_of(places.begin(), places.end(), [&](Vec3d p) { return turns_around(mesh, shells, p, s) > 0.7; });
   }
 }
 
 }  // namespace
+
+bool Shell::is_sheet() const {
+  constexpr double roundness = 1e-4;  // of the square of the volume, against that of a ball with this area
+  const double ball = area * area * area / (36 * portable::pi);
+  return !(volume * volume > roundness * ball);
+}
 
 Shells shells_of(const TriMesh& mesh, const EdgeTable& edges, const std::vector<Rim>& rims) {
   Shells shells;

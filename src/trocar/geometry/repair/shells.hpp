@@ -23,6 +23,8 @@ struct Shell {
   /// It faces inwards, inside of another shell: the wall of a cavity.
   bool is_cavity = false;
 
+  /// It encloses less than a hundredth of what it could.
+  bool is_sheet() const;
   bool closed() const { return open_edges == 0 && crowded_edges == 0 && turned_edges == 0; }
 };
 
