@@ -18,6 +18,11 @@ std::span<const Target> targets() {
       {"trace", trace_bytes, 4'000, trace_seeds, nullptr, mutate_trace},
       {"trace_csv", trace_csv, 4'000, trace_csv_seeds},
       {"tet_mesh", tet_mesh_file, 4'000, tet_mesh_seeds, tet_mesh_words},
+      {"surface_obj", surface_file, 2'000, surface_obj_seeds, surface_words},
+      {"surface_stl", surface_file, 2'000, surface_stl_seeds, surface_words},
+      {"surface_ply", surface_file, 2'000, surface_ply_seeds, surface_words},
+      {"surface_vtk", surface_file, 2'000, surface_vtk_seeds, surface_words},
+      {"surface_gltf", surface_file, 4'000, surface_gltf_seeds, surface_words},
       {"nrrd", nrrd_file, 2'000, nrrd_seeds, nrrd_words},
   };
   return all;

@@ -1,8 +1,5 @@
-#include <sstream>
-
 #include <gtest/gtest.h>
 
-#include <trocar/core/error.hpp>
 #include <trocar/geometry/surfaces/tri_mesh.hpp>
 #include <trocar/numerics/portable.hpp>
 
@@ -77,35 +74,4 @@ TEST(TriMesh, MergingVerticesClosesSeams) {
   const TriMesh merged = merged_vertices(soup, 1e-6);
   EXPECT_TRUE(check_edges(merged).closed());
   EXPECT_EQ(merged.positions.size(), 8u);
-}
-
-TEST(Obj, WhatIsWrittenIsReadBackExactly) {
-  const TriMesh sphere = sphere_mesh(0.0123456789, 1);
-  std::stringstream file;
-  write_obj(file, sphere);
-  const TriMesh back = read_obj(file, "sphere.obj");
-  EXPECT_EQ(back.triangles, sphere.triangles);
-  ASSERT_EQ(back.positions.size(), sphere.positions.size());
-  for (std::size_t i = 0; i < back.positions.size(); ++i) EXPECT_EQ(back.positions[i], sphere.positions[i]);
-}
-
-TEST(Obj, ReadsPolygonsSlashesAndNegativeNumbers) {
-  std::istringstream file("# c\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1/1/1 2//1 3/2 4\nf -4 -3 -2\n");
-  const TriMesh mesh = read_obj(file, "a.obj");
-  const std::vector<std::array<int, 3>> expected{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}};
-  EXPECT_EQ(mesh.triangles, expected);
-}
-
-TEST(Obj, AllFaultsAreToldWithTheirLines) {
-  std::istringstream file("v 0 0 zero\nv 1 0 0\nv 1 1 0\nf 1 2\nf 1 2 9\nf a 2 3\n");
-  try {
-    read_obj(file, "bad.obj");
-    FAIL() << "expected BadInput";
-  } catch (const core::BadInput& error) {
-    EXPECT_STREQ(error.what(),
-                 "bad.obj:1: expected three numbers after 'v', got 'v 0 0 zero'\n"
-                 "bad.obj:4: expected at least 3 corners, got 2\n"
-                 "bad.obj:6: expected a vertex number, got 'a'\n"
-                 "bad.obj:5: expected a vertex number from 1 to 3, got 9");
-  }
 }

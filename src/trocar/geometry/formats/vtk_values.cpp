@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <trocar/core/decimal.hpp>
 #include <trocar/geometry/formats/vtk_values.hpp>
 
 namespace trocar::geometry {
@@ -45,6 +46,13 @@ std::string lower(std::string_view text) {
   std::string out(text);
   for (char& c : out)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
+std::string upper(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
   return out;
 }
 
@@ -100,6 +108,30 @@ void VtkValues::pass(std::uint64_t count, const VtkType& type) {
       if (in.word().empty()) in.lose(in.at(), "expected another value, got the end of the file");
   }
   end();
+}
+
+std::string read_vtk_header(VtkValues& values, const char* dataset, const char* who) {
+  MeshSource& in = values.in;
+  const std::string_view first = in.line();
+  const std::string_view version = first.substr(first.find_last_of(' ') + 1);
+  in.line();  // the title
+  in.skip_space();
+  std::size_t at = in.at();
+  const std::string form = lower(in.line());
+  if (form == "binary")
+    values.form = MeshSource::Form::binary_swapped;
+  else if (form != "ascii")
+    in.lose(at, fmt::format("expected ASCII or BINARY, got {}", in.shown(at)));
+  in.skip_space();
+  at = in.at();
+  if (values.word() != "dataset") in.lose(at, fmt::format("expected DATASET, got {}", in.shown(at)));
+  in.skip_space();
+  at = in.at();
+  if (values.word() != lower(dataset))
+    in.lose(at, fmt::format("expected {}, as {} need, got {}", dataset, who, in.shown(at)));
+  in.skip_line();
+  return fmt::format("VTK {}, {}", core::is_decimal(version) ? version.substr(0, 8) : "legacy",
+                     values.binary() ? "binary" : "text");
 }
 
 }  // namespace trocar::geometry

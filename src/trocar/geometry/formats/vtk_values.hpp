@@ -11,6 +11,7 @@
 namespace trocar::geometry {
 
 std::string lower(std::string_view text);
+std::string upper(std::string_view text);
 
 /// How a value stands in binary files.
 struct VtkType {
@@ -46,5 +47,9 @@ struct VtkValues {
   std::int64_t whole(const VtkType& type, const char* what);
   void pass(std::uint64_t count, const VtkType& type);
 };
+
+/// The first lines, up to the one that says which data set it is: which format that is, as people are told it. A fault
+/// where it is another data set than `dataset`, which `who` (in the plural) need.
+std::string read_vtk_header(VtkValues& values, const char* dataset, const char* who);
 
 }  // namespace trocar::geometry

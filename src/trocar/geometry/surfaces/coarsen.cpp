@@ -3,6 +3,7 @@
 #include <queue>
 
 #include <trocar/geometry/surfaces/coarsen.hpp>
+#include <trocar/geometry/surfaces/quadric.hpp>
 
 namespace trocar::geometry {
 namespace {
@@ -10,27 +11,6 @@ namespace {
 constexpr double kLeastTurn = 0.5;      // cosine: no triangle turns further than 60 degrees
 constexpr double kThinnest = 0.05;      // height over base; a thinner triangle is not made
 constexpr std::size_t kMostFaces = 24;  // around a vertex
-
-/// Squared distances from planes, weighed by area: x' A x + 2 b x + c, A symmetric. [Garland & Heckbert 1997, sec. 5]
-struct Quadric {
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, bx = 0, by = 0, bz = 0, c = 0, area = 0;
-
-  void add_plane(Vec3d n, double d, double w) {
-    xx += w * n.x * n.x, xy += w * n.x * n.y, xz += w * n.x * n.z;
-    yy += w * n.y * n.y, yz += w * n.y * n.z, zz += w * n.z * n.z;
-    bx += w * d * n.x, by += w * d * n.y, bz += w * d * n.z, c += w * d * d, area += w;
-  }
-  void add(const Quadric& q) {
-    xx += q.xx, xy += q.xy, xz += q.xz, yy += q.yy, yz += q.yz, zz += q.zz;
-    bx += q.bx, by += q.by, bz += q.bz, c += q.c, area += q.area;
-  }
-  /// Their mean [m^2].
-  double at(Vec3d p) const {
-    const double sum = p.x * (xx * p.x + 2 * xy * p.y + 2 * xz * p.z) + p.y * (yy * p.y + 2 * yz * p.z) +
-                       zz * p.z * p.z + 2 * (bx * p.x + by * p.y + bz * p.z) + c;
-    return area > 0 ? std::max(sum, 0.0) / area : 0;
-  }
-};
 
 using Face = std::array<std::uint32_t, 3>;
 

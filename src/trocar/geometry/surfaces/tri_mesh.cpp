@@ -3,6 +3,7 @@
 #include <map>
 
 #include <trocar/geometry/surfaces/tri_mesh.hpp>
+#include <trocar/numerics/portable.hpp>
 
 namespace trocar::geometry {
 namespace {
@@ -69,6 +70,18 @@ double area(const TriMesh& mesh) {
   double sum = 0.0;
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) sum += 0.5 * length(area_vector(mesh, t));
   return sum;
+}
+
+double least_angle_deg(const TriMesh& mesh, int t) {
+  const auto& corners = mesh.triangles[t];
+  const double twice = length(area_vector(mesh, t));
+  double least = portable::pi;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3d p = mesh.positions[corners[k]];
+    least = std::min(least, portable::atan2(twice, dot(mesh.positions[corners[(k + 1) % 3]] - p,
+                                                       mesh.positions[corners[(k + 2) % 3]] - p)));
+  }
+  return least * 180 / portable::pi;
 }
 
 double volume(const TriMesh& mesh) {
@@ -146,6 +159,12 @@ Csr vertex_triangles(const TriMesh& mesh) {
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
     for (int vertex : mesh.triangles[t]) pairs.push_back({vertex, t});
   return from_pairs(static_cast<int>(mesh.positions.size()), std::move(pairs));
+}
+
+void append(TriMesh& mesh, const TriMesh& other) {
+  const int shift = int(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + shift, b + shift, c + shift});
 }
 
 TriMesh merged_vertices(const TriMesh& mesh, double distance) {

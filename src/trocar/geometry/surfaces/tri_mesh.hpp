@@ -1,7 +1,7 @@
 // Triangle meshes as two plain arrays, and what is asked of them while a scene compiles: normals, area, volume, whether
-// the surface is closed, neighbours, and a small OBJ reader and writer.
+// the surface is closed, neighbours. Files of them: surface_files/surface_file.hpp.
 //
-//   TriMesh mesh = read_obj(stream, "organ.obj");
+//   const TriMesh mesh = joined(read_surface_file("organ.obj"));
 //   if (!check_edges(mesh).closed()) ...
 //   const Csr neighbours = vertex_neighbours(mesh);
 //   for (int other : neighbours.row(vertex)) ...
@@ -10,9 +10,7 @@
 #pragma once
 
 #include <array>
-#include <iosfwd>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <trocar/numerics/vec3.hpp>
@@ -30,6 +28,8 @@ Vec3d area_vector(const TriMesh& mesh, int t);
 /// mesh inscribed in a sphere gets the sphere's normals exactly. [Max 1999, Weights for computing vertex normals]
 std::vector<Vec3d> vertex_normals(const TriMesh& mesh);
 double area(const TriMesh& mesh);
+/// The smallest angle of triangle t [degrees].
+double least_angle_deg(const TriMesh& mesh, int t);
 /// Enclosed volume (closed meshes): positive where triangles face outwards.
 double volume(const TriMesh& mesh);
 /// Centre of the enclosed volume (closed meshes).
@@ -67,14 +67,11 @@ Csr vertex_neighbours(const TriMesh& mesh);
 /// For each vertex the triangles that use it, ascending.
 Csr vertex_triangles(const TriMesh& mesh);
 
+/// Puts the second mesh behind the first.
+void append(TriMesh& mesh, const TriMesh& other);
+
 /// Vertices closer than `distance` in every coordinate's rounded grid become one; degenerate triangles go.
 /// For meshes from files that repeat the vertices of seams.
 TriMesh merged_vertices(const TriMesh& mesh, double distance);
-
-/// Positions and triangles, 17 digits, so that reading gives the same numbers back.
-void write_obj(std::ostream& out, const TriMesh& mesh);
-/// Reads `v` and `f` lines (polygons become fans, texture and normal indices are skipped, negative indices count from
-/// the end), ignores the rest. Throws core::BadInput with all faults of the file, named `name`.
-TriMesh read_obj(std::istream& in, const std::string& name);
 
 }  // namespace trocar::geometry

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include <trocar/geometry/surfaces/groups.hpp>
 #include <trocar/geometry/tets/tet_cut.hpp>
 #include <trocar/geometry/tets/tet_faces.hpp>
 #include <trocar/geometry/tets/tet_mesh.hpp>
@@ -10,28 +10,6 @@
 
 namespace trocar::geometry {
 namespace {
-
-/// Groups that are joined two by two.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : m_up(count) { std::iota(m_up.begin(), m_up.end(), 0); }
-  int root(int i) {
-    while (m_up[i] != i) i = m_up[i] = m_up[m_up[i]];
-    return i;
-  }
-  void join(int a, int b) {
-    a = root(a), b = root(b);
-    m_up[std::max(a, b)] = std::min(a, b);
-  }
-  int count() const {
-    int roots = 0;
-    for (int i = 0; i < int(m_up.size()); ++i) roots += m_up[i] == i;
-    return roots;
-  }
-
- private:
-  std::vector<int> m_up;
-};
 
 int duplicate_cells(const TetMesh& mesh) {
   std::vector<std::array<int, 4>> corners = mesh.cells;

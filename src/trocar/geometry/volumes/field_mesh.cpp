@@ -1,7 +1,7 @@
-// The nearest triangle is found in a tree of boxes. Inside or outside is asked along the third axis, as lattice.cpp
-// does: every triangle above the point adds or takes one turn of the surface. Which of two neighbours the ray meets on
-// their common edge is decided in whole numbers, of positions rounded to a fine grid, so that a closed mesh never
-// leaks.
+// The nearest triangle is found in a tree of boxes (triangle_tree.hpp). Inside or outside is asked along the third
+// axis, as lattice.cpp does: every triangle above the point adds or takes one turn of the surface. Which of two
+// neighbours the ray meets on their common edge is decided in whole numbers, of positions rounded to a fine grid, so
+// that a closed mesh never leaks.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/geometry/surfaces/triangle_tree.hpp>
 #include <trocar/geometry/volumes/field.hpp>
 
 namespace trocar::geometry {
@@ -22,89 +22,6 @@ std::array<Vec3d, 3> corners(const TriMesh& mesh, int t) {
   const auto& [a, b, c] = mesh.triangles[t];
   return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
 }
-
-double distance2_to_box(Vec3d p, const Bounds& box) {
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double d = std::max({box.low[k] - p[k], p[k] - box.high[k], 0.0});
-    sum += d * d;
-  }
-  return sum;
-}
-
-/// Halves of halves of the triangles, each with its box.
-class TriangleTree {
- public:
-  explicit TriangleTree(const TriMesh& mesh) : m_mesh(mesh), m_order(mesh.triangles.size()) {
-    std::iota(m_order.begin(), m_order.end(), 0);
-    for (int t = 0; t < int(m_order.size()); ++t) {
-      const auto [a, b, c] = corners(mesh, t);
-      m_middle.push_back(a + b + c);
-    }
-    m_nodes.reserve(m_order.size());
-    grow(0, int(m_order.size()));
-  }
-
-  double distance2(Vec3d p) const {
-    double best = distance2_to_triangle(p, m_order[0]);
-    std::array<int, 64> waiting{};  // the tree is balanced: 32 levels are more than an int counts
-    int count = 0;
-    waiting[count++] = 0;
-    while (count > 0) {
-      const Node& node = m_nodes[waiting[--count]];
-      if (!(distance2_to_box(p, node.box) < best)) continue;
-      if (node.right < 0) {
-        for (int k = node.first; k < node.last; ++k) best = std::min(best, distance2_to_triangle(p, m_order[k]));
-        continue;
-      }
-      const int left = int(&node - m_nodes.data()) + 1;  // a node's first half follows it
-      const bool left_first = distance2_to_box(p, m_nodes[left].box) < distance2_to_box(p, m_nodes[node.right].box);
-      waiting[count++] = left_first ? node.right : left;
-      waiting[count++] = left_first ? left : node.right;
-    }
-    return best;
-  }
-
- private:
-  static constexpr int kLeaf = 4;
-  struct Node {
-    Bounds box;
-    int first, last;
-    int right;  ///< the second half; -1 for a leaf
-  };
-  const TriMesh& m_mesh;
-  std::vector<int> m_order;
-  std::vector<Vec3d> m_middle;
-  std::vector<Node> m_nodes;
-
-  double distance2_to_triangle(Vec3d p, int t) const {
-    const auto [a, b, c] = corners(m_mesh, t);
-    return closest_on_triangle(p, a, b, c).distance2;
-  }
-
-  Bounds box_around(int first, int last) const {
-    std::vector<Vec3d> points;
-    for (int k = first; k < last; ++k)
-      for (const Vec3d p : corners(m_mesh, m_order[k])) points.push_back(p);
-    return bounds(points);
-  }
-
-  int grow(int first, int last) {
-    const int number = int(m_nodes.size());
-    m_nodes.push_back({box_around(first, last), first, last, -1});
-    if (last - first <= kLeaf) return number;
-    const Vec3d side = m_nodes[number].box.high - m_nodes[number].box.low;
-    const int axis = side.x >= side.y && side.x >= side.z ? 0 : (side.y >= side.z ? 1 : 2);
-    const int half = (first + last) / 2;
-    std::sort(m_order.begin() + first, m_order.begin() + last, [&](int a, int b) {
-      return m_middle[a][axis] != m_middle[b][axis] ? m_middle[a][axis] < m_middle[b][axis] : a < b;
-    });
-    grow(first, half);
-    const int right = grow(half, last);
-    m_nodes[number].right = right;
-    return number;
-  }
-};
 
 /// Where a point is seen along the third axis, in steps of the fine grid.
 struct GridPlace {

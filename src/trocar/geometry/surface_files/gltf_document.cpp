@@ -1,0 +1,163 @@
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <trocar/geometry/surface_files/base64.hpp>
+#include <trocar/geometry/surface_files/gltf_document.hpp>
+
+namespace trocar::geometry {
+namespace {
+
+constexpr std::int64_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
+
+/// Characters that a URI spells as %20.
+std::string unescaped(std::string_view uri) {
+  std::string out;
+  const auto digit = [](char c) {
+    const std::size_t at = std::string_view("0123456789abcdef").find(c >= 'A' && c <= 'F' ? char(c - 'A' + 'a') : c);
+    return at == std::string_view::npos ? -1 : int(at);
+  };
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const bool code = uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0;
+    out += code ? static_cast<char>(16 * digit(uri[i + 1]) + digit(uri[i + 2])) : uri[i];
+    if (code) i += 2;
+  }
+  return out;
+}
+
+}  // namespace
+
+GltfDocument::Chunks GltfDocument::chunks_of(MeshSource& in) {
+  const std::string_view all = in.all();
+  if (all.substr(0, 4) != "glTF") return {all.substr(all.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0), {}};
+  in.set_form(MeshSource::Form::binary);
+  const auto whole = [&](const char* what) {
+    std::int64_t value = 0;
+    in.integer(value, 4, what);
+    return value < 0 ? value + (std::int64_t(1) << 32) : value;
+  };
+  in.go_to(4);
+  if (const std::int64_t version = whole("the version"); version != 2)
+    in.lose(4, fmt::format("expected glTF of version 2, got {}", version));
+  if (const std::int64_t length = whole("the length of the file"); std::uint64_t(length) != all.size())
+    in.lose(8, fmt::format("expected the file's length, {}, got {}", all.size(), length));
+  Chunks chunks;
+  for (int chunk = 0; in.left() > 0; ++chunk) {
+    const std::size_t at = in.at();
+    const std::int64_t length = whole("the length of a chunk"), type = whole("the type of a chunk");
+    if (std::uint64_t(length) > in.left())
+      in.lose(at, fmt::format("expected a chunk of at most {} bytes, got {}", in.left(), length));
+    if ((chunk == 0) != (type == kJsonChunk))
+      in.lose(at + 4, fmt::format("expected JSON in the first chunk and nowhere else, got {:#010x}", type));
+    if (chunk == 0) chunks.json = all.substr(in.at(), std::size_t(length));
+    if (chunk == 1 && type == kBinaryChunk) chunks.binary = all.substr(in.at(), std::size_t(length));
+    in.skip_bytes(std::uint64_t(length), "a chunk");
+  }
+  if (!chunks.json.data()) in.lose(all.size(), "expected a chunk of JSON, got the end of the file");
+  return chunks;
+}
+
+GltfDocument::GltfDocument(MeshSource& in, const FilesBeside& beside)
+    : m_in(in),
+      m_beside(beside),
+      m_in_one_file(in.all().substr(0, 4) == "glTF"),
+      m_chunks(chunks_of(in)),
+      m_json(in, m_chunks.json) {
+  if (m_json.kind(m_json.root()) != JsonItems::Kind::object)
+    in.lose(m_json.place(m_json.root()), fmt::format("expected an object, got {}", m_json.shown(m_json.root())));
+  for (const int item : list("buffers")) m_buffers.push_back({item, false, {}});
+}
+
+const std::vector<int>& GltfDocument::list(std::string_view name) {
+  for (const auto& [known, items] : m_lists)
+    if (known == name) return items;
+  const int item = m_json.member(m_json.root(), name);
+  if (item >= 0 && m_json.kind(item) != JsonItems::Kind::array)
+    m_in.lose(m_json.place(item), fmt::format("expected an array, got {}", m_json.shown(item)));
+  m_lists.reserve(16);  // references stay good: there are fewer names than that
+  m_lists.emplace_back(std::string(name), m_json.items(item));
+  return m_lists.back().second;
+}
+
+std::optional<std::size_t> GltfDocument::whole(int object, std::string_view key) {
+  const int item = m_json.member(object, key);
+  if (item < 0) return std::nullopt;
+  constexpr double most = 9007199254740992.0;  // 2^53
+  const double value = m_json.number(item);
+  if (m_json.kind(item) == JsonItems::Kind::number && value >= 0 && value < most &&
+      value == double(static_cast<std::uint64_t>(value)))
+    return std::size_t(value);
+  fault(item, fmt::format("expected a whole number from 0 on, got {}", m_json.shown(item)));
+  return std::nullopt;
+}
+
+int GltfDocument::named(int object, std::string_view key, std::string_view list_name) {
+  const std::optional<std::size_t> number = whole(object, key);
+  if (!number) return -1;
+  const std::vector<int>& items = list(list_name);
+  if (*number < items.size()) return items[*number];
+  fault(m_json.member(object, key), fmt::format("expected one of {} {}, got {}", items.size(), list_name, *number));
+  return -1;
+}
+
+std::optional<std::string_view> GltfDocument::view(int buffer_view, std::size_t offset) {
+  const int buffer_item = named(buffer_view, "buffer", "buffers");
+  if (buffer_item < 0) {
+    if (m_json.member(buffer_view, "buffer") < 0) fault(buffer_view, "expected a buffer, got none");
+    return std::nullopt;
+  }
+  const std::size_t from = whole(buffer_view, "byteOffset").value_or(0);
+  const std::size_t length = whole(buffer_view, "byteLength").value_or(0);
+  const std::optional<std::string_view> bytes = buffer(buffer_item);
+  if (!bytes) return std::nullopt;
+  if (from <= bytes->size() && length <= bytes->size() - from && offset <= length)
+    return bytes->substr(from + offset, length - offset);
+  fault(buffer_view, fmt::format("expected a view within the buffer's {} bytes, got {} from {} on, read from {} on",
+                                 bytes->size(), length, from, offset));
+  return std::nullopt;
+}
+
+std::optional<std::string_view> GltfDocument::buffer(int item) {
+  const auto found = std::find_if(m_buffers.begin(), m_buffers.end(), [&](const Buffer& b) { return b.item == item; });
+  if (found->looked_for) return found->bytes;
+  found->looked_for = true;
+  found->bytes = load(item);
+  const std::size_t length = whole(item, "byteLength").value_or(0);
+  if (found->bytes && found->bytes->size() < length) {
+    fault(item, fmt::format("expected a buffer of {} bytes, got {}", length, found->bytes->size()));
+    found->bytes.reset();
+  }
+  return found->bytes;
+}
+
+std::optional<std::string_view> GltfDocument::load(int item) {
+  const int uri = m_json.member(item, "uri");
+  if (uri >= 0 && m_json.kind(uri) == JsonItems::Kind::string) return load_uri(uri);
+  if (m_in_one_file && item == m_buffers.front().item && m_chunks.binary.data()) return m_chunks.binary;
+  fault(item, "expected a buffer with a uri, or a binary chunk, got neither");
+  return std::nullopt;
+}
+
+std::optional<std::string_view> GltfDocument::load_uri(int uri) {
+  const std::string_view raw = m_json.raw_text(uri);
+  std::optional<std::string> bytes;
+  if (raw.substr(0, 5) == "data:") {
+    constexpr std::string_view form = ";base64,";
+    const std::size_t at = raw.substr(0, 200).find(form);
+    if (at != raw.npos) bytes = from_base64(raw.substr(at + form.size()));
+    if (!bytes) fault(uri, fmt::format("expected data in base64, got {}", m_json.shown(uri)));
+  } else if (!m_beside) {
+    fault(uri, fmt::format("expected data in the file itself, got {}", m_json.shown(uri)));
+  } else {
+    bytes = m_beside(unescaped(m_json.text(uri)));
+  }
+  if (!bytes) return std::nullopt;
+  m_own_bytes += bytes->size();
+  if (m_own_bytes > 2 * kMaxMeshBytes)
+    m_in.lose(m_json.place(uri), fmt::format("expected at most {} bytes in buffers, got more", 2 * kMaxMeshBytes));
+  m_own.push_back(std::make_unique<std::string>(std::move(*bytes)));
+  return std::string_view(*m_own.back());
+}
+
+}  // namespace trocar::geometry

@@ -1,0 +1,197 @@
+// Which format a file has, and what readers of surfaces share.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include <trocar/core/files.hpp>
+#include <trocar/geometry/surface_files/polygons.hpp>
+#include <trocar/geometry/surface_files/surface_reader.hpp>
+
+namespace trocar::geometry {
+namespace {
+
+constexpr const char* kSurfaceFormats = "a surface in OBJ, STL, PLY, glTF 2.0 or legacy VTK";
+
+bool ends_like(const std::string& path, std::string_view ending) {
+  if (path.size() < ending.size()) return false;
+  for (std::size_t i = 0; i < ending.size(); ++i) {
+    const char c = path[path.size() - ending.size() + i];
+    if ((c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c) != ending[i]) return false;
+  }
+  return true;
+}
+
+/// Do the first words of lines look like OBJ?
+bool looks_like_obj(MeshSource in) {
+  constexpr std::string_view known[] = {"v", "vt", "vn", "f", "o", "g", "s", "mtllib", "usemtl", "l"};
+  while (!in.peek_word().empty()) {
+    const std::string_view word = in.peek_word();
+    if (std::find(std::begin(known), std::end(known), word) != std::end(known)) return true;
+    if (word[0] != '#') return false;
+    in.line();
+  }
+  return false;
+}
+
+SurfaceFile read_known(MeshSource& in, const std::string& path, const std::string& name, const FilesBeside& beside) {
+  const std::string_view bytes = in.all(), first = in.peek_word();
+  if (bytes.substr(0, 4) == "glTF") return read_gltf(in, name, beside);
+  if (first == "ply") return read_ply(in, name);
+  if (bytes.substr(in.at(), 14) == "# vtk DataFile") return read_polydata(in, name);
+  if (has_stl_size(bytes)) return read_stl(in, name);
+  if (first.substr(0, 1) == "{" || bytes.substr(0, 4) == "\xef\xbb\xbf{") return read_gltf(in, name, beside);
+  if (first == "solid") return read_stl(in, name);
+  if (looks_like_obj(in)) return read_obj(in, name);
+  if (ends_like(path, ".stl")) return read_stl(in, name);  // one whose size is wrong
+  in.lose(in.at(),
+          fmt::format("expected {}, got {}", kSurfaceFormats, first.substr(0, 1) == "<" ? "XML" : in.shown(in.at())));
+}
+
+/// No way out of the folder.
+bool stays_in_folder(const std::string& name) {
+  const std::filesystem::path path(name);
+  if (name.empty() || path.is_absolute() || path.has_root_name()) return false;
+  return std::none_of(path.begin(), path.end(), [](const auto& step) { return step == ".."; });
+}
+
+std::size_t items_of(const SurfaceFile& file, bool vertices) {
+  std::size_t sum = 0;
+  for (const SurfacePart& part : file.parts) sum += vertices ? part.mesh.positions.size() : part.mesh.triangles.size();
+  return sum;
+}
+
+}  // namespace
+
+SurfaceFile read_surfaces(std::string_view bytes, const std::string& path, const FilesBeside& beside) {
+  if (bytes.size() > kMaxMeshBytes)
+    throw core::BadInput(
+        {{{path, 1, 1}, fmt::format("expected at most {} bytes, got {}", kMaxMeshBytes, bytes.size())}});
+  MeshSource in(bytes, path);
+  SurfaceFile file = read_known(in, path, std::filesystem::path(path).stem().string(), beside);
+  in.finish();
+  std::erase_if(file.parts, [](const SurfacePart& part) { return part.mesh.triangles.empty(); });
+  if (file.parts.empty()) in.lose(0, "expected triangles, got none");
+  bound_items(in, items_of(file, true), "vertices");
+  bound_items(in, items_of(file, false), "triangles");
+  return file;
+}
+
+SurfaceFile read_surface_file(const std::filesystem::path& path) {
+  const std::string bytes = core::read_file(path, kMaxMeshBytes);
+  return read_surfaces(bytes, path.string(), [&path](const std::string& name) {
+    if (!stays_in_folder(name))
+      throw core::BadInput({{{path.string(), 0, 0}, "expected a file beside this one, got " + in_quotes(name)}});
+    return core::read_file(path.parent_path() / name, kMaxMeshBytes);
+  });
+}
+
+TriMesh joined(const SurfaceFile& file) {
+  TriMesh all;
+  all.positions.reserve(items_of(file, true));
+  all.triangles.reserve(items_of(file, false));
+  for (const SurfacePart& part : file.parts) append(all, part.mesh);
+  return all;
+}
+
+TriMesh merged_equal(const TriMesh& mesh) {
+  const auto& points = mesh.positions;
+  std::vector<int> order(points.size()), first(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    for (int k = 0; k < 3; ++k)
+      if (points[a][k] != points[b][k]) return points[a][k] < points[b][k];
+    return a < b;
+  });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    first[order[i]] = i > 0 && points[order[i]] == points[order[i - 1]] ? first[order[i - 1]] : order[i];
+  TriMesh out;
+  std::vector<int> number(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (first[i] == int(i)) {
+      number[i] = int(out.positions.size());
+      out.positions.push_back(points[i]);
+    } else {
+      number[i] = number[first[i]];
+    }
+  }
+  out.triangles.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) out.triangles.push_back({number[a], number[b], number[c]});
+  return out;
+}
+
+void bound_items(MeshSource& in, std::size_t count, const char* things) {
+  if (count > kMostSurfaceItems)
+    in.lose(in.at(), fmt::format("expected at most {} {} of a surface, got {}", kMostSurfaceItems, things, count));
+}
+
+double checked_coordinate(MeshSource& in, std::size_t at, double value) {
+  if (std::fabs(value) <= kMostSurfaceCoordinate) return value;
+  in.fault(at, fmt::format("expected a coordinate within {}, got {}", kMostSurfaceCoordinate, value));
+  return 0;
+}
+
+Vec3d read_surface_point(MeshSource& in, int width) {
+  static constexpr const char* kCoordinates[] = {"an x coordinate", "a y coordinate", "a z coordinate"};
+  Vec3d point;
+  for (int k = 0; k < 3; ++k) {
+    in.begin_value();
+    const std::size_t at = in.at();
+    double value = 0;
+    if (in.real(value, width, kCoordinates[k]))
+      point[k] = checked_coordinate(in, at, value);
+    else if (!in.binary() && !in.value_follows())
+      break;  // the line is short: told once
+  }
+  return point;
+}
+
+std::vector<std::array<int, 3>> cut_polygons(MeshSource& in, const std::vector<Vec3d>& positions,
+                                             const PolygonList& polygons, int first, int last, int from,
+                                             std::vector<std::string>& notes) {
+  std::vector<std::array<int, 3>> triangles;
+  PolygonCutter cutter;
+  const int count = int(positions.size());
+  for (int p = first; p < last; ++p) {
+    const std::span<const int> corners{polygons.corners.data() + polygons.start[p],
+                                       std::size_t(polygons.start[p + 1] - polygons.start[p])};
+    const auto bad = std::find_if(corners.begin(), corners.end(), [&](int c) { return c < 0 || c >= count; });
+    if (bad == corners.end())
+      cutter.cut(positions, corners, triangles);
+    else if (std::find(corners.begin(), corners.end(), PolygonList::kTold) == corners.end())
+      in.fault(polygons.at[p], fmt::format("expected the number of a vertex from {} to {}, got {}", from,
+                                           count - 1 + from, std::int64_t(*bad) + from));
+  }
+  if (cutter.fans() > 0)
+    notes.push_back(
+        fmt::format("{} polygons that are not convex cut as fans, as they are too many or too long", cutter.fans()));
+  return triangles;
+}
+
+void add_strip(std::span<const int> strip, std::vector<std::array<int, 3>>& triangles) {
+  for (std::size_t i = 2; i < strip.size(); ++i) {
+    const int a = strip[i - 2], b = strip[i - 1], c = strip[i];
+    if (a == b || b == c || c == a) continue;
+    if (i % 2 == 0)
+      triangles.push_back({a, b, c});
+    else
+      triangles.push_back({b, a, c});
+  }
+}
+
+void SurfaceLeftOut::add(const std::string& kinds, std::int64_t count) {
+  if (count == 0) return;
+  for (auto& [known, sum] : m_kinds)
+    if (known == kinds) {
+      sum += count;
+      return;
+    }
+  m_kinds.emplace_back(kinds, count);
+}
+
+void SurfaceLeftOut::tell(std::vector<std::string>& notes) const {
+  for (const auto& [kinds, count] : m_kinds) notes.push_back(fmt::format("{} {} left out", count, kinds));
+}
+
+}  // namespace trocar::geometry

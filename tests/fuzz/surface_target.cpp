@@ -1,0 +1,191 @@
+// The readers of surfaces, the writers, and what is found and mended in what they read. One target a format, so that
+// each has a corpus of its own; all of them run the same.
+#include <cmath>
+
+#include <trocar/core/error.hpp>
+#include <trocar/geometry/formats/mesh_source.hpp>
+#include <trocar/geometry/repair/mend.hpp>
+#include <trocar/geometry/surface_files/surface_writer.hpp>
+
+#include "../geometry/surface_bytes.hpp"
+#include "targets.hpp"
+
+namespace trocar::fuzz {
+namespace {
+
+using namespace geometry;
+
+void check_parts(const SurfaceFile& file) {
+  require(!file.parts.empty(), "a surface that was read has parts");
+  for (const SurfacePart& part : file.parts) {
+    require(!part.mesh.triangles.empty(), "parts have triangles");
+    for (const auto& t : part.mesh.triangles)
+      for (const int v : t)
+        require(v >= 0 && v < int(part.mesh.positions.size()), "corners are vertices that are there");
+    for (const Vec3d& p : part.mesh.positions)
+      for (int k = 0; k < 3; ++k) require(std::fabs(p[k]) <= kMostSurfaceCoordinate, "coordinates are bounded");
+  }
+}
+
+void check_written(const TriMesh& mesh) {
+  for (const std::string& bytes : {to_obj(mesh), to_ply(mesh), to_polydata(mesh)}) {
+    const SurfaceFile back = read_surfaces(bytes, "again");
+    require(back.parts.size() == 1, "one mesh is one part");
+    require(back.parts[0].mesh.positions == mesh.positions && back.parts[0].mesh.triangles == mesh.triangles,
+            "what was read can be written and read again");
+  }
+  require(read_surfaces(to_stl(mesh), "again").parts[0].mesh.triangles.size() == mesh.triangles.size(),
+          "as many triangles come back from STL");
+}
+
+void check_mended(const TriMesh& mesh) {
+  const Diagnosis before = examine(mesh);
+  require(std::isfinite(before.area) && std::isfinite(before.volume), "area and volume are finite");
+  MendOptions options;
+  options.refilling.most_cells = 2000;
+  const MendedMesh mended = mend(mesh, options);
+  require(examine(mended.mesh, {options.tolerance}).is_body() == mended.after.is_body(), "what is told of it is true");
+  require(mended.after.is_body() || mended.mesh.triangles.empty() || !mended.left.empty(),
+          "what could not be mended is told");
+  if (before.is_body() && before.unused.empty()) require(mended.changes.empty(), "a body is left alone");
+}
+
+}  // namespace
+
+void surface_file(Bytes bytes) {
+  SurfaceFile file;
+  try {
+    file = read_surfaces(text_of(bytes), "memory.stl");
+  } catch (const core::BadInput& bad) {
+    require(!bad.faults().empty() && bad.faults().size() <= kMaxMeshFaults + 1, "faults are bounded");
+    for (const core::Fault& f : bad.faults()) require(!f.message.empty(), "a fault says what was expected");
+    return;
+  }
+  check_parts(file);
+  const TriMesh all = joined(file);
+  if (all.triangles.size() > 10'000 || all.positions.size() > 10'000) return;
+  check_written(all);
+  if (all.triangles.size() <= 200) check_mended(merged_equal(all));
+}
+
+std::vector<Seed> surface_obj_seeds() {
+  return {
+      {"axes", bytes_of(kAxesObj)},
+      {"polygons", bytes_of("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\nf -6//1 -1/2 3\n")},
+      {"boxes", bytes_of(to_obj(TriMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.2, 0.2, -1}, {0.3, 0.2, 2}},
+                                        {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 5}, {1, 4, 5}}}))}};
+}
+std::vector<Seed> surface_stl_seeds() {
+  return {{"text", bytes_of(kAxesStl)},
+          {"binary", bytes_of(axes_stl_binary())},
+          {"written", bytes_of(to_stl(axes_mesh()))}};
+}
+std::vector<Seed> surface_ply_seeds() {
+  return {{"text", bytes_of(kAxesPly)},
+          {"little", bytes_of(axes_ply_binary(false))},
+          {"big", bytes_of(axes_ply_binary(true))},
+          {"written", bytes_of(to_ply(axes_mesh()))}};
+}
+std::vector<Seed> surface_vtk_seeds() {
+  return {{"text", bytes_of(kAxesVtk)},
+          {"binary", bytes_of(axes_vtk_binary())},
+          {"written", bytes_of(to_polydata(axes_mesh()))}};
+}
+std::vector<Seed> surface_gltf_seeds() {
+  return {{"embedded", bytes_of(axes_gltf_embedded())},
+          {"binary", bytes_of(axes_glb())},
+          {"beside", bytes_of(axes_gltf(R"(, "uri": "beside.bin")"))}};
+}
+
+std::vector<std::string> surface_words() {
+  return {"v ",
+          "f ",
+          "o ",
+          "g ",
+          "\\\n",
+          "-1",
+          "//",
+          "solid ",
+          "facet normal 0 0 1\n",
+          "outer loop\n",
+          "vertex ",
+          "endloop\n",
+          "endfacet\n",
+          "endsolid\n",
+          "ply\n",
+          "format ascii 1.0\n",
+          "format binary_little_endian 1.0\n",
+          "format binary_big_endian 1.0\n",
+          "element vertex ",
+          "element face ",
+          "element tristrips ",
+          "property float x\n",
+          "property double y\n",
+          "property uchar z\n",
+          "property list uchar int vertex_indices\n",
+          "end_header\n",
+          "POINTS ",
+          " float\n",
+          "POLYGONS ",
+          "TRIANGLE_STRIPS ",
+          "OFFSETS vtktypeint64\n",
+          "CONNECTIVITY vtktypeint64\n",
+          "POINT_DATA ",
+          "CELL_DATA ",
+          "\"asset\"",
+          "\"version\"",
+          "\"2.0\"",
+          "\"scenes\"",
+          "\"scene\"",
+          "\"nodes\"",
+          "\"children\"",
+          "\"mesh\"",
+          "\"meshes\"",
+          "\"primitives\"",
+          "\"attributes\"",
+          "\"POSITION\"",
+          "\"indices\"",
+          "\"mode\"",
+          "\"accessors\"",
+          "\"bufferView\"",
+          "\"bufferViews\"",
+          "\"byteOffset\"",
+          "\"byteLength\"",
+          "\"byteStride\"",
+          "\"componentType\"",
+          "5120",
+          "5121",
+          "5123",
+          "5125",
+          "5126",
+          "\"count\"",
+          "\"type\"",
+          "\"VEC3\"",
+          "\"SCALAR\"",
+          "\"normalized\"",
+          "\"sparse\"",
+          "\"values\"",
+          "\"buffers\"",
+          "\"buffer\"",
+          "\"uri\"",
+          "data:;base64,",
+          "\"matrix\"",
+          "\"rotation\"",
+          "\"scale\"",
+          "\"translation\"",
+          "\"extensionsRequired\"",
+          "\"KHR_mesh_quantization\"",
+          "glTF",
+          "JSON",
+          "BIN",
+          "nan",
+          "1e9",
+          "-1e9",
+          "1e-308",
+          "4294967295",
+          "9007199254740991",
+          "\r\n",
+          "\\u0041"};
+}
+
+}  // namespace trocar::fuzz

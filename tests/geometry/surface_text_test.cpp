@@ -1,0 +1,166 @@
+// OBJ, STL, PLY and VTK: what each of them has of its own, and how faults are told.
+#include <gtest/gtest.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/geometry/surface_files/surface_file.hpp>
+
+#include "surface_bytes.hpp"
+
+namespace trocar::geometry {
+namespace {
+
+std::string text_faults(const std::string& bytes, const std::string& path = "a") {
+  try {
+    read_surfaces(bytes, path);
+  } catch (const core::BadInput& bad) {
+    return bad.what();
+  }
+  return "";
+}
+std::string with(std::string text, const std::string& what, const std::string& in_its_place) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), in_its_place);
+}
+TriMesh only_mesh(const std::string& bytes) {
+  const SurfaceFile file = read_surfaces(bytes, "a");
+  EXPECT_EQ(file.parts.size(), 1u);
+  return file.parts.at(0).mesh;
+}
+double area_of(const TriMesh& mesh) { return area(mesh); }
+
+using Triangles = std::vector<std::array<int, 3>>;
+
+}  // namespace
+
+TEST(ObjFiles, ReadsPolygonsSlashesAndNegativeNumbers) {
+  const TriMesh mesh = only_mesh("# c\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1/1/1 2//1 3/2 4\nf -4 -3 -2\n");
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
+}
+
+TEST(ObjFiles, GroupsAndObjectsArePartsWithTheirVertices) {
+  const SurfaceFile file = read_surfaces(kAxesObj, "a.obj");
+  ASSERT_EQ(file.parts.size(), 2u);
+  EXPECT_EQ(file.parts[0].name, "axes");
+  EXPECT_EQ(file.parts[0].mesh.triangles, (Triangles{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}}));
+  EXPECT_EQ(file.parts[1].name, "axes/more");
+  EXPECT_EQ(file.parts[1].mesh.positions, (std::vector<Vec3d>{{0, 0, 0}, {0, 2, 0}, {0, 0, 3}}));
+  EXPECT_EQ(file.notes, (std::vector<std::string>{"1 lines left out"}));
+  EXPECT_EQ(file.metres, 0);
+}
+
+TEST(ObjFiles, PolygonsThatAreNotConvexAreCutWithinThemselves) {
+  // An L, a square with a square hole to which a cut leads, and the L lying on its back.
+  const std::string l = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n";
+  const std::string hole =
+      "v 0 0 1\nv 4 0 1\nv 4 4 1\nv 0 4 1\nv 1 1 1\nv 1 3 1\nv 3 3 1\nv 3 1 1\nf 1 2 3 4 1 5 6 7 8 5\n";
+  EXPECT_NEAR(area_of(only_mesh(l)), 3, 1e-12);
+  EXPECT_EQ(only_mesh(l).triangles.size(), 4u);
+  EXPECT_NEAR(area_of(only_mesh(hole)), 12, 1e-12);
+  EXPECT_NEAR(area_of(only_mesh(with(l, "f 1 2 3 4 5 6", "f 6 5 4 3 2 1"))), 3, 1e-12);
+  const TriMesh mesh = only_mesh(l);
+  for (int t = 0; t < 4; ++t) EXPECT_GT(area_vector(mesh, t).z, 0) << "it runs around as the polygon does";
+}
+
+TEST(ObjFiles, AllFaultsAreToldWithTheirPlaces) {
+  EXPECT_EQ(text_faults("v 0 0 zero\nv 1 0\nv 1 1 0\nf 1 2\nf 1 2 9\nf a 2 3\nf 1 2 0\nf -4 1 2\nv nan 0 0\n", "bad"),
+            "bad:1:7: expected a z coordinate, got 'zero'\n"
+            "bad:2:6: expected a z coordinate, got the end of the line\n"
+            "bad:4:2: expected at least 3 corners of a face, got 2\n"
+            "bad:5:2: expected the number of a vertex from 1 to 4, got 9\n"
+            "bad:6:3: expected the number of a vertex, from 1 or back from -1, got 'a'\n"
+            "bad:7:7: expected the number of a vertex, from 1 or back from -1, got '0'\n"
+            "bad:8:3: expected the number of a vertex, from 1 or back from -1, got '-4'\n"
+            "bad:9:3: expected an x coordinate, got 'nan'");
+  EXPECT_EQ(text_faults("v 0 2e9 0\n"), "a:1:5: expected a coordinate within 1000000000, got 2000000000");
+}
+
+TEST(StlFiles, BinaryFilesAreToldByTheirSizeAndNotByTheWordSolid) {
+  const std::string bytes = axes_stl_binary();
+  ASSERT_EQ(bytes.substr(0, 5), "solid");
+  EXPECT_EQ(read_surfaces(bytes, "a.stl").format, "STL, binary");
+  EXPECT_EQ(only_mesh(bytes).positions.size(), 4u) << "corners at one place are one vertex";
+}
+
+TEST(StlFiles, AHeadThatAnnouncesMoreThanThereIsIsRefused) {
+  std::string bytes = axes_stl_binary();
+  bytes[0] = 'S', bytes[1] = 'T';
+  for (const char high : {'\x00', '\x7f', '\xff'}) {
+    bytes[80] = 5, bytes[83] = high;
+    const std::string told = text_faults(bytes, "a.stl");
+    EXPECT_NE(told.find("at byte 80: expected 4 triangles, which is what 284 bytes are the size of, got "),
+              std::string::npos)
+        << told;
+  }
+  EXPECT_EQ(text_faults("xyz", "a.stl"),
+            "a.stl:1:1: at byte 0: expected a head of 84 bytes of a binary STL, or the word solid, got 3 bytes");
+}
+
+TEST(StlFiles, CoordinatesThatAreNoNumbersAreFaultsAndNormalsAreNotLookedAt) {
+  std::string bytes = axes_stl_binary();
+  const std::string nan("\x00\x00\xc0\x7f", 4);
+  bytes.replace(84, 4, nan);
+  EXPECT_EQ(text_faults(bytes, "a.stl"), "");
+  bytes.replace(84 + 12 + 4, 4, nan);
+  EXPECT_NE(text_faults(bytes, "a.stl").find("at byte 100: expected a y coordinate, got nan"), std::string::npos);
+}
+
+TEST(StlFiles, TextSaysWhatIsMissingWhere) {
+  EXPECT_EQ(text_faults(with(kAxesStl, "endloop", "endlop")), "a:7:1: expected 'endloop', got 'endlop'");
+  EXPECT_EQ(text_faults(with(kAxesStl, "vertex 0 2 0\n", "vertex 0 2\n")),
+            "a:5:11: expected a z coordinate, got the end of the line");
+  EXPECT_EQ(text_faults(with(kAxesStl, "endsolid axes\n", "")), "a:30:1: expected 'facet', got the end of the file");
+  const SurfaceFile two = read_surfaces(kAxesStl + with(kAxesStl, "solid axes", "solid"), "b.stl");
+  ASSERT_EQ(two.parts.size(), 2u);
+  EXPECT_EQ(two.parts[1].name, "b");
+}
+
+TEST(PlyFiles, HeadersThatLieAreRefusedBeforeAnythingIsSetAside) {
+  for (const char* lie : {"element vertex 4000000000", "element vertex 999999999999999999"})
+    EXPECT_NE(text_faults(with(kAxesPly, "element vertex 4", lie)).find("items, for which the"), std::string::npos);
+  EXPECT_EQ(text_faults(with(kAxesPly, "element vertex 4", "element vertex -1")),
+            "a:4:16: expected the number of items, got -1");
+  EXPECT_NE(text_faults(with(kAxesPly, "element vertex 4", "element vertex 40"))
+                .find("a:4:9: expected at most 10 items, for which the 86 bytes that follow have room, got 40"),
+            std::string::npos);
+  std::string many = axes_ply_binary(false);
+  many[many.find("end_header\n") + 11 + 3] = '\x7f';
+  EXPECT_NE(text_faults(many).find("expected a list of at most "), std::string::npos);
+}
+
+TEST(PlyFiles, WhatIsMissingIsTold) {
+  EXPECT_EQ(text_faults(with(kAxesPly, "property double z\n", "property double w\n")),
+            "a:4:9: expected vertices with x, y and z, got others");
+  EXPECT_EQ(text_faults(with(kAxesPly, "format ascii 1.0\n", "")),
+            "a:1:1: expected a format, such as 'format ascii 1.0', got none");
+  EXPECT_EQ(text_faults(with(kAxesPly, "float x", "half x")),
+            "a:5:10: expected a type such as float or uchar, got 'half'");
+  EXPECT_EQ(text_faults(with(kAxesPly, "uchar int vertex_indices", "uchar float vertex_indices")),
+            "a:12:9: expected vertex_indices of whole numbers, got another type");
+  EXPECT_EQ(text_faults(with(kAxesPly, "3 1 2 3 0\n", "3 1 2 4 0\n")),
+            "a:24:1: expected the number of a vertex from 0 to 3, got 4");
+  EXPECT_EQ(text_faults(with(kAxesPly, "3 1 2 3 0\n", "2 1 2 0\n")),
+            "a:24:1: expected at least 3 corners of a face, got 2");
+  EXPECT_EQ(text_faults(with(kAxesPly, "3 1 2 3 0\n", "")),
+            "a:24:1: expected 4 items of 'face', got the end of the file");
+}
+
+TEST(PlyFiles, StripsAreTrianglesThatAllFaceTheSameWay) {
+  const TriMesh mesh = only_mesh(
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n6 0 1 2 3 4 5\n");
+  ASSERT_EQ(mesh.triangles.size(), 4u);
+  for (int t = 0; t < 4; ++t) EXPECT_EQ(area_vector(mesh, t).z, 1);
+}
+
+TEST(PolydataFiles, OtherDataSetsAreRefused) {
+  EXPECT_EQ(text_faults(with(kAxesVtk, "POLYDATA", "UNSTRUCTURED_GRID")),
+            "a:4:9: expected POLYDATA, as surfaces need, got 'UNSTRUCTURED_GRID'");
+  EXPECT_EQ(text_faults(with(kAxesVtk, "3 1 2 3\n", "3 1 2 4\n")),
+            "a:13:7: expected the number of a point from 0 to 3, got 4");
+  EXPECT_NE(text_faults(with(kAxesVtk, "POINTS 4", "POINTS 500000000")), "");
+  EXPECT_NE(text_faults(with(kAxesVtk, "POLYGONS 4 16", "POLYGONS 4 15")), "");
+}
+
+}  // namespace trocar::geometry
