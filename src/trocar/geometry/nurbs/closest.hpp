@@ -5,10 +5,10 @@
 //   nearest const ClosestOnSurface seeker(surface);                         // many points, one surface for (Vec3d q :
 //   cloud) use(seeker.find(q));
 //
-// Newton's method on the distance, safeguarded [PT97 section 6.1]: along curves by brackets of the derivative's change
-// of sign, on surfaces by going downhill only. Ends, edges and poles are points like others: where the nearest is at an
-// end, the parameter is that of the end exactly. The search starts from samples (some in each span), so it misses what
-// is hidden between those.
+// Newton's method on the distance, safeguarded [PT97 section 6.1]: along curves between places where the distance
+// begins to fall and has begun to rise, on surfaces by going downhill only. Ends, edges, corners and poles are points
+// like others: where the nearest is at an end, the parameter is that of the end exactly. The search begins in every
+// piece of a span that may hold the nearest point, as far as samples of the pieces show how large they are.
 #pragma once
 
 #include <vector>
@@ -41,9 +41,14 @@ class ClosestOnCurve {
   CurveFoot find(Vec3d p) const;
 
  private:
+  // Between two neighbouring samples of a span; derivatives are those from inside of it.
+  struct Piece {
+    double from, to;
+    Vec3d start, end, slope_start, slope_end;
+    double length;  ///< [m]
+  };
   const Curve& m_curve;
-  std::vector<double> m_u;
-  std::vector<Vec3d> m_points;
+  std::vector<Piece> m_pieces;
 };
 
 class ClosestOnSurface {
@@ -52,11 +57,14 @@ class ClosestOnSurface {
   SurfaceFoot find(Vec3d p) const;
 
  private:
-  bool is_lowest_around(const std::vector<double>& distance2, int i, int j) const;
-
+  // A ball around a piece of surface.
+  struct Cell {
+    double u, v;
+    Vec3d middle;
+    double radius;  ///< [m]
+  };
   const Surface& m_surface;
-  std::vector<double> m_u, m_v;
-  std::vector<Vec3d> m_points;  ///< (i, j) at i + m_u.size() j
+  std::vector<Cell> m_cells;
 };
 
 }  // namespace trocar::geometry::nurbs

@@ -3,11 +3,14 @@
 #include <stdexcept>
 
 #include <trocar/geometry/nurbs/closest.hpp>
+#include <trocar/geometry/nurbs/quadrature.hpp>
 
 namespace trocar::geometry::nurbs {
 namespace {
 
 constexpr int kCurveSteps = 60;
+constexpr int kCloser = 8;
+constexpr double kSafely = 1.01;  // on lengths by quadrature
 
 // How the squared distance changes, half of it: (C - p) C', and how that does.
 struct Slope {
@@ -19,8 +22,7 @@ Slope slope_at(const Curve& curve, Vec3d p, double u) noexcept {
   return {dot(away, at.first), dot(at.first, at.first) + dot(away, at.second)};
 }
 
-// Where the distance stops falling between a and b: Newton where it stays inside, halves where it does not. Corners of
-// the curve, where the slope jumps over 0, are found as well.
+// Where the distance stops falling between a and b: Newton where it stays inside, halves where it does not.
 double lowest_between(const Curve& curve, Vec3d p, double a, double b) noexcept {
   double u = 0.5 * (a + b);
   const double slack = 1e-15 * curve.knots.extent();
@@ -46,29 +48,41 @@ CurveFoot foot_at(const Curve& curve, Vec3d p, double u) noexcept {
 ClosestOnCurve::ClosestOnCurve(const Curve& curve) : m_curve(curve) {
   require_valid(curve, "closest");
   const std::vector<double> spans = breaks(curve.knots);
-  const int samples = 2 * curve.knots.degree + 2;
-  for (std::size_t s = 0; s + 1 < spans.size(); ++s)
-    for (int k = 0; k < samples; ++k) m_u.push_back(spans[s] + (spans[s + 1] - spans[s]) * k / samples);
-  m_u.push_back(spans.back());
-  for (double u : m_u) m_points.push_back(point(curve, u));
+  const int count = 4 * curve.knots.degree + 4;
+  for (std::size_t s = 0; s + 1 < spans.size(); ++s) {
+    const int span = span_of(curve.knots, spans[s]);
+    for (int k = 0; k < count; ++k) {
+      const double step = (spans[s + 1] - spans[s]) / count, from = spans[s] + k * step;
+      const double to = k + 1 == count ? spans[s + 1] : spans[s] + (k + 1) * step;
+      const CurveJet a = jet_in_span(curve, span, from), b = jet_in_span(curve, span, to);
+      const double way = gauss5(from, to, [&](double u) { return length(jet_in_span(curve, span, u).first); });
+      m_pieces.push_back({from, to, a.point, b.point, a.first, b.first, kSafely * way});
+    }
+  }
 }
 
 CurveFoot ClosestOnCurve::find(Vec3d p) const {
   if (!finite(p)) throw std::invalid_argument("closest: the point is not a number");
-  const std::size_t n = m_u.size();
-  std::vector<double> distance(n);
-  for (std::size_t i = 0; i < n; ++i) distance[i] = length(m_points[i] - p);
-  CurveFoot best = foot_at(m_curve, p, m_u[0]);
+  CurveFoot best = foot_at(m_curve, p, m_pieces[0].from);
   const auto take = [&best](const CurveFoot& foot) {
     if (foot.distance < best.distance) best = foot;
   };
-  take(foot_at(m_curve, p, m_u[n - 1]));
-  for (std::size_t i = 0; i < n; ++i) {
-    if ((i > 0 && distance[i - 1] < distance[i]) || (i + 1 < n && distance[i + 1] < distance[i])) continue;
-    // Either side alone, as a corner may lie between; then the sample itself.
-    if (i > 0) take(foot_at(m_curve, p, lowest_between(m_curve, p, m_u[i - 1], m_u[i])));
-    if (i + 1 < n) take(foot_at(m_curve, p, lowest_between(m_curve, p, m_u[i], m_u[i + 1])));
-    take(foot_at(m_curve, p, m_u[i]));
+  for (const Piece& piece : m_pieces)
+    if (length(piece.end - p) < best.distance) take(foot_at(m_curve, p, piece.to));
+  for (const Piece& piece : m_pieces) {
+    const bool falls = dot(piece.start - p, piece.slope_start)<0.0, rises = dot(piece.end - p, piece.slope_end)> 0.0;
+    if (!falls || !rises) continue;
+    const double nearest = 0.5 * (length(piece.start - p) + length(piece.end - p) - piece.length);
+    if (!(nearest < best.distance)) continue;
+    // It may do so more than once: look closer.
+    double from = piece.from;
+    bool falling = true;
+    for (int k = 1; k <= kCloser; ++k) {
+      const double to = k == kCloser ? piece.to : piece.from + (piece.to - piece.from) * k / kCloser;
+      const bool rising = k == kCloser || slope_at(m_curve, p, to).first > 0.0;
+      if (falling && rising) take(foot_at(m_curve, p, lowest_between(m_curve, p, from, to)));
+      from = to, falling = !rising;
+    }
   }
   return best;
 }

@@ -38,9 +38,15 @@ Vec3d point(const Curve& curve, double u) noexcept {
 }
 
 CurveJet jet(const Curve& curve, double u) noexcept {
-  const Basis2 basis = basis_at(curve.knots, u);
+  const double inside = into_domain(curve.knots, u);
+  return jet_in_span(curve, span_of(curve.knots, inside), inside);
+}
+
+CurveJet jet_in_span(const Curve& curve, int span, double u) noexcept {
+  BasisRow basis[3];
+  basis_derivatives(curve.knots, span, u, 2, basis);
   Vec4d a[3];
-  for (int d = 0; d < 3; ++d) a[d] = weighted_sum(curve, basis.first, basis.value[d]);
+  for (int d = 0; d < 3; ++d) a[d] = weighted_sum(curve, span - curve.knots.degree, basis[d]);
   const auto top = [&a](int d) { return Vec3d{a[d].x, a[d].y, a[d].z}; };
   CurveJet result;  // derivatives of the quotient  [PT97 eq.4.8]
   result.point = a[0].place();

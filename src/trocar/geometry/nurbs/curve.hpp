@@ -36,6 +36,8 @@ struct CurveJet {
   Vec3d point, first, second;
 };
 CurveJet jet(const Curve& curve, double u) noexcept;
+/// That of the span's polynomial piece: at a knot, from the side on which the span is.
+CurveJet jet_in_span(const Curve& curve, int span, double u) noexcept;
 
 /// Derivatives 0 .. order.  [PT97 A3.2, A4.2]
 std::vector<Vec3d> derivatives(const Curve& curve, double u, int order);

@@ -6,8 +6,9 @@
 namespace trocar::geometry::nurbs {
 namespace {
 
-// du x dv is not trusted below this share of what the derivatives could make; normal() is asked instead.
-constexpr double kFlat = 1e-9;
+// du x dv, in units of the domain, is not trusted below this share of the derivatives' squares; normal() is asked
+// instead.
+constexpr double kFlat = 1e-10;
 
 Vec3d top_of(Vec4d a) noexcept { return {a.x, a.y, a.z}; }
 
@@ -69,6 +70,7 @@ template <class Sum>
 void GridEvaluator::evaluate_rows(std::span<const Vec3d> points, std::span<Vec3d> positions, std::span<Vec3d> normals,
                                   std::vector<Sum>& value, std::vector<Sum>& slope) noexcept {
   const int degree = m_surface.u.degree;
+  const double stretch = m_surface.u.extent() / m_surface.v.extent();
   bool fresh = false;  // whether m_surface has these points already
   std::size_t target = 0;
   for (const Column& v : m_v) {
@@ -84,8 +86,8 @@ void GridEvaluator::evaluate_rows(std::span<const Vec3d> points, std::span<Vec3d
       positions[target] = at.point;
       if (!normals.empty()) {
         const Vec3d n = cross(at.du, at.dv);
-        const double size2 = dot(n, n);
-        if (size2 > kFlat * kFlat * dot(at.du, at.du) * dot(at.dv, at.dv)) {
+        const double size2 = dot(n, n), least = kFlat * (stretch * dot(at.du, at.du) + dot(at.dv, at.dv) / stretch);
+        if (size2 > least * least) {
           normals[target] = n / std::sqrt(size2);
         } else {
           if (!fresh) std::copy(points.begin(), points.end(), m_surface.points.begin());

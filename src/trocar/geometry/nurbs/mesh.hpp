@@ -5,7 +5,8 @@
 //   mesh = tessellate(surface, 0.0002);                             // no chord further off than 0.2 mm
 //   MovingMesh moving(surface, mesh);                               // the same triangles, control points moved
 //
-// Triangles run counter-clockwise seen from where du x dv points; of closed surfaces, seen from outside.
+// Triangles run counter-clockwise seen from where du x dv points; of closed surfaces, seen from outside. A vertex on an
+// edge of the surface has the normal of the side that the greater parameters are on.
 #pragma once
 
 #include <array>

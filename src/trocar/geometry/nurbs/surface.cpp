@@ -63,8 +63,17 @@ Vec3d point(const Surface& s, double u, double v) noexcept {
 }
 
 SurfaceJet jet(const Surface& s, double u, double v) noexcept {
-  const Basis2 bu = basis_at(s.u, u), bv = basis_at(s.v, v);
-  const auto sum = [&](int k, int l) noexcept { return weighted_sum(s, bu.first, bu.value[k], bv.first, bv.value[l]); };
+  const double in_u = into_domain(s.u, u), in_v = into_domain(s.v, v);
+  return jet_in_spans(s, span_of(s.u, in_u), span_of(s.v, in_v), in_u, in_v);
+}
+
+SurfaceJet jet_in_spans(const Surface& s, int span_u, int span_v, double u, double v) noexcept {
+  BasisRow nu[3], nv[3];
+  basis_derivatives(s.u, span_u, u, 2, nu);
+  basis_derivatives(s.v, span_v, v, 2, nv);
+  const auto sum = [&](int k, int l) noexcept {
+    return weighted_sum(s, span_u - s.u.degree, nu[k], span_v - s.v.degree, nv[l]);
+  };
   const Vec4d a = sum(0, 0), au = sum(1, 0), av = sum(0, 1), auu = sum(2, 0), auv = sum(1, 1), avv = sum(0, 2);
   SurfaceJet at;  // derivatives of the quotient  [PT97 eq.4.20]
   at.point = a.place();

@@ -36,6 +36,8 @@ struct SurfaceJet {
   Vec3d point, du, dv, duu, duv, dvv;
 };
 SurfaceJet jet(const Surface& surface, double u, double v) noexcept;
+/// That of the polynomial piece of two spans: at a knot, from the side on which the span is.
+SurfaceJet jet_in_spans(const Surface& surface, int span_u, int span_v, double u, double v) noexcept;
 
 /// Derivatives k times by u and l times by v, k + l <= order: result[k][l].  [PT97 A3.6, A4.4]
 std::vector<std::vector<Vec3d>> derivatives(const Surface& surface, double u, double v, int order);
