@@ -77,7 +77,7 @@ TEST(NurbsCurveFit, ReturnsTheCurveThatThePointsAreOf) {
   EXPECT_LT(exact.greatest, 1e-10);
 }
 
-TEST(NurbsCurveFit, MoreControlPointsComeNearer) {
+TEST(NurbsCurveFit, MoreControlPointsComeNearer) {  // [PT97 eq.9.69]
   for (bool closed : {false, true}) {
     nurbs::CurveFitOptions options;
     options.closed = closed;

@@ -140,7 +140,7 @@ TEST(NurbsBasis, ValuesAreThoseOfTheBooksExample) {  // [PT97 A2.2] example 2.3
   EXPECT_DOUBLE_EQ(n[2], 1.0 / 8);
 }
 
-TEST(NurbsBasis, DerivativesAreThoseOfTheBooksExample) {  // [PT97 A2.3] example 2.4
+TEST(NurbsBasis, DerivativesAreThoseOfTheBooksExample) {  // [PT97 A2.3] [PT97 eq.2.10] example 2.4
   nurbs::BasisRow n[3];
   nurbs::basis_derivatives(kBook, 4, 2.5, 2, n);
   EXPECT_DOUBLE_EQ(n[1][0], -0.5);

@@ -58,7 +58,7 @@ void expect_ring(const Surface& tube, const Curve& spine, double v, double radiu
 
 }  // namespace
 
-TEST(NurbsInterpolation, PassesThroughEveryPointWithEveryDegree) {  // [PT97 A9.1]
+TEST(NurbsInterpolation, PassesThroughEveryPointWithEveryDegree) {  // [PT97 A9.1] [PT97 eq.9.8]
   for (Spacing spacing : {Spacing::chord, Spacing::centripetal})
     for (int degree = 1; degree <= 6; ++degree)
       for (int n : {2, 3, 5, 17}) {
@@ -87,7 +87,7 @@ TEST(NurbsInterpolation, ClosedOnesPassThroughEveryPointSmoothly) {
     }
 }
 
-TEST(NurbsInterpolation, ReproducesACubicWhenGivenItsEndSlopes) {
+TEST(NurbsInterpolation, ReproducesACubicWhenGivenItsEndSlopes) {  // [PT97 eq.9.20]
   const auto cubic = [](double t) { return Vec3d{t, t * t - t, 2 * t * t * t - t * t}; };
   std::vector<Vec3d> points;
   for (double t : {0.0, 0.1, 0.45, 0.5, 0.9, 1.0}) points.push_back(cubic(t));

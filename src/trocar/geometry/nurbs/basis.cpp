@@ -26,7 +26,7 @@ void value_table(const Knots& knots, int span, double u, double (*ndu)[kRow]) no
 }
 
 // The d-th derivative of function r, d = 1 .. order, as a combination of functions of degree p - d: its coefficients
-// follow from those of the derivative before.  [PT97 eq. 2.10]
+// follow from those of the derivative before.  [PT97 eq.2.10]
 void differentiate_one(int p, int r, int order, const double (*ndu)[kRow], BasisRow* values) noexcept {
   double a[2][kRow] = {{1.0}, {}};
   int now = 0;

@@ -30,6 +30,7 @@ std::string fault_in(const Curve& curve);
 /// @throws std::invalid_argument: `who`, and what fault_in says
 void require_valid(const Curve& curve, const char* who);
 
+/// Sum of N_i w_i P_i over sum of N_i w_i.  [PT97 eq.4.1]
 Vec3d point(const Curve& curve, double u) noexcept;
 
 struct CurveJet {
@@ -39,7 +40,7 @@ CurveJet jet(const Curve& curve, double u) noexcept;
 /// That of the span's polynomial piece: at a knot, from the side on which the span is.
 CurveJet jet_in_span(const Curve& curve, int span, double u) noexcept;
 
-/// Derivatives 0 .. order.  [PT97 A3.2, A4.2]
+/// Derivatives 0 .. order.  [PT97 A3.2] [PT97 A4.2]
 std::vector<Vec3d> derivatives(const Curve& curve, double u, int order);
 
 /// Unit tangent, also where the first derivative vanishes but a higher one (up to the degree) does not; else 0.

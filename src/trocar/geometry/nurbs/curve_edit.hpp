@@ -33,8 +33,8 @@ Curve without_needless_knots(const Curve& curve, double tolerance);
 /// The curve of one degree less, if no point of it moves by more than `tolerance` [m] for that.  [PT97 A5.11]
 std::optional<Curve> reduced(const Curve& curve, double tolerance);
 
-/// How far weighted control points may move so that no point of the curve moves by more than `tolerance`.  [PT97
-/// eq.5.30]
+/// How far weighted control points may move so that no point of the curve moves by more than `tolerance` [m].
+/// [PT97 eq.5.30]
 double weighted_tolerance(const std::vector<Vec3d>& points, const std::vector<double>& weights, double tolerance);
 
 }  // namespace trocar::geometry::nurbs

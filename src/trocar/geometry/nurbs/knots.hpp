@@ -41,8 +41,8 @@ void require_valid(const Knots& knots, const char* who);
 
 /// u brought into the domain: clamped, or by whole periods into [start, end).
 double into_domain(const Knots& knots, double u) noexcept;
-/// The span [values[s], values[s + 1]) of some length that holds u (in the domain; at its end the last span). [PT97
-/// A2.1]
+/// The span [values[s], values[s + 1]) of some length that holds u (in the domain; at its end the last span).
+/// [PT97 A2.1]
 int span_of(const Knots& knots, double u) noexcept;
 /// How many knots of the domain equal u; a periodic one's start and end are one knot.
 int multiplicity(const Knots& knots, double u) noexcept;

@@ -5,7 +5,7 @@
 namespace trocar::geometry::nurbs {
 namespace {
 
-// The window of control points that a knot's removal changes, and what they become.  [PT97 A5.8, one knot at a time]
+// The window of control points that a knot's removal changes, and what they become.  [PT97 A5.8], one knot at a time
 struct Window {
   int first = 0;              // control points first .. first + count(old) - 1 become `points`, one less
   std::vector<Vec4d> points;  // of the new row

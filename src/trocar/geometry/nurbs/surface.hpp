@@ -30,6 +30,7 @@ std::string fault_in(const Surface& surface);
 /// @throws std::invalid_argument: `who`, and what fault_in says
 void require_valid(const Surface& surface, const char* who);
 
+/// Sum of N_i M_j w_ij P_ij over sum of N_i M_j w_ij.  [PT97 eq.4.11]
 Vec3d point(const Surface& surface, double u, double v) noexcept;
 
 struct SurfaceJet {
@@ -39,7 +40,7 @@ SurfaceJet jet(const Surface& surface, double u, double v) noexcept;
 /// That of the polynomial piece of two spans: at a knot, from the side on which the span is.
 SurfaceJet jet_in_spans(const Surface& surface, int span_u, int span_v, double u, double v) noexcept;
 
-/// Derivatives k times by u and l times by v, k + l <= order: result[k][l].  [PT97 A3.6, A4.4]
+/// Derivatives k times by u and l times by v, k + l <= order: result[k][l].  [PT97 A3.6] [PT97 A4.4]
 std::vector<std::vector<Vec3d>> derivatives(const Surface& surface, double u, double v, int order);
 
 /// Unit normal along du x dv. Where a derivative vanishes, as at a pole, or both are parallel: the limit from inside of

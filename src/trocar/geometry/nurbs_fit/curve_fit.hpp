@@ -4,7 +4,7 @@
 //   const CurveFit close = fit_curve_within(points, 0.0005);        // as many as it takes for half a millimetre
 //
 // Ends of open curves are the first and the last point exactly. Each round solves for the control points and then gives
-// each point the parameter of the curve's place that is nearest.  [PT97 section 9.4.1, eq.9.69; Hoschek 1988]
+// each point the parameter of the curve's place that is nearest.  [PT97 eq.9.69] [Hoschek 1988]
 #pragma once
 
 #include <span>

@@ -33,8 +33,8 @@ numerics::DenseLu factored(const Knots& knots, std::span<const double> parameter
   return lu;
 }
 
-// Each knot is the mean of `degree` neighbouring parameters, an end with a slope counting twice.  [PT97 eq.9.8,
-// eq.9.20]
+// Each knot is the mean of `degree` neighbouring parameters, an end with a slope counting twice.
+// [PT97 eq.9.8] [PT97 eq.9.20]
 Knots averaged_knots(std::span<const double> parameters, int degree, bool start_slope, bool end_slope) {
   if (parameters.size() < 2) throw std::invalid_argument("Interpolation: at least 2 parameters expected");
   std::vector<double> all(parameters.begin(), parameters.end());

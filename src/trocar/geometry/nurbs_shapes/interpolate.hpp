@@ -4,7 +4,7 @@
 //   const Curve outline = closed_curve_through(points);             // periodic; the first point is not repeated
 //
 // One system of equations for each set of parameters, solved for any number of rows: what skinning does with all
-// columns of its sections.  [PT97 A9.1, section 9.2]
+// columns of its sections.  [PT97 A9.1]
 #pragma once
 
 #include <optional>
