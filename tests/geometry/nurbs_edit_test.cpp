@@ -181,6 +181,14 @@ TEST(NurbsReduction, UndoesElevationAndRefusesWhatWouldMoveTheCurve) {  // [PT97
   EXPECT_FALSE(nurbs::reduced(nurbs::line({0, 0, 0}, {1, 0, 0}), 1e9)) << "nothing is below degree 1";
 }
 
+TEST(NurbsReduction, TakesSimpleKnotsWhereTheyAreNeedless) {
+  // A parabola as a cubic, with a knot put in that nothing needs.
+  const Curve parabola{nurbs::clamped_uniform(2, 3), {{0, 0, 0}, {0.5, 1, 0}, {1, 0, 0}}, {}};
+  const auto back = nurbs::reduced(nurbs::inserted(nurbs::elevated(parabola), 0.3), 1e-9);
+  ASSERT_TRUE(back);
+  EXPECT_LT(control_apart(*back, parabola), 1e-12);
+}
+
 TEST(NurbsParts, SplitHalvesAreTheCurve) {
   core::Random random(33);
   for (int degree = 1; degree <= 5; ++degree) {

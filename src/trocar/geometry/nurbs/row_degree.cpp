@@ -74,14 +74,22 @@ std::optional<Knots> reduced_knots(const Knots& k) {
   return periodic(k.degree - 1, fewer, k.extent());
 }
 
-// Of each control point of the lower row: its shares in those of the elevated one.
-std::vector<std::vector<double>> elevation_columns(const Knots& lower) {
+// Simple knots, which are gone from the lower row.
+std::vector<double> simple_knots(const Knots& k) {
+  std::vector<double> result;
+  for (const Knot& knot : distinct(k))
+    if (knot.multiplicity == 1) result.push_back(knot.value);
+  return result;
+}
+
+// Of each control point of the lower row: its shares in those of the row over the knots that were.
+std::vector<std::vector<double>> elevation_columns(const Knots& lower, const std::vector<double>& simple) {
   std::vector<std::vector<double>> columns;
   for (int j = 0; j < lower.points(); ++j) {
     Row unit{lower, std::vector<Vec4d>(static_cast<std::size_t>(lower.points()))};
     unit.points[j].w = 1.0;
     std::vector<double> column;
-    for (const Vec4d& p : elevated_once(unit).points) column.push_back(p.w);
+    for (const Vec4d& p : refined(elevated_once(unit), simple).points) column.push_back(p.w);
     columns.push_back(column);
   }
   return columns;
@@ -98,12 +106,14 @@ Row elevated(const Row& row, int times) {
   return result;
 }
 
-// Least squares over the control points: (E^T E) q = E^T p with E the elevation.
+// Least squares over the control points: (E^T E) q = E^T p with E the elevation, simple knots put in again.
 std::optional<Removal> reduced(const Row& row) {
   if (row.knots.degree <= 1) return {};
   const std::optional<Knots> lower = reduced_knots(row.knots);
   if (!lower) return {};
-  const auto columns = elevation_columns(*lower);
+  const std::vector<double> simple = simple_knots(row.knots);
+  const auto columns = elevation_columns(*lower, simple);
+  if (columns[0].size() != row.points.size()) return {};
   const int n = lower->points(), half = n - 1;
   std::vector<double> a(numerics::band_size(n, half));
   Removal result{{*lower, std::vector<Vec4d>(static_cast<std::size_t>(n))}, 0.0};
@@ -118,7 +128,7 @@ std::optional<Removal> reduced(const Row& row) {
   }
   if (numerics::band_factor(n, half, a.data()) >= 0) return {};
   numerics::band_solve(n, half, a.data(), &result.row.points[0].x, 4);
-  const Row again = elevated_once(result.row);
+  const Row again = refined(elevated_once(result.row), simple);
   for (std::size_t i = 0; i < row.points.size(); ++i)
     result.misfit = std::max(result.misfit, distance(row.points[i], again.points[i]));
   return result;
