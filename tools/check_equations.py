@@ -3,7 +3,8 @@
 
     tools/check_equations.py [ROOT]      ROOT: a checkout (default: this one). Exit 0 clean, 1 with one line a fault.
 
-A tag is written [KCM99 eq.3] (author letters, two digits of the year, number; a range is written out). The set of tags
+A tag is written [KCM99 eq.3] (author letters, two digits of the year, number; a range is written out), that of a book's
+numbered algorithm [PT97 A2.1], of an equation of a chapter [PT97 eq.4.8]. The set of tags
 in docs/equations.md must be the set in src/ and the set in tests/. An equation that is only planned is written there
 without brackets.
 """
@@ -11,7 +12,7 @@ import re
 import sys
 from pathlib import Path
 
-TAG = re.compile(r"\[([A-Z][A-Za-z]*\d\d) eq\.(\d+[a-z]?)\]")
+TAG = re.compile(r"\[([A-Z][A-Za-z]*\d\d) (eq\.\d+(?:\.\d+)?[a-z]?|A\d+\.\d+)\]")
 NEARLY = re.compile(r"\[[A-Z][A-Za-z]*\s?\d\d,?\s+eqs?[.\s][^\]\n]*\]")
 SOURCES = (".hpp", ".cpp", ".h", ".inl")
 

@@ -136,6 +136,10 @@ def EquationCheckFindsEachFault():
     expect("tests/" in check(a, a, "")[1] and check(a, a, "")[0] == 1, "an equation without test passed")
     expect(check(a, f"{a} {b}", f"{a} {b}")[0] == 1, "an unlisted equation passed")
     expect(check(a, f"{a} [KCM99 eqs. 2-4]", a)[0] == 1, "a badly written tag passed")
+    c = "[PT97 A2.1] [PT97 eq.4.8]"
+    expect(check(c, c, c)[0] == 0, "a book's algorithm and a chapter's equation were refused")
+    expect("[PT97 A2.1] does not occur in tests/" in check(c, c, "[PT97 eq.4.8]")[1], "an algorithm without test passed")
+    expect("[PT97 eq.4.8] does not occur in src/" in check(c, "[PT97 A2.1]", c)[1], "a chapter's equation without code passed")
     expect(check("", "", "")[0] == 1, "an empty list passed")
     with tempfile.TemporaryDirectory() as folder:
         expect(tool("check_equations.py", folder)[0] == 1, "a missing page passed")
