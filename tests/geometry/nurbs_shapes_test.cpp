@@ -171,23 +171,27 @@ TEST(NurbsSkin, RuledSurfaceIsStraightBetweenCurvesOfDifferentKinds) {
   }
 }
 
-TEST(NurbsSkin, SurfaceThroughAGridOfPointsHasThemAll) {  // [PT97 A9.4]
+TEST(NurbsSkin, SurfaceThroughAGridOfPointsHasThemAllAtMeanParameters) {  // [PT97 A9.4]
   std::vector<Vec3d> points;
   for (int j = 0; j < 5; ++j)
-    for (int i = 0; i < 7; ++i) points.push_back({double(i), double(j), 0.3 * portable::sin(i + 0.7 * j)});
-  const Surface s = nurbs::surface_through(points, 7, 5);
-  // The parameters are means: each point is on the surface, at its column's u and its row's v.
-  double worst = 0.0;
-  for (const Vec3d& p : points) {
-    double best = 1e9;
-    for (double v : nurbs::over(s.v, 201))
-      for (double u : nurbs::over(s.u, 201)) best = std::min(best, length(nurbs::point(s, u, v) - p));
-    worst = std::max(worst, best);
+    for (int i = 0; i < 7; ++i) points.push_back({0.1 * i * i, 0.3 * j * j, 0.3 * portable::sin(i + 0.7 * j)});
+  std::vector<double> u(7, 0.0), v(5, 0.0);
+  for (int j = 0; j < 5; ++j) {
+    const auto row = nurbs::parameters_by(Spacing::chord, std::span(points).subspan(7 * j, 7), "test");
+    for (int i = 0; i < 7; ++i) u[i] += row[i] / 5;
   }
-  EXPECT_LT(worst, 0.025) << "half the diagonal of a sample's step";
+  for (int i = 0; i < 7; ++i) {
+    std::vector<Vec3d> column;
+    for (int j = 0; j < 5; ++j) column.push_back(points[i + 7 * j]);
+    const auto along = nurbs::parameters_by(Spacing::chord, column, "test");
+    for (int j = 0; j < 5; ++j) v[j] += along[j] / 7;
+  }
+  const Surface s = nurbs::surface_through(points, 7, 5);
   EXPECT_EQ(s.points.size(), points.size());
-  EXPECT_LT(length(nurbs::point(s, 0, 0) - points.front()), 1e-13);
-  EXPECT_LT(length(nurbs::point(s, 1, 1) - points.back()), 1e-13);
+  for (int j = 0; j < 5; ++j)
+    for (int i = 0; i < 7; ++i)
+      ASSERT_LT(length(nurbs::point(s, u[i], v[j]) - points[i + 7 * j]), 1e-12) << i << ' ' << j;
+  EXPECT_REFUSED(nurbs::surface_through(points, 7, 4), "as many as the counts say");
 }
 
 TEST(NurbsTube, OfAStraightSpineIsACylinderExactly) {
@@ -233,6 +237,30 @@ TEST(NurbsTube, DoesNotTwistAndClosesAroundAClosedSpine) {
     const auto out = [&](double at) { return normalised(nurbs::point(wall, 0, at) - nurbs::point(ring, at)); };
     ASSERT_GT(dot(out(v), out(v + 0.01)), 0.95) << v;
   }
+}
+
+// Carried around a ring that is not flat, a frame comes back turned; the tube has its share of that everywhere.
+TEST(NurbsTube, HasNoStepAtTheSeamOfARingThatIsNotFlat) {
+  std::vector<Vec3d> points;
+  for (int i = 0; i < 24; ++i) {
+    const double a = portable::two_pi * i / 24;
+    points.push_back(
+        {portable::cos(a), portable::sin(a) + 0.3 * portable::cos(2 * a), 0.5 * portable::sin(2 * a + 0.5)});
+  }
+  const Curve ring = nurbs::closed_curve_through(points);
+  const Surface wall = nurbs::tube(ring, {0.05});
+  const auto out = [&](double v) { return normalised(nurbs::point(wall, 0, v) - nurbs::point(ring, v)); };
+  std::vector<double> twists;
+  double sum = 0.0, most = 0.0;
+  for (int k = 0; k < 400; ++k) {
+    const double v = k / 400.0;
+    twists.push_back(dot(cross(out(v), out(v + 0.0025)), nurbs::tangent(ring, v)));
+    sum += twists.back();
+  }
+  for (double twist : twists) most = std::max(most, std::fabs(twist - sum / 400));
+  EXPECT_GT(std::fabs(sum), 0.2) << "a ring that turns frames";
+  EXPECT_LT(most, 0.2 * std::fabs(sum) / 4) << "and not within the four samples of one station";
+  std::printf("ring: turned by %.3f, a step by at most %.4f more or less than the mean\n", sum, most);
 }
 
 TEST(NurbsTube, CappedOnesEncloseTheirFormulasVolume) {
