@@ -1,14 +1,15 @@
 #include <limits>
 
+#include <trocar/core/hash.hpp>
 #include <trocar/geometry/nurbs/closure.hpp>
 #include <trocar/geometry/nurbs/mesh.hpp>
 #include <trocar/geometry/nurbs/surface_edit.hpp>
-#include <trocar/geometry/nurbs_fit/curve_fit.hpp>
 #include <trocar/geometry/nurbs_fit/fit.hpp>
 #include <trocar/geometry/nurbs_fit/sphere_map.hpp>
 #include <trocar/geometry/nurbs_fit/square_map.hpp>
 #include <trocar/geometry/nurbs_fit/surface_system.hpp>
 #include <trocar/geometry/nurbs_shapes/curve_makers.hpp>
+#include <trocar/geometry/nurbs_shapes/interpolate.hpp>
 #include <trocar/geometry/nurbs_shapes/surface_makers.hpp>
 #include <trocar/geometry/nurbs_shapes/tube.hpp>
 #include <trocar/geometry/surfaces/fill_holes.hpp>
@@ -19,7 +20,6 @@ using namespace trocar;
 namespace nurbs = trocar::geometry::nurbs;
 using geometry::TriMesh;
 using nurbs::Along;
-using nurbs::Curve;
 using nurbs::Surface;
 
 namespace {
@@ -39,93 +39,7 @@ Surface bag() {
   for (Vec3d& p : s.points) p.x += 8.0 * p.z * p.z;
   return s;
 }
-// Points of a wavy ring, and of an open wave.
-std::vector<Vec3d> wave(int n) {
-  std::vector<Vec3d> points;
-  for (int i = 0; i < n; ++i) {
-    const double t = i / (n - 1.0);
-    points.push_back({t, 0.2 * portable::sin(5 * t), 0.1 * portable::cos(9 * t)});
-  }
-  return points;
-}
-std::vector<Vec3d> wavy_ring(int n) {
-  std::vector<Vec3d> points;
-  for (int i = 0; i < n; ++i) {
-    const double a = portable::two_pi * i / n, r = 1 + 0.1 * portable::cos(4 * a);
-    points.push_back({r * portable::cos(a), r * portable::sin(a), 0.1 * portable::sin(3 * a)});
-  }
-  return points;
-}
-
 }  // namespace
-
-TEST(NurbsCurveFit, ReturnsTheCurveThatThePointsAreOf) {
-  core::Random random(81);
-  Curve truth{nurbs::clamped_uniform(3, 7), {}, {}};
-  for (int i = 0; i < 7; ++i) truth.points.push_back({double(i), random.uniform(-1, 1), random.uniform(-1, 1)});
-  std::vector<Vec3d> points;
-  for (double u : nurbs::over(truth.knots, 200)) points.push_back(nurbs::point(truth, u));
-  nurbs::CurveFitOptions options;
-  options.rounds = 200;
-  const nurbs::CurveFit fit = nurbs::fit_curve(points, 12, options);
-  EXPECT_LT(fit.greatest, 1e-2) << "of a curve about 8 long";
-  EXPECT_EQ(fit.curve.points.front(), points.front());
-  EXPECT_EQ(fit.curve.points.back(), points.back());
-  EXPECT_EQ(fit.residuals.size(), points.size());
-  // With a point for each control point it is interpolation.
-  const nurbs::CurveFit exact = nurbs::fit_curve(wave(9), 9);
-  EXPECT_LT(exact.greatest, 1e-10);
-}
-
-TEST(NurbsCurveFit, MoreControlPointsComeNearer) {  // [PT97 eq.9.69]
-  for (bool closed : {false, true}) {
-    nurbs::CurveFitOptions options;
-    options.closed = closed;
-    double last = 1e9;
-    for (int n : {6, 10, 18, 34}) {
-      const nurbs::CurveFit fit = nurbs::fit_curve(closed ? wavy_ring(200) : wave(200), n, options);
-      EXPECT_EQ(static_cast<int>(fit.curve.points.size()), n);
-      EXPECT_EQ(fit.curve.knots.periodic, closed);
-      EXPECT_LT(fit.rms, 0.6 * last) << n;
-      last = fit.rms;
-    }
-    EXPECT_LT(last, 1e-4);
-  }
-}
-
-TEST(NurbsCurveFit, WithinAToleranceTakesFewerControlPointsThanPoints) {
-  for (bool closed : {false, true}) {
-    nurbs::CurveFitOptions options;
-    options.closed = closed;
-    std::size_t last = 0;
-    for (double tolerance : {1e-2, 1e-3, 1e-4}) {
-      const nurbs::CurveFit fit = nurbs::fit_curve_within(closed ? wavy_ring(300) : wave(300), tolerance, options);
-      EXPECT_LE(fit.greatest, tolerance);
-      EXPECT_GE(fit.curve.points.size(), last);
-      EXPECT_LT(fit.curve.points.size(), 80u);
-      last = fit.curve.points.size();
-    }
-  }
-}
-
-TEST(NurbsCurveFit, KeepsTheSlopesOfItsEnds) {
-  nurbs::CurveFitOptions options;
-  options.slopes = {Vec3d{1, 2, 0}, Vec3d{1, 0, -1}};
-  const nurbs::CurveFit fit = nurbs::fit_curve(wave(100), 15, options);
-  EXPECT_LT(length(nurbs::jet(fit.curve, 0).first - Vec3d{1, 2, 0}), 1e-12);
-  EXPECT_LT(length(nurbs::jet(fit.curve, 1).first - Vec3d{1, 0, -1}), 1e-12);
-}
-
-TEST(NurbsCurveFit, RefusesWhatCannotBeFitted) {
-  EXPECT_REFUSED(nurbs::fit_curve(wave(10), 11), "from 4 to 10 control points expected, got 11");
-  EXPECT_REFUSED(nurbs::fit_curve(wave(3), 3), "at least 4 points expected, got 3");
-  std::vector<Vec3d> points = wave(10);
-  points[4].y = kNan;
-  EXPECT_REFUSED(nurbs::fit_curve(points, 5), "point 4 is not a number");
-  points[4] = points[5];
-  EXPECT_REFUSED(nurbs::fit_curve(points, 5), "points 4 and 5 coincide");
-  EXPECT_REFUSED(nurbs::fit_curve_within(wave(10), 0.0), "a tolerance above 0");
-}
 
 TEST(NurbsSphereMap, OfASphereIsLongitudeAndLatitude) {
   const TriMesh ball = mesh_of(nurbs::sphere({}, 0.03), 8);
@@ -138,7 +52,7 @@ TEST(NurbsSphereMap, OfASphereIsLongitudeAndLatitude) {
   for (std::size_t i = 0; i < ball.positions.size(); ++i) {
     const Vec3d p = ball.positions[i] / 0.03;
     const double latitude = 1 - portable::acos(p.z) / portable::pi;
-    ASSERT_NEAR(map.v[i], latitude, 0.02) << i;
+    ASSERT_NEAR(map.v[i], latitude, 0.008) << i;
     if (std::fabs(p.z) > 0.99) continue;
     const double turn = map.u[i] - portable::atan2(p.y, p.x) / portable::two_pi;
     if (turned < 0) turned = turn - std::floor(turn);  // where u begins is the date line's choice
@@ -250,9 +164,25 @@ TEST(NurbsFit, OfABentBagWithAnInnerSideIsWithinASmallShareOfItsWall) {
 
 TEST(NurbsFit, FacesOutwardsWhicheverWayItsMeshIsTurnedAndTwiceMakesTheSameBits) {
   const TriMesh mesh = mesh_of(egg(), 4);
-  const nurbs::Fit once = nurbs::fit_body(mesh), again = nurbs::fit_body(mesh);
+  TriMesh turned = mesh;
+  for (auto& t : turned.triangles) std::swap(t[1], t[2]);
+  const nurbs::Fit once = nurbs::fit_body(mesh), again = nurbs::fit_body(mesh), other = nurbs::fit_body(turned);
   EXPECT_GT(nurbs::volume(once.surface), 0.0);
+  EXPECT_GT(nurbs::volume(other.surface), 0.0);
+  EXPECT_GT(other.report.volume_of_mesh, 0.0);
   EXPECT_EQ(once.surface.points, again.surface.points);
+}
+
+// The value was printed once by gcc 12 on x86-64; every other compiler and machine must find the same.
+TEST(NurbsFit, GivesTheSameBitsOnEveryCompiler) {
+  const nurbs::Fit fit = nurbs::fit_body(mesh_of(bag(), 3));
+  const TriMesh tube = nurbs::tessellate(nurbs::tube(nurbs::circle({}, {1, 2, 3}, 0.03), {0.004}), 1e-4).mesh;
+  core::Hasher hasher;
+  hasher.add(fit.surface.points);
+  hasher.add(fit.report.residuals);
+  hasher.add(tube.positions);
+  hasher.add(tube.triangles);
+  EXPECT_EQ(hasher.value(), 0x959be54e28fe94d2ull) << std::hex << hasher.value();
 }
 
 TEST(NurbsFit, OfACloudAllAroundIsTheBodyThatItIsOf) {
@@ -288,6 +218,24 @@ TEST(NurbsSquareMap, LaysTheRimOnTheEdgesAndFoldsNothing) {
   }
 }
 
+TEST(NurbsSquareMap, FindsTheCornersOfARectangleFromEitherSide) {
+  TriMesh sheet = nurbs::tessellate(nurbs::plane({1, 2, 3}, {2, 0, 0}, {0, 0.6, 0.8}), nurbs::Steps{9, 5}).mesh;
+  for (int side = 0; side < 2; ++side) {
+    const nurbs::SquareMap map = nurbs::map_to_square(sheet);
+    EXPECT_NEAR(map.way_u * map.way_v, 2.0, 1e-12);
+    int corners = 0;
+    for (std::size_t i = 0; i < sheet.positions.size(); ++i) {
+      const Vec3d p = sheet.positions[i] - Vec3d{1, 2, 3};
+      const bool corner = (p.x < 1e-9 || p.x > 2 - 1e-9) && (p.z < 1e-9 || p.z > 0.8 - 1e-9);
+      const auto& [u, v] = map.parameters[i];
+      EXPECT_TRUE(!corner || ((u == 0 || u == 1) && (v == 0 || v == 1))) << u << ' ' << v;
+      corners += corner;
+    }
+    EXPECT_EQ(corners, 4);
+    for (auto& t : sheet.triangles) std::swap(t[1], t[2]);
+  }
+}
+
 TEST(NurbsFit, OfAPatchIsWithinASmallShareOfItsSize) {
   const Surface sheet = nurbs::part(nurbs::part(egg(), Along::v, 0.3, 0.7), Along::u, 0.1, 0.5);
   const TriMesh mesh = nurbs::tessellate(sheet, nurbs::Steps{8, 12}).mesh;
@@ -295,7 +243,10 @@ TEST(NurbsFit, OfAPatchIsWithinASmallShareOfItsSize) {
   EXPECT_LT(fit.report.rms, 1e-4);
   EXPECT_LT(fit.report.greatest, 3e-4);
   EXPECT_LT(fit.report.back_greatest, 8e-4) << "it ends where the mesh does";
+  TriMesh turned = mesh;
+  for (auto& t : turned.triangles) std::swap(t[1], t[2]);
   EXPECT_GT(dot(nurbs::normal(fit.surface, 0.5, 0.5), geometry::area_vector(mesh, 0)), 0.0) << "faces as the mesh";
+  EXPECT_GT(dot(nurbs::normal(nurbs::fit_patch(turned).surface, 0.5, 0.5), geometry::area_vector(turned, 0)), 0.0);
   const nurbs::Fit cloud = nurbs::fit_patch(std::span<const Vec3d>(mesh.positions));
   EXPECT_LT(cloud.report.rms, 1e-4);
   std::printf("patch: rms %.4f mm, greatest %.4f mm; cloud %.4f and %.4f mm\n", 1e3 * fit.report.rms,

@@ -64,6 +64,8 @@ TEST(NurbsKnots, MakersMakeValidOnesAndRefuseTooFewPoints) {
 
 TEST(NurbsKnots, SpansHoldTheirParameterAndHaveALength) {  // [PT97 A2.1]
   EXPECT_EQ(nurbs::span_of(kBook, 2.5), 4);
+  EXPECT_EQ(nurbs::span_of(kBook, -1.0), 2) << "outside: the nearest";
+  EXPECT_EQ(nurbs::span_of(kBook, 9.0), 7);
   core::Random random(1);
   for (int degree = 1; degree <= 5; ++degree)
     for (bool periodic : {false, true}) {

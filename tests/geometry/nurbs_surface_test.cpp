@@ -242,6 +242,7 @@ TEST(NurbsClosure, NodesAreOneAtPolesAndSeams) {
   EXPECT_EQ(nurbs::nodes_of(nurbs::opened(ball, Along::u, 0.0)).count, nodes.count) << "its seam's points are one";
   EXPECT_EQ(nurbs::nodes_of(nurbs::transposed(ball)).count, nodes.count);
   EXPECT_EQ(nurbs::nodes_of(nurbs::torus({}, {0, 0, 1}, 2, 1)).count, 64);
+  EXPECT_EQ(nurbs::nodes_of(nurbs::opened(nurbs::torus({}, {0, 0, 1}, 2, 1), Along::v, 0.25)).count, 64);
   EXPECT_EQ(nurbs::nodes_of(nurbs::plane({}, {1, 0, 0}, {0, 1, 0})).count, 4);
   // A moved pole stays a pole.
   std::vector<Vec3d> places = nurbs::places_of(nodes, ball.points);

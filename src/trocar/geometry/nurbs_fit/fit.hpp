@@ -27,7 +27,7 @@ struct FitReport {
   double greatest = 0.0;
   /// The other way round: how far places all over the surface are from the mesh (meshes only).
   double back_rms = 0.0, back_greatest = 0.0;
-  double volume_of_mesh = 0.0, volume_of_fit = 0.0;  ///< [m^3]; closed meshes only
+  double volume_of_mesh = 0.0, volume_of_fit = 0.0;  ///< [m^3], above 0; closed ones only
   int rounds = 0;
 };
 

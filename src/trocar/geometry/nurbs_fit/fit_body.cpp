@@ -40,7 +40,7 @@ Fit fit_body(const TriMesh& mesh, const BodyFitOptions& options) {
   const double spacing = 0.5 * std::min(map.around / options.around, map.length / (options.along - 3));
   Samples samples = samples_of(mesh, parameters, spacing, true, {poles[0], poles[1]});
   Fit fit{fit_in_rounds(unknowns, samples, rounds), {}};
-  if (volume(mesh) > 0.0) fit.surface = outwards(fit.surface);
+  fit.surface = outwards(fit.surface);
   fit.report = compare(fit.surface, mesh);
   fit.report.rounds = rounds.done;
   return fit;

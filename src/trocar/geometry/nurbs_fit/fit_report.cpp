@@ -45,8 +45,8 @@ FitReport compare(const Surface& surface, const TriMesh& mesh) {
     sum += off * off;
   }
   report.back_rms = std::sqrt(sum / double(made.mesh.positions.size()));
-  if (check_edges(mesh).closed()) report.volume_of_mesh = volume(mesh);
-  if (closure_of(surface).closed()) report.volume_of_fit = volume(surface);
+  if (check_edges(mesh).closed()) report.volume_of_mesh = std::fabs(volume(mesh));
+  if (closure_of(surface).closed()) report.volume_of_fit = std::fabs(volume(surface));
   return report;
 }
 
