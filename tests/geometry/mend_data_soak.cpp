@@ -69,8 +69,9 @@ struct Row {
 
 TEST(MendedData, EveryPartOfEveryFileBecomesABodyOrSaysWhyNot) {
   if (!fs::exists(kDataFolder)) GTEST_SKIP() << "the data folder " << kDataFolder << " is absent";
-  std::printf("| file | parts | vertices | triangles | holes | crossings | other faults | bodies | left open | ml before "
-              "| ml after | ms to read | ms to mend |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| file | parts | vertices | triangles | holes | crossings | other faults | bodies | left open | ml before "
+      "| ml after | ms to read | ms to mend |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   Row all;
   int files = 0;
   for (const fs::path& path : surface_paths()) {

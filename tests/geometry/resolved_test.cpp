@@ -7,6 +7,7 @@
 #include <trocar/geometry/repair/cut_triangle.hpp>
 #include <trocar/geometry/repair/examine.hpp>
 #include <trocar/geometry/repair/resolved.hpp>
+#include <trocar/geometry/volumes/field.hpp>
 
 #include "broken_meshes.hpp"
 
@@ -201,7 +202,19 @@ TEST(Resolved, RandomHeapsOfBodiesAlwaysBecomeBodies) {
     EXPECT_TRUE(one.left.empty()) << round;
     const Diagnosis d = examine(one.mesh);
     EXPECT_TRUE(d.crossings.empty() && d.holes.empty() && d.turned_edges.empty()) << in_words(d);
-    EXPECT_LT(d.volume, volume(heap));
+    const Field before = field_of(heap), after = field_of(one.mesh);  // another way to tell inside: along a ray
+    const Vec3d side = before.box.high - before.box.low;
+    int inside = 0, differ = 0;
+    const int count = 4000;
+    for (int i = 0; i < count; ++i) {
+      const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+      const Vec3d p = before.box.low + Vec3d{x * side.x, y * side.y, z * side.z};
+      const bool in = before.inside(p) > 0;
+      inside += in;
+      differ += in != (after.inside(p) > 0);
+    }
+    EXPECT_EQ(differ, 0) << "the same places are inside";
+    EXPECT_NEAR(d.volume, double(inside) / count * side.x * side.y * side.z, 0.08 * d.volume);
   }
 }
 

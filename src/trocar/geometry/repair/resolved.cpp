@@ -19,8 +19,9 @@ namespace trocar::geometry {
 namespace {
 
 constexpr double kNudges[] = {0, 1e-8, 1e-7, 1e-6};  ///< of the box's diagonal
-constexpr double kMostWindingWork = 1e8;            ///< solid angles for one mesh: some seconds
+constexpr double kMostWindingWork = 1e8;             ///< solid angles for one mesh: some seconds
 constexpr double kCrumb = 1e-4;                      ///< of the area: a shell that was cut off and is smaller goes
+constexpr double kGap = 4;                           ///< nudges: a shell that is thinner goes
 constexpr double kWindingDoubt = 0.2;                ///< off a whole number of turns
 
 using Pairs = std::vector<std::array<int, 2>>;
@@ -122,8 +123,10 @@ std::optional<int> turns_before(const TriMesh& mesh, int own, Vec3d place) {
   return int(whole);
 }
 
-/// Folds leave shells of next to no size: those that were cut off, which their new vertices tell, go.
-TriMesh without_crumbs(TriMesh mesh, int old_vertices) {
+/// Folds leave shells of next to no size, and faces that lay in each other gaps as thin as they were nudged: of what
+/// was cut off, which its new vertices tell, such shells go.
+/// @param thickness  [m] that is none
+TriMesh without_crumbs(TriMesh mesh, int old_vertices, double thickness) {
   const EdgeTable edges(mesh);
   const Shells shells = shells_of(mesh, edges, {});
   double all = 0;
@@ -134,13 +137,15 @@ TriMesh without_crumbs(TriMesh mesh, int old_vertices) {
       if (v >= old_vertices) is_cut[shells.of[t]] = true;
   std::vector<std::array<int, 3>> kept;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (!is_cut[shells.of[t]] || shells.list[shells.of[t]].area > kCrumb * all) kept.push_back(mesh.triangles[t]);
+    if (const Shell& shell = shells.list[shells.of[t]];
+        !is_cut[shells.of[t]] || (shell.area > kCrumb * all && std::fabs(shell.volume) > thickness * shell.area))
+      kept.push_back(mesh.triangles[t]);
   mesh.triangles = std::move(kept);
   return without_unused(mesh).mesh;
 }
 
 /// The pieces that have inside behind them and outside in front.
-std::optional<TriMesh> boundary_of(const TriMesh& mesh, const CutMesh& cut, double& work_left) {
+std::optional<TriMesh> boundary_of(const TriMesh& mesh, const CutMesh& cut, double thickness, double& work_left) {
   std::vector<int> largest;
   const std::vector<int> patch = patches_of(cut.mesh, largest);
   work_left -= double(largest.size()) * double(mesh.triangles.size());
@@ -156,7 +161,7 @@ std::optional<TriMesh> boundary_of(const TriMesh& mesh, const CutMesh& cut, doub
   TriMesh out{cut.mesh.positions, {}};
   for (std::size_t t = 0; t < patch.size(); ++t)
     if (keep[patch[t]]) out.triangles.push_back(cut.mesh.triangles[t]);
-  return without_crumbs(parted(out).mesh, int(mesh.positions.size()));
+  return without_crumbs(parted(out).mesh, int(mesh.positions.size()), thickness);
 }
 
 bool is_resolved(const TriMesh& mesh) { return check_edges(mesh).closed() && self_crossings(mesh).pairs.empty(); }
@@ -176,7 +181,7 @@ std::optional<TriMesh> resolved_at_once(const TriMesh& mesh, double& work_left) 
     if (!cuts.find(work, found.pairs)) continue;
     const std::optional<CutMesh> cut = cut_along(work, cuts);
     if (!cut) continue;
-    std::optional<TriMesh> boundary = boundary_of(work, *cut, work_left);
+    std::optional<TriMesh> boundary = boundary_of(work, *cut, kGap * nudge * size, work_left);
     if (boundary && !boundary->triangles.empty() && is_resolved(*boundary)) return boundary;
   }
   return std::nullopt;

@@ -66,7 +66,7 @@ void find_cavities(const TriMesh& mesh, Shells& shells) {
     if (shells.list[s].volume > 0 && !shells.list[s].is_sheet()) bodies.push_back(s);
   for (int s = 0; s < int(shells.list.size()); ++s) {
     Shell& shell = shells.list[s];
-    if (!(shell.volume < 0) || shell.turned_edges > 0 || shell.is_sheet()) continue;
+    if (!(shell.volume < 0) || shell.turned_edges > 0 || (shell.open_edges > 0 && shell.is_sheet())) continue;
     shell.is_cavity = work > most && !bodies.empty();
     if (work > most) continue;
     const Vec3d place = mesh.positions[mesh.triangles[shell.first][0]];

@@ -36,9 +36,8 @@ UnitGuess guess_unit(const Bounds& box) {
     return guess;
   }
   std::vector<LengthUnit> units(std::begin(kLengthUnits), std::end(kLengthUnits));
-  std::stable_sort(units.begin(), units.end(), [&](const LengthUnit& a, const LengthUnit& b) {
-    return oddness(longest, a) < oddness(longest, b);
-  });
+  std::stable_sort(units.begin(), units.end(),
+                   [&](const LengthUnit& a, const LengthUnit& b) { return oddness(longest, a) < oddness(longest, b); });
   guess.words = fmt::format("longest side {:.4g}:", longest);
   for (const LengthUnit& unit : units) {
     const double length = longest * unit.metres;

@@ -4,8 +4,8 @@
 //   const UnitGuess guess = guess_unit(bounds(mesh.positions));
 //   ask(guess.words);      // "longest side 380.5: 38.1 cm in millimetres, 3.81 m in centimetres, 381 m in metres"
 //
-// Organs and instruments are some millimetres to half a metre long, and few programs write centimetres: that is all there
-// is to it.
+// Organs and instruments are some millimetres to half a metre long, and few programs write centimetres: that is all
+// there is to it.
 #pragma once
 
 #include <string>
@@ -23,8 +23,8 @@ struct UnitGuess {
   std::string words;
 };
 inline constexpr double kShortestBody = 0.004, kLongestBody = 0.8;  ///< [m] what counts as an organ or instrument
-inline constexpr double kUsualBody = 0.1;  ///< [m] nearest to this is likeliest
-inline constexpr double kSeldom = 4;       ///< so many times nearer it has to be in centimetres
+inline constexpr double kUsualBody = 0.1;                           ///< [m] nearest to this is likeliest
+inline constexpr double kSeldom = 4;  ///< so many times nearer it has to be in centimetres
 
 UnitGuess guess_unit(const Bounds& box);
 
