@@ -147,7 +147,7 @@ LookShelf::LookShelf(const std::vector<fs::path>& folders, std::vector<core::Fau
     : m_faults(faults), m_memory(memory) {
   for (const fs::path& folder : folders) {
     std::error_code error;
-    if (memory) {
+    if (!MemoryFiles::disk_too(memory)) {
       for (const auto& [path, text] : *memory)
         if (path.parent_path() == folder && path.extension() == ".json") m_files.emplace(path.stem().string(), path);
       continue;

@@ -46,8 +46,9 @@ std::vector<fs::path> sorted_entries(const fs::path& folder) {
 void Reading::include(const fs::path& path, const core::Location& from, const Shape& shape, const Read& read) {
   const auto refuse = [&](std::string message) { tell(m_faults, {from, std::move(message)}); };
   std::error_code error;
-  if (!m_memory && m_open.empty()) m_library.emplace(path);
-  const fs::path canonical = m_memory ? path : fs::weakly_canonical(path, error);
+  const bool disk = MemoryFiles::disk_too(m_memory);
+  if (disk && m_open.empty()) m_library.emplace(path);
+  const fs::path canonical = disk ? fs::weakly_canonical(path, error) : path;
   std::string chain;
   bool cycle = false;
   for (const auto& [open, name] : m_open) {
@@ -60,7 +61,8 @@ void Reading::include(const fs::path& path, const core::Location& from, const Sh
   if (m_open.size() >= kMaxIncludeDepth)
     return refuse(fmt::format("expected at most {} files inside each other, got more", kMaxIncludeDepth));
   if (++m_files > kMaxFiles) return refuse(fmt::format("expected at most {} files, got more", kMaxFiles));
-  if (!m_open.empty() && !(m_memory ? m_memory->count(path) > 0 : fs::is_regular_file(path, error)))
+  const bool there = (m_memory && m_memory->text_of(path)) || (disk && fs::is_regular_file(path, error));
+  if (!m_open.empty() && !there)
     return refuse(fmt::format("expected the name of a file, got \"{}\" (there is no file {})",
                               path.filename().generic_string(), path.generic_string()));
   m_open.emplace_back(canonical, path.generic_string());

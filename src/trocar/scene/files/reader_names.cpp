@@ -74,7 +74,7 @@ void Reading::looks(const std::filesystem::path& first) {
   const std::vector<std::filesystem::path> beside{first.parent_path() / "looks"};
   const LookShelf shelf(m_library ? m_library->looks() : beside, m_faults, m_memory);
   description.looks = shelf.book();
-  if (m_memory && shelf.empty()) return;  // a scene that is nothing but a text
+  if (!MemoryFiles::disk_too(m_memory) && shelf.empty()) return;  // a scene that is nothing but a text
   const std::vector<std::string> known = shelf.names();
   for (const Reference& reference : m_references)
     if (reference.to == Reference::To::look && std::find(known.begin(), known.end(), reference.name) == known.end())

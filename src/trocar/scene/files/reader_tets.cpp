@@ -61,9 +61,8 @@ std::optional<std::string> Reading::bytes_of(const JsonObject& o, const fs::path
     return {};
   }
   const fs::path path = (folder / named).lexically_normal();
-  if (m_memory) {
-    const auto found = m_memory->find(path);
-    if (found != m_memory->end()) return found->second;
+  if (const std::string* bytes = m_memory ? m_memory->text_of(path) : nullptr) return *bytes;
+  if (!MemoryFiles::disk_too(m_memory)) {
     o.fault("file", fmt::format("expected the name of a file, got \"{}\"", named.generic_string()));
     return {};
   }

@@ -207,6 +207,14 @@ class Parser {
   }
 
   JsonValue value(int depth) {
+    const std::size_t from = m_at;
+    JsonValue v = value_here(depth);
+    v.from = std::uint32_t(from);
+    v.to = std::uint32_t(m_at);
+    return v;
+  }
+
+  JsonValue value_here(int depth) {
     const Place at = m_place;
     if (++m_values > kMaxJsonValues) {
       lost(at, fmt::format("expected at most {} values in a file, got more", kMaxJsonValues));
@@ -397,6 +405,7 @@ class Parser {
                                   begin.line, begin.column));
     if (peek() != '"') return lost(at, fmt::format("expected a key in double quotes, got {}", here()));
     JsonMember m;
+    m.from = std::uint32_t(m_at);
     m.key = string().text;
     m.line = at.line;
     m.column = at.column;
@@ -433,6 +442,12 @@ const JsonMember* JsonValue::find(std::string_view key) const {
   return nullptr;
 }
 
+const std::string* MemoryFiles::text_of(const std::filesystem::path& path) const {
+  std::error_code error;
+  const auto found = find(over_disk ? std::filesystem::weakly_canonical(path, error) : path);
+  return found == end() ? nullptr : &found->second;
+}
+
 JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults) {
   JsonDocument document{std::move(file), {}};
   document.root = Parser(text, document.file, faults).document();
@@ -442,13 +457,11 @@ JsonDocument parse_json(std::string_view text, std::string file, std::vector<cor
 JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults, const MemoryFiles* memory) {
   JsonDocument document{path.generic_string(), {}};
   document.root.kind = Kind::broken;
-  if (memory) {
-    const auto found = memory->find(path);
-    if (found == memory->end()) {
-      tell(faults, {{document.file, 0, 0}, "expected a file, got none of this name"});
-      return document;
-    }
-    return parse_json(found->second, document.file, faults);
+  if (const std::string* text = memory ? memory->text_of(path) : nullptr)
+    return parse_json(*text, document.file, faults);
+  if (!MemoryFiles::disk_too(memory)) {
+    tell(faults, {{document.file, 0, 0}, "expected a file, got none of this name"});
+    return document;
   }
   try {
     return parse_json(core::read_file(path, kMaxJsonBytes), document.file, faults);

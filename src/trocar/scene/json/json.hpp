@@ -12,6 +12,7 @@
 //   for (const JsonMember& m : document.root.members) ...
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -31,6 +32,7 @@ struct JsonValue {
   Kind kind = Kind::null;
   bool truth = false;
   int line = 0, column = 0;         ///< of the value's first character, 1-based; columns count characters, not bytes
+  std::uint32_t from = 0, to = 0;   ///< the value's bytes in the text, [from, to): for who edits it (json_edit.hpp)
   double number = 0;                ///< always finite
   std::string text;                 ///< string: UTF-8, escapes resolved
   std::vector<JsonValue> items;     ///< array
@@ -43,6 +45,7 @@ struct JsonMember {
   std::string key;
   int line = 0, column = 0;  ///< of the key
   JsonValue value;
+  std::uint32_t from = 0;  ///< of the key's first byte
 };
 
 struct JsonDocument {
@@ -62,10 +65,18 @@ void tell(std::vector<core::Fault>& faults, core::Fault fault);
 /// Reads `text`; what is wrong with it is appended to `faults`. Never throws on bad text.
 JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults);
 
-/// Texts that stand in for files, by path as given: lets tests feed readers without a disk.
-using MemoryFiles = std::map<std::filesystem::path, std::string>;
+/// Texts that stand in for files, by path as given: lets tests feed readers without a disk, and editors read what is not
+/// saved yet.
+struct MemoryFiles : std::map<std::filesystem::path, std::string> {
+  using map::map;
+  bool over_disk = false;  ///< what is not here is read from the disk; paths are weakly canonical ones then
 
-/// The same for a file; one that cannot be read is a fault at line 0. With `memory` files are looked up there only.
+  const std::string* text_of(const std::filesystem::path& path) const;  ///< null where it is not here
+  /// May files be read from the disk, too? `memory` may be null: then all are.
+  static bool disk_too(const MemoryFiles* memory) { return !memory || memory->over_disk; }
+};
+
+/// The same for a file; one that cannot be read is a fault at line 0. With `memory` files are looked up there first.
 JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults,
                        const MemoryFiles* memory = nullptr);
 

@@ -154,7 +154,7 @@ JsonValue json_text(std::string value) {
   return v;
 }
 void put(JsonValue& object, std::string key, JsonValue value) {
-  object.members.push_back({std::move(key), 0, 0, std::move(value)});
+  object.members.push_back({std::move(key), 0, 0, std::move(value), 0});
 }
 
 std::string to_text(const JsonValue& value) {
