@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
-#include <trocar/attempt/standing.hpp>
+#include <trocar/scene/compile/standing.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/scene/compile/compile.hpp>
@@ -124,7 +124,7 @@ Json describe(const sim::MotionModel& motion, const sim::Model& model) {
   return out;
 }
 
-Json describe(const scene::BodyReport& b, const sim::Model& model, const attempt::Standing& standing) {
+Json describe(const scene::BodyReport& b, const sim::Model& model, const scene::Standing& standing) {
   Json out = describe(b);
   if (const BodyCost cost = cost_of(model, b.name); cost.bytes > 0) {
     out["memory_kb"] = cost.bytes / 1024;
@@ -171,7 +171,7 @@ Json describe_scene(const fs::path& path, const std::vector<std::string>& only,
   told.at("timing a tick");
   const double tick = resting_tick(model, state, work);
   told.at("looking whether it hangs still");
-  const attempt::Standing standing = attempt::stand(model, kStandTicks, [&] { return watch.seconds() < kStandUntil; });
+  const scene::Standing standing = scene::stand(model, kStandTicks, [&] { return watch.seconds() < kStandUntil; });
   Json out{{"scene", path.string()},
            {"model_hash", core::hex(model.hash)},
            {"free_nodes", model.free_nodes()},
@@ -189,8 +189,8 @@ Json describe_scene(const fs::path& path, const std::vector<std::string>& only,
   const auto listed = [&only](const std::string& name) {
     return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
   };
-  for (const attempt::Standing::Organ& o : standing.organs)
-    if (o.sinks() && listed(o.name)) out["sinks"].push_back(attempt::in_words(standing, o));
+  for (const scene::Standing::Organ& o : standing.organs)
+    if (o.sinks() && listed(o.name)) out["sinks"].push_back(scene::in_words(standing, o));
   told.at("timing its bodies");
   for (const scene::BodyReport& b : report.bodies)
     if (listed(b.name)) out["bodies"].push_back(describe(b, model, standing));

@@ -6,7 +6,7 @@
 #include <trocar/attempt/paths.hpp>
 #include <trocar/attempt/solver_beside.hpp>
 #include <trocar/attempt/sources.hpp>
-#include <trocar/attempt/standing.hpp>
+#include <trocar/scene/compile/standing.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/pictures/analysis_choice.hpp>
@@ -135,7 +135,7 @@ int train(const TrainChoice& o, bool json) {
   static_cast<void>(pictures::parse_analysis(o.analysis));
   const pictures::PictureSize size = pictures::parse_size(o.size.empty() ? "800x600" : o.size);
   std::unique_ptr<attempt::Lesson> lesson = o.exercise.empty() ? nullptr : attempt::load_lesson(o.exercise, o.seed);
-  if (lesson) attempt::warn_of_sinking(lesson->model);
+  if (lesson) scene::warn_of_sinking(lesson->model);
   std::shared_ptr<const attempt::Lesson> other;
   if (!o.beside.empty()) other = attempt::load_beside(o.exercise, o.seed, o.beside, "--beside");
   std::unique_ptr<training::Store> store;

@@ -137,6 +137,7 @@ Window::Window(const std::string& title, pictures::PictureSize size, bool quad_b
   glfwSetCursorPosCallback(m_window, on_cursor);
   glfwSetScrollCallback(m_window, on_scroll);
   glfwSetMouseButtonCallback(m_window, on_button);
+  glfwSetDropCallback(m_window, on_drop);
   glfwSetWindowContentScaleCallback(m_window, on_scale);
   float unused_y = 1;
   glfwGetWindowContentScale(m_window, &m_scale, &unused_y);
@@ -168,6 +169,7 @@ void Window::set_text_size(double size) {
 }
 
 bool Window::wants_to_close() const { return glfwWindowShouldClose(m_window); }
+void Window::stay_open() { glfwSetWindowShouldClose(m_window, GLFW_FALSE); }
 void Window::close() { glfwSetWindowShouldClose(m_window, GLFW_TRUE); }
 void Window::set_title(const std::string& title) { glfwSetWindowTitle(m_window, title.c_str()); }
 bool Window::focused() const { return glfwGetWindowAttrib(m_window, GLFW_FOCUSED); }
@@ -298,6 +300,7 @@ void Window::collect_sample() {
 void Window::collect_keys() {
   m_keys = std::exchange(m_next_keys, {});
   m_typed = std::exchange(m_next_typed, {});
+  m_dropped = std::exchange(m_next_dropped, {});
   if (ImGui::GetIO().WantTextInput) m_keys.pause = m_keys.back = false;
   const auto went_down = [this](devices::Button b) { return m_gamepads.state().has(b) && !m_last_pad.has(b); };
   m_keys.help |= went_down(devices::Button::back);
@@ -318,6 +321,10 @@ void Window::on_key(GLFWwindow* window, int key, int, int action, int mods) {
   if (key == GLFW_KEY_F3) w.m_next_keys.second = true;
   for (const KeyPair& k : kKeys)
     if (k.glfw == key) w.m_next.pressed.set(k.key);
+}
+
+void Window::on_drop(GLFWwindow* window, int count, const char** paths) {
+  for (int i = 0; i < count; ++i) of(window).m_next_dropped.emplace_back(paths[i]);
 }
 
 void Window::on_button(GLFWwindow* window, int button, int, int) {

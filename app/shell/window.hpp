@@ -47,6 +47,7 @@ class Window {
   GLFWwindow* handle() const { return m_window; }  ///< for windows that share its textures
   bool wants_to_close() const;
   void close();
+  void stay_open();  ///< who would lose something by closing asks first
   void set_title(const std::string& title);
 
   /// At most so many pictures a second, whatever the display: they cost what the simulation may need.
@@ -68,6 +69,8 @@ class Window {
   const WindowKeys& keys() const { return m_keys; }
   /// Every key that went down since the last picture, and went up again perhaps; one that is held repeats.
   const std::vector<TypedKey>& typed() const { return m_typed; }
+  /// Files that were dropped onto the window since the last picture.
+  const std::vector<std::string>& dropped() const { return m_dropped; }
   double picture_time() const { return m_picture_time; }  ///< of the last picture, begin to begin [s]
   bool focused() const;                                   ///< do keys come here?
 
@@ -92,6 +95,7 @@ class Window {
   static void on_cursor(GLFWwindow* window, double x, double y);
   static void on_scroll(GLFWwindow* window, double x, double y);
   static void on_scale(GLFWwindow* window, float x, float y);
+  static void on_drop(GLFWwindow* window, int count, const char** paths);
   static void on_button(GLFWwindow* window, int button, int action, int mods);
   void clear() const;
   void set_up_imgui();
@@ -107,6 +111,7 @@ class Window {
   devices::Gamepad m_last_pad;
   WindowKeys m_keys, m_next_keys;
   std::vector<TypedKey> m_typed, m_next_typed;
+  std::vector<std::string> m_dropped, m_next_dropped;
   double m_cursor_x = 0, m_cursor_y = 0, m_last_time = 0, m_picture_time = 0, m_least_time = 1.0 / 62;
   bool m_quad_buffers = false;
   bool m_captured = false, m_cursor_known = false, m_scale_changed = false;

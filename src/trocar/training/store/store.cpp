@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/files.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/training/store/store_parts.hpp>
 
@@ -10,6 +11,8 @@ namespace trocar::training {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr unsigned kOwn = 0600;  // names are nobody else's business
 
 std::string whole_reason(const std::string& what, const fs::path& kept) {
   return fmt::format("{}; the result is kept in {} and taken in when the store is opened next", what, kept.string());
@@ -129,8 +132,8 @@ Kept Store::set_down(const Attempt& attempt) {
     const fs::path file = folder / (attempt.uuid + kWaiting), motion = folder / (attempt.uuid + kWaitingTrace);
     // The motion first: what is taken in is complete, wherever the program was killed.
     if (!attempt.trace.empty() && attempt.trace.size() <= kLargestTrace)
-      write_file(motion, attempt.trace.data(), attempt.trace.size());
-    if (write_file(file, text.data(), text.size()).empty()) return {false, file};
+      core::write_file(motion, attempt.trace.data(), attempt.trace.size(), kOwn);
+    if (core::write_file(file, text.data(), text.size(), kOwn).empty()) return {false, file};
     fs::remove(motion, ignored);
   }
   return {};

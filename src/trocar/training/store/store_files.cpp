@@ -42,26 +42,6 @@ std::string read_file(const fs::path& path, std::size_t most) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::string write_file(const fs::path& path, const void* bytes, std::size_t size) {
-  const std::string part = path.string() + ".part";
-  const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0600);
-  if (file < 0) return std::strerror(errno);
-  const char* at = static_cast<const char*>(bytes);
-  bool good = true;
-  while (good && size > 0) {
-    const ssize_t wrote = ::write(file, at, size);
-    if (wrote < 0 && errno == EINTR) continue;
-    good = wrote > 0;
-    if (good) at += wrote, size -= size_t(wrote);
-  }
-  good = good && fsync(file) == 0;
-  std::string said = good ? "" : std::strerror(errno);
-  if (close(file) != 0 && said.empty()) said = std::strerror(errno);
-  if (said.empty() && rename(part.c_str(), path.c_str()) != 0) said = std::strerror(errno);
-  if (!said.empty()) unlink(part.c_str());
-  return said;
-}
-
 void make_own_folder(const fs::path& folder) {
   const fs::path plain = folder.has_filename() ? folder : folder.parent_path();  // "data/" is "data"
   std::error_code ignored;

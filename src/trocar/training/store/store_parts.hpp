@@ -55,7 +55,5 @@ class OpeningLock {
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
 /// Empty where there is no file or one of more than so many bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t most);
-/// The whole content under its name or nothing, on the disk when this returns. Empty, or what the system said.
-std::string write_file(const std::filesystem::path& path, const void* bytes, std::size_t size);
 
 }  // namespace trocar::training

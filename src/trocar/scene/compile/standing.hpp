@@ -13,7 +13,7 @@
 
 #include <trocar/sim/model/state.hpp>
 
-namespace trocar::attempt {
+namespace trocar::scene {
 
 inline constexpr double kStands = 5e-4;  ///< off by more than this, an organ does not hold its drawn shape [m]
 
@@ -45,4 +45,4 @@ std::string in_words(const Standing& standing, const Standing::Organ& organ);
 /// it for the exercise.
 void warn_of_sinking(const sim::Model& model);
 
-}  // namespace trocar::attempt
+}  // namespace trocar::scene

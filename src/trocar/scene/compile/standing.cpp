@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <trocar/attempt/standing.hpp>
+#include <trocar/scene/compile/standing.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/step.hpp>
 
-namespace trocar::attempt {
+namespace trocar::scene {
 namespace {
 
 Standing::Organ look_at(const sim::Model& model, const sim::State& state, int organ) {
@@ -62,4 +62,4 @@ void warn_of_sinking(const sim::Model& model) {
     if (o.sinks()) core::log::warn("{}", in_words(standing, o));
 }
 
-}  // namespace trocar::attempt
+}  // namespace trocar::scene

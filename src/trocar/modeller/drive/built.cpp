@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <chrono>
+
+#include <trocar/modeller/drive/built.hpp>
+#include <trocar/scene/compile/standing.hpp>
+
+namespace trocar::modeller {
+namespace {
+
+/// A ball about the middle of the sections that holds a quarter of the body.
+scene::Anchor middle_of(const std::vector<scene::Section>& sections, double cell) {
+  const scene::Section& middle = sections[sections.size() / 2];
+  scene::Anchor anchor;
+  anchor.centre = middle.centre;
+  anchor.radius = 0.6 * std::max(length(middle.across), length(middle.deep)) + 1.5 * cell;
+  return anchor;
+}
+
+void hold_what_nothing_holds(scene::Description& d, std::vector<std::string>& notes) {
+  const auto note = [&](const std::string& name) {
+    notes.push_back("nothing holds " + name + " yet: it is shown as if its middle were held");
+  };
+  for (scene::Solid& solid : d.solids)
+    if (solid.anchors.empty() && !solid.sections.empty()) {
+      solid.anchors.push_back(middle_of(solid.sections, solid.cell));
+      note(solid.name);
+    }
+  for (scene::Pouch& pouch : d.pouches)
+    if (pouch.held.empty() && !pouch.free && !pouch.sections.empty()) {
+      pouch.held.push_back(middle_of(pouch.sections, pouch.spacing));
+      note(pouch.name);
+    }
+}
+
+}  // namespace
+
+Built build(const Document& document) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  Built out;
+  out.version = document.version();
+  try {
+    std::optional<scene::Description> read = document.description(out.faults);
+    if (read && out.faults.empty()) {
+      hold_what_nothing_holds(*read, out.notes);
+      out.model = std::make_unique<sim::Model>(scene::compile(*read, &out.report));
+    }
+  } catch (const core::BadInput& bad) {
+    out.faults = bad.faults();
+  }
+  out.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  return out;
+}
+
+std::vector<ReadOut> read_outs(const Built& built, std::uint64_t standing_ticks) {
+  std::vector<ReadOut> out;
+  if (!built.good()) return out;
+  scene::Standing standing;
+  if (standing_ticks > 0) standing = scene::stand(*built.model, standing_ticks, [] { return true; });
+  for (const scene::BodyReport& b : built.report.bodies) {
+    ReadOut r{b.name, b.kind, b.nodes, b.springs, b.substeps, b.volume * 1e6, b.mass * 1e3, b.dt_limit * 1e3};
+    r.predicted_us = b.springs * std::max(1, b.substeps) * kSpringNs * 1e-3;
+    for (const scene::Standing::Organ& o : standing.organs)
+      if (o.name == b.name) r.off_mm = o.off * 1e3;
+    out.push_back(r);
+  }
+  return out;
+}
+
+}  // namespace trocar::modeller

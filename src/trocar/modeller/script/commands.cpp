@@ -1,0 +1,182 @@
+// Steps of a script that are about the session: documents, builds, test drives, pictures.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/modeller/document/home.hpp>
+#include <trocar/modeller/drive/places.hpp>
+#include <trocar/modeller/script/session.hpp>
+#include <trocar/numerics/portable.hpp>
+#include <trocar/scene/json/json_text.hpp>
+#include <trocar/sim/model/bodies.hpp>
+
+namespace trocar::modeller {
+namespace {
+
+namespace keys = scene::keys;
+using scene::JsonObject;
+
+constexpr double kDegree = portable::pi / 180;
+
+Command open() {
+  return {{"open", "Opens a scene or an organ.", {scene::needed(keys::text("file", "its file"))}},
+          [](const JsonObject& o, Session& session) { session.put(Document::open(o.text("file"))); }};
+}
+
+Command begin() {
+  return {{"new",
+           "Begins a scene in the modelling place, or an organ alone.",
+           {scene::needed(keys::text("file", "the file that it is saved to")),
+            keys::choice("kind", {"scene", "organ"}, "default scene"), keys::name("name", "default: the file's")}},
+          [](const JsonObject& o, Session& session) {
+            const fs::path file = whole_path(o.text("file"));
+            std::error_code error;
+            if (fs::exists(file, error))
+              return o.fault("file", fmt::format("expected a new file, got {}, which is there: open it instead",
+                                                 file.generic_string()));
+            session.put(begun(file, o.text("kind") == "organ", o.text("name", file.stem().string())));
+          }};
+}
+
+Command save() {
+  return {{"save", "Writes what has changed.", {keys::text("as", "another file, default: the one that it is")}},
+          [](const JsonObject& o, Session& session) {
+            if (o.has("as"))
+              session.document().save_as(o.text("as"));
+            else
+              session.document().save();
+          }};
+}
+
+Command undo() {
+  return {{"undo", "Takes changes back.", {keys::integer("times", 1, 100000, "default 1")}},
+          [](const JsonObject& o, Session& session) {
+            for (int i = 0; i < o.integer("times", 1); ++i)
+              if (!session.document().undo()) return o.fault(o.at(), "expected a change to take back, got none");
+          }};
+}
+
+Command redo() {
+  return {{"redo", "Makes changes again that were taken back.", {keys::integer("times", 1, 100000, "default 1")}},
+          [](const JsonObject& o, Session& session) {
+            for (int i = 0; i < o.integer("times", 1); ++i)
+              if (!session.document().redo()) return o.fault(o.at(), "expected a change that was taken back, got none");
+          }};
+}
+
+Command check() {
+  return {{"check",
+           "Compiles the document and tells what it comes to.",
+           {keys::number("seconds", 0, 10, "simulated to see whether it hangs still, default 1"),
+            keys::flag("still", "whatever sinks is a fault; default false")}},
+          [](const JsonObject& o, Session& session) {
+            session.model();
+            Json bodies = Json::array();
+            for (const ReadOut& r : read_outs(session.built(), std::uint64_t(1000 * o.number("seconds", 1)))) {
+              bodies.push_back({{"name", r.name},
+                                {"kind", r.kind},
+                                {"nodes", r.nodes},
+                                {"springs", r.springs},
+                                {"substeps", r.substeps},
+                                {"volume_mL", r.volume_mL},
+                                {"mass_g", r.mass_g},
+                                {"predicted_us", r.predicted_us}});
+              if (r.off_mm >= 0) bodies.back()["off_mm"] = r.off_mm;
+              if (o.flag("still") && r.off_mm > 0.5)
+                o.fault(o.at(), fmt::format("expected {} to hang still, got {:.1f} mm off after {:g} s", r.name, r.off_mm,
+                                            o.number("seconds", 1)));
+            }
+            for (const std::string& note : session.built().notes) {
+              if (o.flag("still")) o.fault(o.at(), note);
+              session.said().push_back({{"note", note}});
+            }
+            session.said().push_back({{"check", bodies}});
+          }};
+}
+
+Command take() {
+  return {{"take",
+           "A grasper takes hold of what is nearest to a place.",
+           {scene::needed(keys::vec3("at_mm", -2000, 2000, "where")), keys::name("of", "of this body only")}},
+          [](const JsonObject& o, Session& session) {
+            TestDrive& drive = session.drive();
+            if (drive.hand() < 0) return o.fault(o.at(), "expected a scene with a grasper in a hand, got none");
+            std::vector<BodyPlace> places;
+            for (const BodyPlace& p : places_of(session.model(), drive.state()))
+              if (!o.has("of") || sim::name_of(session.model(), p.body) == o.text("of")) places.push_back(p);
+            const std::optional<BodyPlace> there = nearest(places, o.vec3("at_mm") * 1e-3);
+            if (!there) return o.fault(o.at(), "expected a body to take hold of, got none");
+            drive.take(there->at);
+            for (int i = 0; i < 20000 && !drive.done(); ++i) drive.tick();
+            session.said().push_back({{"take", sim::name_of(session.model(), there->body)}, {"holds", drive.holds()}});
+            if (!drive.holds()) o.fault(o.at(), "expected the grasper to take hold, got empty jaws");
+          }};
+}
+
+Command pull() {
+  return {{"pull",
+           "Draws what the grasper holds.",
+           {scene::needed(keys::vec3("by_mm", -500, 500, "how far")),
+            keys::number("seconds", 0, 60, "that it is held there, default 0.5")}},
+          [](const JsonObject& o, Session& session) {
+            TestDrive& drive = session.drive();
+            const Vec3d from = drive.tip();
+            drive.pull_to(from + o.vec3("by_mm") * 1e-3);
+            for (int i = 0; i < 60000 && !drive.done(); ++i) drive.tick();
+            for (int i = 0; i < int(1000 * o.number("seconds", 0.5)); ++i) drive.tick();
+            session.said().push_back(
+                {{"pull_N", drive.pull()}, {"holds", drive.holds()}, {"moved_mm", 1e3 * length(drive.tip() - from)}});
+          }};
+}
+
+Command let_go() {
+  return {{"let_go", "The grasper opens and draws back.", {}}, [](const JsonObject&, Session& session) {
+            TestDrive& drive = session.drive();
+            drive.let_go();
+            for (int i = 0; i < 5000 && !drive.done(); ++i) drive.tick();
+          }};
+}
+
+Command rest() {
+  return {{"rest", "Nobody touches anything for a while.", {scene::needed(keys::number("seconds", 0, 60, "how long"))}},
+          [](const JsonObject& o, Session& session) {
+            for (int i = 0; i < int(1000 * o.number("seconds")); ++i) session.drive().tick();
+          }};
+}
+
+Command stop() {
+  return {{"stop", "Ends the test drive: all is as drawn again.", {}},
+          [](const JsonObject&, Session& session) { session.stop_driving(); }};
+}
+
+Command shot() {
+  return {{"shot",
+           "Draws a picture.",
+           {scene::needed(keys::name("name", "of the picture")), keys::name("points", "the thing whose points are shown"),
+            keys::name("of", "the body that fills the picture, default: all"),
+            keys::number("yaw_deg", -360, 360, "from where: 0 from the feet, 90 from the patient's left; default 20"),
+            keys::number("pitch_deg", -88, 88, "above the patient's plane, default 30"),
+            keys::number("distance_mm", 0, 1500, "from the middle, default: so that all is in it"),
+            keys::flag("scope", "through the scene's endoscope; default false")}},
+          [](const JsonObject& o, Session& session) {
+            session.shot(o.text("name"), o.text("points"), o.text("of"), o.number("yaw_deg", 20) * kDegree,
+                         o.number("pitch_deg", 30) * kDegree, o.number("distance_mm") * 1e-3, o.flag("scope"));
+          }};
+}
+
+}  // namespace
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> all{open(), begin(), save(), undo(),   redo(), check(),
+                                        take(), pull(),  let_go(), rest(), stop(), shot()};
+  return all;
+}
+
+const Command* find_command(std::string_view name) {
+  for (const Command& command : commands())
+    if (command.parameters.name == name) return &command;
+  return nullptr;
+}
+
+}  // namespace trocar::modeller
