@@ -6,12 +6,13 @@
 #include <trocar/modeller/script/session.hpp>
 
 #include "commands/command.hpp"
+#include "modeller/modeller.hpp"
 
 namespace trocar::app {
 namespace {
 
 struct ModelChoice {
-  std::string file, script, shots;
+  std::string file, script, shots, log;
   bool list = false;
 };
 
@@ -41,10 +42,12 @@ int list_steps(bool json) {
 
 int model(const ModelChoice& o, bool json) {
   if (o.list) return list_steps(json);
+  if (o.script.empty()) {
+    run_modeller({o.file, o.log});
+    return core::kDone;
+  }
   modeller::Session session({o.shots});
   if (!o.file.empty()) session.put(modeller::Document::open(o.file));
-  if (o.script.empty())
-    throw core::BadInput({{{"trocar model", 0, 0}, "expected --script FILE, got none"}});
   const modeller::ScriptResult done = modeller::run_script(o.script, session);
   if (json)
     print({{"script", o.script},
@@ -67,6 +70,7 @@ void add_model(CLI::App& program, Chosen& chosen) {
   c->add_option("file", o->file, "a scene or an organ to open");
   c->add_option("--script", o->script, "a file of steps to do without a window");
   c->add_option("--shots", o->shots, "the folder for the script's pictures");
+  c->add_option("--log", o->log, "JSON lines of what happens in the window");
   c->add_flag("--steps", o->list, "tell what steps there are");
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return model(*o, chosen.json); }; });
 }

@@ -1,0 +1,384 @@
+#include "modeller/modeller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+
+#include <trocar/attempt/interrupt.hpp>
+#include <trocar/attempt/paths.hpp>
+#include <trocar/core/error.hpp>
+#include <trocar/core/files.hpp>
+#include <trocar/modeller/document/home.hpp>
+#include <trocar/scene/json/json_text.hpp>
+
+#include "modeller/modeller_parts.hpp"
+#include "shell/panes.hpp"
+#include "shell/settings.hpp"
+
+extern char** environ;
+
+namespace trocar::app {
+namespace {
+
+constexpr double kBusyRate = 62, kCalmRate = 30;  // [pictures/s] at most
+constexpr float kLeft = 220, kRight = 340, kBottom = 58;
+constexpr std::size_t kRecent = 10;
+
+fs::path modeller_folder() { return attempt::data_folder() / "modeller"; }
+fs::path unsaved_folder() { return modeller_folder() / "unsaved"; }
+
+std::vector<fs::path> read_recent() {
+  std::vector<fs::path> out;
+  std::vector<core::Fault> ignored;
+  const scene::JsonDocument read = scene::load_json(modeller_folder() / "recent.json", ignored);
+  for (const scene::JsonValue& v : read.root.items)
+    if (v.kind == scene::JsonValue::Kind::string && out.size() < kRecent) out.emplace_back(v.text);
+  return out;
+}
+
+}  // namespace
+
+Modeller::Modeller(Window& window, const ModellerOptions& options, EventLog& log)
+    : m_window(window),
+      m_options(options),
+      m_log(log),
+      m_context(render::GlContext::adopt_current()),
+      m_backend(render::make_gl_backend(*m_context)),
+      m_governor(render::Governor::Limits{}, render::first_level(m_context->draws_on_processors())),
+      m_recent(read_recent()) {
+  const char* names[] = {"free", "front", "side", "top"};
+  for (std::size_t i = 0; i < m_views.size(); ++i) m_views[i].name = names[i];
+  m_lost = modeller::lost_in(unsaved_folder());
+  if (!m_lost.empty()) m_question = Question::recover;
+}
+
+void Modeller::open(const fs::path& file) {
+  if (m_drive) toggle_drive();
+  m_document = std::make_unique<modeller::Document>(modeller::Document::open(file));
+  m_recovery = std::make_unique<modeller::Recovery>(unsaved_folder(), m_document->root());
+  m_builder.forget();
+  m_selected.clear();
+  m_handle.reset();
+  m_things_of = m_handles_of = ~0ull;
+  m_built.reset();
+  m_view.reset();
+  m_shown.reset();
+  m_state.reset();
+  remember_file(m_document->root());
+  m_window.set_title("Trocar: " + m_document->root().filename().string());
+  m_log.event("opened", {{"file", m_document->root().generic_string()}});
+  tell("");
+}
+
+void Modeller::remember_file(const fs::path& file) {
+  m_recent.erase(std::remove(m_recent.begin(), m_recent.end(), file), m_recent.end());
+  m_recent.insert(m_recent.begin(), file);
+  if (m_recent.size() > kRecent) m_recent.resize(kRecent);
+  std::vector<scene::JsonValue> items;
+  for (const fs::path& f : m_recent) items.push_back(scene::json_text(f.generic_string()));
+  const std::string text = scene::to_text(scene::json_array(std::move(items)));
+  std::error_code ignored;
+  fs::create_directories(modeller_folder(), ignored);
+  core::write_file(modeller_folder() / "recent.json", text.data(), text.size(), 0600);
+}
+
+void Modeller::run() {
+  while (!m_quit && !attempt::interrupted()) {
+    if (m_window.wants_to_close()) {
+      m_window.stay_open();
+      m_after = After::quit;
+      leave();
+      if (m_quit) break;
+    }
+    picture();
+  }
+  if (m_document && m_recovery) m_recovery->keep(*m_document);  // an interrupt loses nothing
+}
+
+/// What was wanted after the document, once nothing is lost by it.
+void Modeller::leave() {
+  if (m_document && !m_document->unsaved().empty()) {
+    m_question = Question::unsaved;
+    return;
+  }
+  if (m_recovery) m_recovery->forget();
+  const After after = std::exchange(m_after, After::none);
+  if (after == After::quit) m_quit = true;
+  if (after == After::start) {
+    m_view.reset();
+    m_shown.reset();
+    m_document.reset();
+  }
+  if (after == After::open) {
+    try {
+      open(m_to_open);
+    } catch (const core::BadInput& bad) {
+      tell(bad.what());
+    }
+  }
+}
+
+void Modeller::lay_out() {
+  const float scale = m_window.scale(), width = float(m_window.width()), height = float(m_window.height());
+  const float left = std::floor(std::min(kLeft * scale, 0.3f * width)), right = std::floor(std::min(kRight * scale, 0.4f * width));
+  const float bottom = std::floor(kBottom * scale);
+  m_left = {0, m_bar, left, height - m_bar - bottom};
+  m_right = {width - right, m_bar, right, height - m_bar - bottom};
+  m_middle = {left, m_bar, std::max(1.0f, width - left - right), std::max(1.0f, height - m_bar - bottom)};
+  m_bottom = {0, height - bottom, width, bottom};
+  const float w = std::floor(m_middle.width / 2), h = std::floor(m_middle.height / 2);
+  for (std::size_t i = 0; i < m_views.size(); ++i) {
+    Area& a = m_views[i].area;
+    if (m_four)  // top | free / front | side
+      a = {m_middle.x + (i == 0 || i == 2 ? w : 0), m_middle.y + (i == 1 || i == 2 ? h : 0), w, h};
+    else
+      a = int(i) == m_active ? m_middle : Area{};
+  }
+}
+
+void Modeller::take_what_is_built() {
+  if (!m_document) return;
+  if (!m_gesture || !m_gesture->dragged || !m_builder.busy()) m_builder.want(*m_document);
+  std::unique_ptr<BuiltDocument> built = m_builder.poll();
+  if (!built) return;
+  m_log.event("built", {{"good", built->built.good()},
+                        {"seconds", built->built.seconds},
+                        {"faults", built->built.faults.size()},
+                        {"bodies", built->read_outs.size()}});
+  if (built->built.good() && !m_drive) {
+    const bool first = !m_shown;
+    m_view.reset();
+    m_shown = std::move(built);
+    m_view = std::make_unique<view::SceneView>(*m_shown->built.model, *m_backend);
+    m_state = sim::initial_state(*m_shown->built.model);
+    m_places = modeller::places_of(*m_shown->built.model, *m_state);
+    ++m_picture;
+    m_built.reset();
+    if (first) {
+      frame_selected();
+      for (int i = 0; i < 4; ++i) m_active = i, look_from(i);
+      m_active = 0;
+    }
+  } else {
+    m_built = std::move(built);
+  }
+}
+
+/// At most a second after a change it lies where a crash leaves it.
+void Modeller::keep_unsaved() {
+  const auto now = std::chrono::steady_clock::now();
+  if (!m_document || !m_recovery || now - m_kept < std::chrono::seconds(1)) return;
+  m_kept = now;
+  const std::string said = m_recovery->keep(*m_document);
+  if (!said.empty()) tell("what is unsaved cannot be kept for a crash: " + said);
+}
+
+void Modeller::picture() {
+  const bool busy = m_drive || m_gesture || ImGui::IsAnyMouseDown();
+  m_window.set_picture_rate(busy ? kBusyRate : kCalmRate);
+  m_window.begin_picture();
+  lay_out();
+  take_what_is_built();
+  listen();
+  if (m_drive) drive_on();
+  if (m_document) {
+    if (m_things_of != m_document->version()) {
+      m_things = modeller::outline(*m_document);
+      m_things_of = m_document->version();
+    }
+    draw_views();
+    if (!m_files.is_open() && !m_help && m_question == Question::none && m_adding.empty()) point();
+    draw_menu_bar();
+    draw_outline();
+    draw_properties();
+    draw_status();
+    draw_over_views();
+  } else {
+    draw_start();
+  }
+  if (m_help) draw_help();
+  if (!m_adding.empty()) draw_adding();
+  draw_questions();
+  fs::path chosen;
+  if (m_files.is_open() && m_files.draw(chosen)) {
+    const FileFor wanted = std::exchange(m_file_for, FileFor::none);
+    try {
+      if (wanted == FileFor::open) {
+        m_to_open = chosen;
+        m_after = After::open;
+        leave();
+      }
+      if (wanted == FileFor::save_as) save_as(chosen);
+      if (wanted == FileFor::new_scene || wanted == FileFor::new_organ) {
+        if (chosen.extension() != ".json") chosen += ".json";
+        modeller::Document begun =
+            modeller::begun(chosen, wanted == FileFor::new_organ, chosen.stem().string());
+        begun.save();
+        open(chosen);
+      }
+    } catch (const core::BadInput& bad) {
+      tell(bad.what());
+    }
+  }
+  keep_unsaved();
+  m_window.draw_panels();
+  m_window.show();
+  log_widgets();
+}
+
+void Modeller::log_widgets() {
+  const std::vector<ui::Widget> widgets = ui::take_widgets();
+  if (!m_log.on() || widgets == m_widgets) return;
+  m_widgets = widgets;
+  Json places = Json::object();
+  for (const ui::Widget& w : widgets) places[w.id] = {w.x, w.y};
+  const Area& a = m_views[std::size_t(m_active)].area;
+  m_log.event("screen", {{"name", m_document ? "modeller" : "start"},
+                         {"view", {a.x, a.y, a.width, a.height}},
+                         {"selected", m_selected},
+                         {"widgets", places}});
+}
+
+void Modeller::save() {
+  try {
+    m_document->save();
+    if (m_recovery) m_recovery->forget();
+    tell("saved");
+    m_log.event("saved", {{"file", m_document->root().generic_string()}});
+  } catch (const core::BadInput& bad) {
+    tell(bad.what());
+  }
+}
+
+void Modeller::save_as(const fs::path& file) {
+  if (m_recovery) m_recovery->forget();
+  m_document->save_as(file);
+  m_recovery = std::make_unique<modeller::Recovery>(unsaved_folder(), m_document->root());
+  remember_file(m_document->root());
+  m_window.set_title("Trocar: " + m_document->root().filename().string());
+  tell("saved as " + m_document->root().generic_string());
+  m_log.event("saved", {{"file", m_document->root().generic_string()}});
+}
+
+/// The trainer opens on the document as it is saved, as a program of its own: the modeller stays.
+void Modeller::operate() {
+  if (!m_document->unsaved().empty()) save();
+  if (!m_document->unsaved().empty()) return;
+  std::string words[] = {"trocar", "train", m_document->root().generic_string()};
+  char* argv[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+  pid_t child = 0;
+  const int failed = posix_spawn(&child, "/proc/self/exe", nullptr, nullptr, argv, environ);
+  tell(failed ? "the trainer could not be started" : "the trainer is starting");
+  m_log.event("operate", {{"started", failed == 0}});
+}
+
+bool Modeller::step(scene::JsonValue step) {
+  try {
+    const scene::JsonMember* name = step.find("do");
+    const modeller::Operation* operation = name ? modeller::find_operation(name->value.text) : nullptr;
+    if (!operation) return false;
+    scene::JsonValue parameters = step;
+    parameters.members.erase(parameters.members.begin());
+    modeller::apply(*operation, parameters, "here", *m_document);
+    if (m_log.on() && !m_previewed) m_log.event("step", {{"do", operation->parameters.name}});
+    return true;
+  } catch (const core::BadInput& bad) {
+    tell(bad.faults().front().message);
+    return false;
+  }
+}
+
+bool Modeller::set_key(const std::string& path, const scene::JsonValue& value) {
+  scene::JsonValue s = scene::json_object();
+  put(s, "do", scene::json_text("set"));
+  if (!m_selected.empty()) put(s, "of", scene::json_text(m_selected));
+  put(s, "key", scene::json_text(path));
+  put(s, "value", value);
+  return step(std::move(s));
+}
+
+void Modeller::select(const std::string& thing) {
+  if (m_selected == thing) return;
+  m_selected = thing;
+  m_handle.reset();
+  m_handles_of = ~0ull;
+}
+
+std::optional<modeller::Thing> Modeller::selected() const {
+  for (const modeller::Thing& t : m_things)
+    if (t.kind + ":" + t.name == m_selected) return t;
+  return std::nullopt;
+}
+
+void Modeller::undo() {
+  const std::size_t done = m_document->done();
+  if (m_document->undo())
+    tell("undone: " + m_document->history()[done - 1].name);
+  else
+    tell("there is nothing to undo");
+}
+void Modeller::redo() {
+  const std::size_t done = m_document->done();
+  if (m_document->redo())
+    tell("done again: " + m_document->history()[done].name);
+  else
+    tell("there is nothing to do again");
+}
+
+std::string Modeller::free_name(const std::string& stem) const {
+  for (int i = 1;; ++i) {
+    const std::string name = i == 1 ? stem : fmt::format("{}_{}", stem, i);
+    if (std::none_of(m_things.begin(), m_things.end(), [&](const modeller::Thing& t) { return t.name == name; }))
+      return name;
+  }
+}
+
+void Modeller::toggle_drive() {
+  if (m_drive) {
+    m_drive.reset();
+    m_taking = false;
+    if (m_shown) m_state = sim::initial_state(*m_shown->built.model);
+    if (m_shown) m_places = modeller::places_of(*m_shown->built.model, *m_state);
+    ++m_picture;
+    tell("");
+    return;
+  }
+  if (!m_shown) return tell("there is nothing to try yet");
+  m_drive = std::make_unique<modeller::TestDrive>(*m_shown->built.model);
+  m_drive_debt = 0;
+  tell(m_drive->hand() < 0 ? "this scene has no grasper in a hand: it hangs, and can be looked at"
+                           : "test drive: press on a body and pull; T ends it");
+}
+
+/// So many ticks as time has passed, as far as the machine gets: slow motion where it is too slow.
+void Modeller::drive_on() {
+  using Clock = std::chrono::steady_clock;
+  constexpr double kMost = 0.02;  // [s] of a picture's time
+  m_drive_debt = std::min(m_drive_debt + m_window.picture_time(), 0.1);
+  const Clock::time_point until = Clock::now() + std::chrono::microseconds(int(1e6 * kMost));
+  while (m_drive_debt >= sim::kTick && Clock::now() < until) {
+    m_drive->tick();
+    m_drive_debt -= sim::kTick;
+  }
+  m_state = m_drive->state();
+  ++m_picture;
+}
+
+void run_modeller(const ModellerOptions& options) {
+  std::vector<core::Fault> ignored;
+  const Settings settings = read_settings(settings_file(), ignored);
+  if (!options.file.empty()) modeller::Document::open(options.file);  // a wrong name is told before a window opens
+  Window window("Trocar: modeller", options.size);
+  window.set_text_size(settings.text_size);
+  EventLog log(EventLog::path_of(options.log));
+  attempt::catch_interrupts();
+  Modeller modeller(window, options, log);
+  if (!options.file.empty()) modeller.open(options.file);
+  modeller.run();
+  if (!log.failure().empty()) throw core::EnvironmentLacks(log.failure());
+}
+
+}  // namespace trocar::app

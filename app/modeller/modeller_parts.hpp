@@ -1,0 +1,170 @@
+// The modeller's window: what it holds, in the order in which a picture is made of it. Private to the folder.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <trocar/modeller/document/recovery.hpp>
+#include <trocar/modeller/drive/places.hpp>
+#include <trocar/modeller/drive/test_drive.hpp>
+#include <trocar/modeller/operations/operation.hpp>
+#include <trocar/render/gl/gl_context.hpp>
+#include <trocar/render/frame/governor.hpp>
+
+#include "modeller/builder.hpp"
+#include "modeller/file_panel.hpp"
+#include "modeller/gesture.hpp"
+#include "modeller/modeller.hpp"
+#include "modeller/viewport.hpp"
+#include "shell/event_log.hpp"
+#include "shell/ui.hpp"
+#include "shell/window.hpp"
+
+namespace trocar::app {
+
+namespace fs = std::filesystem;
+
+class Modeller {
+ public:
+  Modeller(Window& window, const ModellerOptions& options, EventLog& log);
+
+  void open(const fs::path& file);
+  void run();
+
+ private:
+  // modeller.cpp: the round of a picture
+  void picture();
+  void lay_out();
+  void take_what_is_built();
+  void keep_unsaved();
+  bool may_close();
+  void leave();
+
+  // modeller_keys.cpp
+  void listen();
+  void obey_key(int key, int mods);
+  void obey_key_of_gesture(int key);
+
+  // modeller_view.cpp: pictures and the pointer over them
+  void draw_views();
+  void draw_view(Viewport& view);
+  void draw_over_views();
+  void draw_handles(const Viewport& view) const;
+  void point();
+  void point_in(Viewport& view);
+  Viewport* view_under(float x, float y);
+  void pick(const Viewport& view, float x, float y);
+  void frame_selected();
+  void look_from(int which);
+
+  // modeller_gestures.cpp
+  void begin_gesture(Gesture::Kind kind);
+  void begin_drag(const modeller::Handle& handle, float x, float y);
+  void lead_gesture();
+  void end_gesture(bool keep);
+  std::optional<scene::JsonValue> step_of_gesture(std::string& amount) const;
+
+  // modeller_panels.cpp
+  void draw_menu_bar();
+  void draw_outline();
+  void draw_properties();
+  void draw_status();
+  void draw_start();
+  void draw_help();
+  void draw_questions();
+  void draw_adding();
+
+  // modeller_properties.cpp
+  void draw_thing(const modeller::Thing& thing);
+  void draw_keys(const scene::Shape& shape, const scene::JsonValue& value, const std::string& path, int depth);
+  void draw_key(const scene::Key& key, const scene::JsonValue* value, const std::string& path, int depth);
+  std::optional<scene::JsonValue> edited(const scene::Key& key, const scene::JsonValue* value, const std::string& id);
+  void draw_read_outs(const modeller::Thing& thing);
+  void draw_tissue(const std::string& tissue);
+
+  // changes
+  /// Does a step of a script. False: it could not be done, and why is told.
+  bool step(scene::JsonValue step);
+  bool set_key(const std::string& path, const scene::JsonValue& value);
+  void tell(const std::string& what) { m_message = what; }
+  void select(const std::string& thing);
+  std::optional<modeller::Thing> selected() const;
+  void undo();
+  void redo();
+  void save();
+  void save_as(const fs::path& file);
+  void operate();
+  void remember_file(const fs::path& file);
+  std::string free_name(const std::string& stem) const;
+
+  // test drive
+  void toggle_drive();
+  void drive_on();
+
+  void log_widgets();
+  float text_height() const { return 19 * m_window.scale(); }
+
+  Window& m_window;
+  ModellerOptions m_options;
+  EventLog& m_log;
+  std::unique_ptr<render::GlContext> m_context;
+  std::unique_ptr<render::Backend> m_backend;
+  render::Governor m_governor;
+
+  std::unique_ptr<modeller::Document> m_document;
+  std::unique_ptr<modeller::Recovery> m_recovery;
+  std::vector<modeller::Thing> m_things;
+  std::uint64_t m_things_of = ~0ull;
+  std::string m_selected;
+
+  Builder m_builder;
+  std::unique_ptr<BuiltDocument> m_built;       ///< the newest, good or not
+  std::unique_ptr<BuiltDocument> m_shown;       ///< the newest good one: what is drawn
+  std::unique_ptr<view::SceneView> m_view;      ///< of m_shown's model
+  std::optional<sim::State> m_state;            ///< as drawn
+  std::vector<modeller::BodyPlace> m_places;    ///< of m_state
+  std::uint64_t m_picture = 0;                  ///< another number: views are drawn anew
+  std::unique_ptr<modeller::TestDrive> m_drive;
+  bool m_taking = false;                        ///< the pointer holds the grasper's goal
+  double m_drive_debt = 0;                      ///< simulated time that is owed [s]
+
+  std::array<Viewport, 4> m_views;
+  bool m_four = false;
+  int m_active = 0;  ///< the view that keys turn
+  modeller::Handles m_handles;
+  std::uint64_t m_handles_of = ~0ull;
+  std::string m_handles_thing;
+  std::optional<modeller::Handle> m_handle;  ///< taken last
+  std::optional<Gesture> m_gesture;
+  bool m_previewed = false;  ///< the document's last change is the gesture's so far
+  bool m_soft = false, m_symmetric = false;
+  double m_soft_mm = 20;
+  std::vector<Vec3d> m_measured;  ///< [m] places that were clicked
+  bool m_measuring = false;
+
+  FilePanel m_files;
+  enum class FileFor { none, open, save_as, new_scene, new_organ } m_file_for = FileFor::none;
+  enum class Question { none, unsaved, recover } m_question = Question::none;
+  enum class After { none, quit, open, start } m_after = After::none;
+  fs::path m_to_open;
+  std::vector<modeller::Lost> m_lost;
+  std::vector<fs::path> m_recent;
+  bool m_help = false, m_quit = false, m_history = false;
+  std::string m_adding;  ///< name of the operation whose parameters are asked for
+  std::map<std::string, std::string> m_asked;
+  std::map<std::string, std::string> m_texts;             ///< fields that are being edited, by their key's path
+  std::map<std::string, std::array<double, 3>> m_numbers;  ///< the same
+  std::string m_message;
+  std::chrono::steady_clock::time_point m_kept{};
+  Area m_left, m_right, m_middle, m_bottom;
+  float m_bar = 0;  ///< height of the menu bar [px]
+  std::vector<ui::Widget> m_widgets;
+};
+
+}  // namespace trocar::app

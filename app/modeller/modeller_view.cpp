@@ -1,0 +1,218 @@
+// Views of the document, and the pointer over them.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <trocar/numerics/portable.hpp>
+#include <trocar/sim/model/bodies.hpp>
+
+#include "modeller/modeller_parts.hpp"
+#include "shell/panes.hpp"
+
+namespace trocar::app {
+namespace {
+
+constexpr float kReach = 12;                  // [px] of a handle
+constexpr float kTurn = 0.008f;               // [rad/px]
+constexpr double kOnBody = 0.003;             // [m] of a ray
+constexpr std::uint64_t kExposureStep = 500;  // [ms] of a camera's time that a picture takes
+
+const ImU32 kLineColour = IM_COL32(107, 191, 242, 200), kPointColour = IM_COL32(242, 168, 26, 255),
+            kTakenColour = IM_COL32(255, 255, 255, 255), kRimColour = IM_COL32(20, 22, 26, 255);
+
+}  // namespace
+
+void Modeller::draw_view(Viewport& v) {
+  if (!m_view || v.area.width < 2) return;
+  view::ViewOptions options = modeller::seen_from(v.orbit);
+  options.picture_height = double(v.area.height);
+  const bool moving = m_drive || m_gesture || ImGui::IsAnyMouseDown();
+  options.quality = moving ? m_governor.quality() : render::Quality{};
+  options.eye_index = int(&v - m_views.data());
+  render::Frame frame = m_view->frame(*m_state, options);
+  frame.tick = m_picture * kExposureStep;
+  v.camera = frame.camera;
+  render::draw_frame(*m_backend, frame, v.canvas.target(int(v.area.width), int(v.area.height)));
+}
+
+void Modeller::draw_views() {
+  const auto begin = std::chrono::steady_clock::now();
+  bool drew = false;
+  for (Viewport& v : m_views) {
+    if (v.area.width < 2 || !m_view) continue;
+    const std::uint64_t wanted = m_picture * 1000 + std::uint64_t(v.area.width);
+    if (v.drawn != wanted) {
+      draw_view(v);
+      v.drawn = wanted;
+      drew = true;
+    }
+    v.canvas.lay(window_target(v.area, m_window.height()));
+  }
+  if (drew) m_governor.frame_took(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  if (!m_selected.empty() && (m_handles_of != m_document->version() || m_handles_thing != m_selected)) {
+    m_handles = selected() ? modeller::handles_of(*m_document, m_selected) : modeller::Handles{};
+    m_handles_of = m_document->version();
+    m_handles_thing = m_selected;
+  }
+  if (m_selected.empty()) m_handles = {};
+}
+
+void Modeller::draw_handles(const Viewport& v) const {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.PushClipRect({v.area.x, v.area.y}, {v.area.x + v.area.width, v.area.y + v.area.height});
+  for (const modeller::HandleLine& line : m_handles.lines)
+    for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+      const std::optional<modeller::Spot> a = v.spot(line.points[i]), b = v.spot(line.points[i + 1]);
+      if (a && b) list.AddLine({a->x, a->y}, {b->x, b->y}, kLineColour, 1.3f);
+    }
+  for (const modeller::Handle& h : m_handles.points) {
+    const std::optional<modeller::Spot> s = v.spot(h.at);
+    if (!s) continue;
+    const bool taken = m_handle && m_handle->list == h.list && m_handle->item == h.item;
+    list.AddCircleFilled({s->x, s->y}, taken ? 7.0f : 5.5f, kRimColour);
+    list.AddCircleFilled({s->x, s->y}, taken ? 5.5f : 4.0f, taken ? kTakenColour : kPointColour);
+  }
+  if (m_soft && m_handle) {
+    const std::optional<modeller::Spot> s = v.spot(m_handle->at);
+    if (s) list.AddCircle({s->x, s->y}, float(m_soft_mm * 1e-3 / v.pixel(m_handle->at)), kPointColour, 48, 1.2f);
+  }
+  for (std::size_t i = 0; i < m_measured.size(); ++i) {
+    const std::optional<modeller::Spot> s = v.spot(m_measured[i]);
+    if (!s) continue;
+    list.AddCircleFilled({s->x, s->y}, 4, IM_COL32(240, 240, 240, 255));
+    if (i == 0) continue;
+    const std::optional<modeller::Spot> before = v.spot(m_measured[i - 1]);
+    if (!before) continue;
+    list.AddLine({before->x, before->y}, {s->x, s->y}, IM_COL32(240, 240, 240, 255), 1.5f);
+    const std::string text = fmt::format("{:.1f} mm", 1e3 * length(m_measured[i] - m_measured[i - 1]));
+    list.AddText({(before->x + s->x) / 2 + 6, (before->y + s->y) / 2 - 18}, IM_COL32(255, 255, 255, 255), text.c_str());
+  }
+  // which way the patient's axes point
+  const Vec3d ends[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const ImU32 colours[3] = {IM_COL32(230, 120, 60, 255), IM_COL32(90, 180, 230, 255), IM_COL32(220, 220, 120, 255)};
+  const char* words[3] = {"left", "head", "front"};
+  const float x = v.area.x + 46, y = v.area.y + v.area.height - 46;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3f d{float(ends[i].x), float(ends[i].y), float(ends[i].z)};
+    const float dx = 30 * dot(v.camera.rotation.column(0), d), dy = -30 * dot(v.camera.rotation.column(1), d);
+    list.AddLine({x, y}, {x + dx, y + dy}, colours[i], 2);
+    list.AddText({x + 1.25f * dx - 8, y + 1.25f * dy - 8}, colours[i], words[i]);
+  }
+  if (m_four) list.AddText({v.area.x + 8, v.area.y + 6}, IM_COL32(200, 205, 210, 255), v.name.c_str());
+  list.PopClipRect();
+}
+
+void Modeller::draw_over_views() {
+  for (const Viewport& v : m_views)
+    if (v.area.width >= 2) draw_handles(v);
+  if (m_view) return;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const char* text = m_builder.busy() ? "compiling ..." : "nothing to show yet: add a body, or mend what is told below";
+  list.AddText({m_middle.x + 24, m_middle.y + 24}, IM_COL32(190, 195, 200, 255), text);
+}
+
+Viewport* Modeller::view_under(float x, float y) {
+  for (Viewport& v : m_views)
+    if (v.area.width >= 2 && v.area.holds(x, y)) return &v;
+  return nullptr;
+}
+
+void Modeller::point() {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (m_gesture) {
+    lead_gesture();
+    return;
+  }
+  if (io.WantCaptureMouse && !m_taking) return;
+  if (Viewport* v = view_under(io.MousePos.x, io.MousePos.y)) point_in(*v);
+  if (m_taking && !io.MouseDown[0]) {
+    m_taking = false;
+    m_drive->let_go();
+  }
+}
+
+void Modeller::point_in(Viewport& v) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const float x = io.MousePos.x, y = io.MousePos.y;
+  if (io.MouseClicked[0] || io.MouseClicked[1] || io.MouseClicked[2]) m_active = int(&v - m_views.data());
+  const bool pans = io.MouseDown[2] || (io.MouseDown[1] && io.KeyShift);
+  if (pans || io.MouseDown[1]) {
+    if (pans)
+      v.orbit.pan(-io.MouseDelta.x * v.pixel(v.orbit.target), io.MouseDelta.y * v.pixel(v.orbit.target));
+    else
+      v.orbit.turn(-io.MouseDelta.x * kTurn, io.MouseDelta.y * kTurn);
+    if (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) ++m_picture;
+  }
+  if (io.MouseWheel != 0) v.orbit.zoom(std::exp(-0.12 * io.MouseWheel)), ++m_picture;
+  if (io.MouseReleased[1] || io.MouseReleased[2]) ++m_picture;  // once more, at full quality
+  if (m_drive) {
+    if (io.MouseClicked[0] && m_drive->hand() >= 0) {
+      m_places = modeller::places_of(*m_shown->built.model, *m_state);
+      if (const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kOnBody)) {
+        m_drive->take(met->at);
+        m_taking = true;
+        tell("taking hold of " + sim::name_of(*m_shown->built.model, met->body));
+      }
+    }
+    if (m_taking && m_drive->holds() && m_drive->done()) m_drive->pull_to(v.on_plane_of(m_drive->tip(), x, y));
+    if (m_taking && m_drive->holds()) {
+      m_drive->pull_to(v.on_plane_of(m_drive->tip(), x, y));
+      tell(fmt::format("pull {:.2f} N", m_drive->pull()));
+    }
+    return;
+  }
+  if (!io.MouseClicked[0]) return;
+  if (m_measuring) {
+    if (const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kOnBody))
+      m_measured.push_back(met->at);
+    return;
+  }
+  const std::optional<std::size_t> handle =
+      modeller::handle_at(m_handles, v.camera, int(v.area.width), int(v.area.height), v.local(x, y), kReach);
+  if (handle)
+    begin_drag(m_handles.points[*handle], x, y);
+  else
+    pick(v, x, y);
+}
+
+void Modeller::pick(const Viewport& v, float x, float y) {
+  m_handle.reset();
+  if (!m_shown) return;
+  const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kOnBody);
+  if (!met) return select("");
+  const std::string name = sim::name_of(*m_shown->built.model, met->body);
+  for (const modeller::Thing& t : m_things)
+    if (t.name == name && t.kind != "tissue" && t.kind != "instrument") return select(t.kind + ":" + t.name);
+}
+
+void Modeller::frame_selected() {
+  std::vector<Vec3d> places;
+  const std::optional<modeller::Thing> thing = selected();
+  if (m_shown)
+    for (const modeller::BodyPlace& p : m_places)
+      if (!thing || sim::name_of(*m_shown->built.model, p.body) == thing->name) places.push_back(p.at);
+  if (places.empty())
+    for (const modeller::Handle& h : m_handles.points) places.push_back(h.at);
+  if (places.empty() && m_shown) {
+    for (Viewport& v : m_views) v.orbit = view::orbit_around(*m_shown->built.model);
+    ++m_picture;
+    return;
+  }
+  const view::Orbit orbit = modeller::orbit_of(places);
+  for (Viewport& v : m_views) v.orbit.target = orbit.target, v.orbit.distance = orbit.distance;
+  ++m_picture;
+}
+
+/// 0 from before and above, 1 from the feet, 2 from the patient's left, 3 from the front.
+void Modeller::look_from(int which) {
+  view::Orbit& orbit = m_views[std::size_t(m_active)].orbit;
+  constexpr double kDown = 1.52;
+  orbit.yaw = which == 2 ? portable::pi / 2 : which == 0 ? 0.35 : 0;
+  orbit.pitch = which == 3 ? kDown : which == 0 ? 0.5 : 0;
+  ++m_picture;
+}
+
+}  // namespace trocar::app
