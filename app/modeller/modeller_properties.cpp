@@ -182,8 +182,10 @@ void Modeller::draw_tissue(const std::string& name) {
       curve[i] = float(1e-3 * stress(most * double(i) / double(curve.size() - 1)));
     ui::heading("stress over strain");
     const std::string label = fmt::format("{:.0f} kPa at {:.0f} %", curve.back(), 100 * most);
+    ImGui::PushStyleColor(ImGuiCol_PlotLines, ui::kBlue);
     ImGui::PlotLines("##law", curve.data(), int(curve.size()), 0, label.c_str(), 0, curve.back(),
-                     ImVec2(-1, 90 * ui::scale()));
+                     ImVec2(ImGui::GetContentRegionAvail().x, 90 * ui::scale()));
+    ImGui::PopStyleColor();
     ui::text(fmt::format("E {:.3g} kPa, linear beyond {:.0f} %", young * 1e-3, 100 * cap), ui::kGrey);
     if (const scene::JsonMember* source = v.find("source")) ui::text(source->value.text, ui::kGrey);
     return;

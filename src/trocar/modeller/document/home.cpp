@@ -37,6 +37,12 @@ void rename_under(const JsonValue& value, const std::string& path, const fs::pat
     rename_under(value.items[i], scene::json_path(path, i), from, to, out);
 }
 
+std::string named(const std::string& text) {
+  std::string out = scene::to_text(scene::json_text(text));
+  out.pop_back();
+  return out;
+}
+
 }  // namespace
 
 bool names_files(std::string_view key) {
@@ -71,17 +77,11 @@ fs::path at_home(const Document& document, scene::MemoryFiles& memory) {
 }
 
 Document begun(const fs::path& file, bool organ, const std::string& name) {
-  JsonValue text = scene::json_object();
-  scene::put(text, "format", scene::json_number(1));
-  scene::put(text, "name", scene::json_text(name));
-  if (organ) {
-    scene::put(text, "solids", scene::json_array());
-  } else {
-    const fs::path folder = whole_path(file).parent_path();
-    scene::put(text, "like", scene::json_text(fs::relative(modelling_place(), folder).generic_string()));
-    scene::put(text, "organs", scene::json_array());
-  }
-  return Document::fresh(file, scene::to_text(text));
+  std::string text = "{\n  \"format\": 1,\n  \"name\": " + named(name);
+  if (organ) return Document::fresh(file, text + ",\n  \"solids\": []\n}\n");
+  const std::string place = fs::relative(modelling_place(), whole_path(file).parent_path()).generic_string();
+  text += ",\n  \"like\": " + named(place) + ",\n  \"organs\": [\n    {\n      \"solids\": []\n    }\n  ]\n}\n";
+  return Document::fresh(file, text);
 }
 
 std::string renamed_from(const std::string& text, const JsonValue& root, const fs::path& from, const fs::path& to) {

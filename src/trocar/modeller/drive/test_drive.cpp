@@ -37,6 +37,27 @@ TestDrive::TestDrive(const sim::Model& model)
   m_goal = m_tip;
 }
 
+double TestDrive::blood_lost() const {
+  const std::int64_t bled = m_state.fluids.ledger.in[std::size_t(fluids::Source::kBled)].blood;
+  return fluids::kM3PerPicolitre * double(bled - m_model.wet.pool_at_start.blood);
+}
+
+bool TestDrive::choose(const std::string& instrument) {
+  for (std::size_t h = 0; h < m_model.hands.size(); ++h) {
+    const int found = m_model.hands[h].find(instrument);
+    if (found < 0) continue;
+    m_hand = int(h);
+    m_instrument = found;
+    m_port = m_model.hands[h].rack[std::size_t(found)].port;
+    m_tip = tip();
+    m_goal = m_tip;
+    m_handle = 0;
+    m_phase = m_state.tools[h].instrument == found ? Phase::rest : Phase::change;
+    return true;
+  }
+  return false;
+}
+
 Vec3d TestDrive::tip() const {
   if (m_hand < 0) return {};
   return kinematics::forward(m_port, m_state.tools[std::size_t(m_hand)].pose()).tip;
@@ -80,6 +101,12 @@ void TestDrive::tick() {
   switch (m_phase) {
     case Phase::rest:
       break;
+    case Phase::change:
+      if (m_state.tools[std::size_t(m_hand)].instrument == m_instrument && m_since > 0.1) {
+        m_phase = Phase::rest;
+        m_tip = tip();
+      }
+      break;
     case Phase::approach:
       m_tip = towards(m_tip, m_at, kApproach * sim::kTick);
       if (length(m_tip - m_at) < 1e-6) m_phase = Phase::close, m_since = 0;
@@ -99,7 +126,7 @@ void TestDrive::tick() {
   }
   if (m_hand >= 0) {
     const double roll = m_model.start.tools[m_hand].roll;
-    m_input.tools[m_hand] = sim::tool_input(kinematics::inverse(m_port, m_tip, roll), float(m_handle));
+    m_input.tools[m_hand] = sim::tool_input(kinematics::inverse(m_port, m_tip, roll), float(m_handle), m_instrument);
   }
   sim::step(m_model, m_input, m_state, m_work);
 }

@@ -7,6 +7,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/modeller/operations/kinds.hpp>
+#include <trocar/modeller/operations/sketch.hpp>
 #include <trocar/modeller/operations/values.hpp>
 #include <trocar/scene/json/json_edit.hpp>
 
@@ -21,24 +22,32 @@ fs::path beside(const Draft& draft, const std::string& file) {
   return whole_path(draft.document().root().parent_path() / file);
 }
 
+std::vector<scene::Key> drawn_keys(std::vector<scene::Key> keys) {
+  for (scene::Key& key : sketch_keys()) keys.push_back(std::move(key));
+  return keys;
+}
+
 scene::Key file_key() { return scene::needed(keys::text("file", "the file of vessels, relative to the document")); }
 
 Operation new_tree() {
   return {{"vessel_tree",
            "Begins a tree of vessels in a file of its own, with its first vessel.",
-           {file_key(), scene::needed(keys::name("name", "of the tree")),
+           drawn_keys({file_key(), scene::needed(keys::name("name", "of the tree")),
             keys::choice("kind", {"arteries", "veins"}, "default arteries"),
             scene::needed(keys::name("vessel", "name of the first vessel")),
             scene::needed(keys::points("path_mm", -2000, 2000, 2, "its middle line, away from the heart in arteries")),
             scene::needed(keys::number("radius_mm", 0.01, 50, "of its lumen")),
             scene::needed(keys::number("flow_mL_min", 0.001, 20000, "what all of the tree carries at rest")),
-            keys::texts("rides_on", "bodies that it goes with where they are near")}},
+            keys::texts("rides_on", "bodies that it goes with where they are near")})},
           [](const JsonObject& o, Draft& draft) {
             const fs::path file = beside(draft, o.text("file"));
             if (draft.has(file)) return o.fault("file", "expected the name of a new file, got one that is there");
             const bool veins = o.text("kind") == "veins";
             JsonValue source = scene::json_object();
             scene::put(source, "node", scene::json_text("root"));
+            // what leads here from the heart takes a sixth of the pressure: an opened trunk does not bleed like an aorta
+            const double flow = o.number("flow_mL_min", 60) / 60;  // [mL/s]
+            scene::put(source, "resistance_mmHg_s_mL", number(veins ? 2 / flow : 15 / flow));
             if (veins) {
               scene::put(source, "kind", scene::json_text("steady"));
               scene::put(source, "pressure_mmHg", number(8));
@@ -56,7 +65,7 @@ Operation new_tree() {
             scene::put(vessel, "name", scene::json_text(o.text("vessel")));
             scene::put(vessel, "from", scene::json_text("root"));
             scene::put(vessel, "to", scene::json_text(o.text("vessel") + "_end"));
-            scene::put(vessel, "path_mm", points(o.points("path_mm")));
+            scene::put(vessel, "path_mm", points(sketched(o, draft, o.points("path_mm"))));
             scene::put(vessel, "radius_mm", number(o.number("radius_mm")));
             scene::put(vessel, "wave_speed_m_s", number(veins ? 3 : 7));
             std::vector<JsonValue> rides;
@@ -137,10 +146,10 @@ Operation branch() {
   return {{"branch",
            "Lets a vessel go on, or branch off: from the end of one that is there along a line. Radii follow by Murray's law, "
            "r^3 = sum r_i^3, and the flow at the ends with them.",
-           {scene::needed(keys::text("of", "the vessel from whose end it goes")),
+           drawn_keys({scene::needed(keys::text("of", "the vessel from whose end it goes")),
             scene::needed(keys::name("name", "of the new one")),
             scene::needed(keys::points("path_mm", -2000, 2000, 1, "its points after that end")),
-            keys::texts("rides_on", "bodies that it goes with where they are near, default: as the other")}},
+            keys::texts("rides_on", "bodies that it goes with where they are near, default: as the other")})},
           [](const JsonObject& o, Draft& draft) {
             const Thing parent = draft.thing("vessel:" + o.text("of"));
             const JsonValue from = draft.value(parent.file, parent.path);
@@ -148,7 +157,7 @@ Operation branch() {
             const double flow = whole_flow(tree);
             const std::vector<Vec3d> there = points_of(*member(from, "path_mm"));
             std::vector<Vec3d> path{there.back()};
-            for (const Vec3d& p : o.points("path_mm")) path.push_back(p);
+            for (const Vec3d& p : sketched(o, draft, o.points("path_mm"))) path.push_back(p);
             JsonValue vessel = scene::json_object();
             scene::put(vessel, "name", scene::json_text(o.text("name")));
             scene::put(vessel, "from", scene::json_text(text_in(from, "to")));

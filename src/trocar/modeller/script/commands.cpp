@@ -6,6 +6,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/modeller/drive/places.hpp>
+#include <trocar/modeller/operations/values.hpp>
 #include <trocar/modeller/script/session.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/json/json_text.hpp>
@@ -114,6 +115,53 @@ Command take() {
           }};
 }
 
+/// With what blood has left vessels.
+Json with_blood(Json said, const TestDrive& drive) {
+  said["blood_lost_mL"] = 1e6 * drive.blood_lost();
+  return said;
+}
+
+/// A place along a vessel as its file draws it [m].
+Vec3d on_vessel(const Document& document, const std::string& name, double share) {
+  const Thing thing = thing_named(document, "vessel:" + name);
+  const scene::JsonValue value = value_of(document, thing);
+  const scene::JsonMember* path = value.find("path_mm");
+  const std::vector<Vec3d> points = path ? points_of(path->value) : std::vector<Vec3d>{};
+  if (points.empty()) return {};
+  const double at = share * double(points.size() - 1);
+  const std::size_t i = std::min(std::size_t(at), points.size() - 1), next = std::min(i + 1, points.size() - 1);
+  return (points[i] + (points[next] - points[i]) * (at - double(i))) * 1e-3;
+}
+
+Command use() {
+  return {{"use",
+           "An instrument goes to a place and closes there, then opens: scissors cut, a clip applier clips.",
+           {scene::needed(keys::text("instrument", "its name")),
+            keys::vec3("at_mm", -2000, 2000, "where its jaws close"),
+            keys::text("vessel", "or on this vessel"),
+            keys::number("share", 0, 1, "how far along it, default 0.5")}},
+          [](const JsonObject& o, Session& session) {
+            if (o.has("at_mm") == o.has("vessel")) return o.fault(o.at(), "expected either \"at_mm\" or \"vessel\"");
+            TestDrive& drive = session.drive();
+            const Vec3d at = o.has("at_mm") ? o.vec3("at_mm") * 1e-3
+                                            : on_vessel(session.document(), o.text("vessel"), o.number("share", 0.5));
+            if (!drive.choose(o.text("instrument")))
+              return o.fault("instrument", "expected an instrument that a hand has or can take, got none of this name");
+            for (int i = 0; i < 20000 && !drive.done(); ++i) drive.tick();
+            const int clips = drive.state().clip_count + drive.state().vessel_clip_count;
+            const int cuts = drive.state().cut_count + drive.state().opening_count;
+            drive.take(at);
+            for (int i = 0; i < 20000 && !drive.done(); ++i) drive.tick();
+            drive.let_go();
+            for (int i = 0; i < 5000 && !drive.done(); ++i) drive.tick();
+            session.said().push_back(
+                with_blood({{"use", o.text("instrument")},
+                            {"clips", drive.state().clip_count + drive.state().vessel_clip_count - clips},
+                            {"cuts", drive.state().cut_count + drive.state().opening_count - cuts}},
+                           drive));
+          }};
+}
+
 Command pull() {
   return {{"pull",
            "Draws what the grasper holds.",
@@ -141,7 +189,13 @@ Command let_go() {
 Command rest() {
   return {{"rest", "Nobody touches anything for a while.", {scene::needed(keys::number("seconds", 0, 60, "how long"))}},
           [](const JsonObject& o, Session& session) {
-            for (int i = 0; i < int(1000 * o.number("seconds")); ++i) session.drive().tick();
+            TestDrive& drive = session.drive();
+            const double before = drive.blood_lost();
+            const int ticks = int(1000 * o.number("seconds"));
+            for (int i = 0; i < ticks; ++i) drive.tick();
+            const double lost = drive.blood_lost() - before;
+            session.said().push_back(with_blood(
+                {{"rest_s", o.number("seconds")}, {"bleeds_mL_min", 1e6 * lost / std::max(1e-3, 1e-3 * ticks) * 60}}, drive));
           }};
 }
 
@@ -153,7 +207,7 @@ Command stop() {
 Command shot() {
   return {{"shot",
            "Draws a picture.",
-           {scene::needed(keys::name("name", "of the picture")), keys::name("points", "the thing whose points are shown"),
+           {scene::needed(keys::name("name", "of the picture")), keys::text("points", "the thing whose points are shown"),
             keys::name("of", "the body that fills the picture, default: all"),
             keys::number("yaw_deg", -360, 360, "from where: 0 from the feet, 90 from the patient's left; default 20"),
             keys::number("pitch_deg", -88, 88, "above the patient's plane, default 30"),
@@ -169,7 +223,7 @@ Command shot() {
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> all{open(), begin(), save(), undo(),   redo(), check(),
-                                        take(), pull(),  let_go(), rest(), stop(), shot()};
+                                        take(), use(),  pull(),  let_go(), rest(), stop(), shot()};
   return all;
 }
 

@@ -106,8 +106,8 @@ std::size_t end_of_line_comment(std::string_view text, std::size_t at) {
 std::string put_into_empty(std::string text, const JsonValue& container, const std::string& key, const JsonValue& v) {
   const std::string inner = indent_at(text, container.from) + "  ";
   const std::size_t end = container.to - 1;
-  const bool lines = breaks_lines(text, {container.from, container.to});
-  std::string part = key + written(v, lines ? inner : indent_at(text, container.from));
+  std::string part = key + written(v, inner);
+  const bool lines = breaks_lines(text, {container.from, container.to}) || part.find('\n') != part.npos;
   if (lines) {  // whatever comment stands in it stays
     std::size_t at = end;
     while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '\n')) --at;
@@ -131,9 +131,9 @@ std::string put_part(std::string text, const JsonValue& container, std::size_t w
   const Part last = parts.back();
   const bool own_line = begins_line(text, last.from) &&
                         (parts.size() > 1 ? begins_line(text, parts[parts.size() - 2].from) : true);
-  const std::string indent = indent_at(text, last.from);
+  const std::string indent = own_line ? indent_at(text, last.from) : indent_at(text, container.from) + "  ";
   const std::string part = key + written(v, indent);
-  if (!own_line) return text.insert(last.to, ", " + part);
+  if (!own_line && part.find('\n') == part.npos) return text.insert(last.to, ", " + part);
   const std::size_t end = end_of_line_comment(text, last.to);
   text.insert(end, "\n" + indent + part);
   return text.insert(last.to, ",");
