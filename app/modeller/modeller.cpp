@@ -67,6 +67,7 @@ void Modeller::open(const fs::path& file) {
   m_view.reset();
   m_shown.reset();
   m_state.reset();
+  m_places.clear();
   remember_file(m_document->root());
   m_window.set_title("Trocar: " + m_document->root().filename().string());
   m_log.event("opened", {{"file", m_document->root().generic_string()}});
@@ -149,7 +150,7 @@ void Modeller::take_what_is_built() {
                         {"faults", built->built.faults.size()},
                         {"bodies", built->read_outs.size()}});
   if (built->built.good() && !m_drive) {
-    const bool first = !m_shown;
+    const bool first = m_places.empty();  // the first bodies are looked at
     m_view.reset();
     m_shown = std::move(built);
     m_view = std::make_unique<view::SceneView>(*m_shown->built.model, *m_backend);
@@ -231,14 +232,21 @@ void Modeller::picture() {
 
 void Modeller::log_widgets() {
   const std::vector<ui::Widget> widgets = ui::take_widgets();
-  if (!m_log.on() || widgets == m_widgets) return;
+  if (!m_log.on()) return;
+  Json points = Json::array();
+  for (const modeller::Handle& h : m_handles.points)
+    if (const std::optional<modeller::Spot> s = m_views[std::size_t(m_active)].spot(h.at))
+      points.push_back({int(s->x), int(s->y)});
+  if (widgets == m_widgets && points == m_logged_points) return;
   m_widgets = widgets;
+  m_logged_points = points;
   Json places = Json::object();
   for (const ui::Widget& w : widgets) places[w.id] = {w.x, w.y};
   const Area& a = m_views[std::size_t(m_active)].area;
   m_log.event("screen", {{"name", m_document ? "modeller" : "start"},
                          {"view", {a.x, a.y, a.width, a.height}},
                          {"selected", m_selected},
+                         {"points", points},
                          {"widgets", places}});
 }
 
@@ -365,6 +373,10 @@ void Modeller::drive_on() {
   }
   m_state = m_drive->state();
   ++m_picture;
+  if (m_drive->holds() != m_held) {
+    m_held = m_drive->holds();
+    m_log.event("drive", {{"holds", m_held}});
+  }
 }
 
 void run_modeller(const ModellerOptions& options) {

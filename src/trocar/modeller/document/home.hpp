@@ -14,7 +14,8 @@ fs::path at_home(const Document& document, scene::MemoryFiles& memory);
 fs::path modelling_place();
 
 /// A document that is on no disk yet: a scene in the modelling place, or an organ alone.
-Document begun(const fs::path& file, bool organ, const std::string& name);
+/// @param wanted  its name; what names cannot hold becomes _
+Document begun(const fs::path& file, bool organ, const std::string& wanted);
 
 /// The text with the names of files that stand in it as they are from another folder.
 /// @param root  what the text says

@@ -148,17 +148,29 @@ Command use() {
             if (!drive.choose(o.text("instrument")))
               return o.fault("instrument", "expected an instrument that a hand has or can take, got none of this name");
             for (int i = 0; i < 20000 && !drive.done(); ++i) drive.tick();
-            const int clips = drive.state().clip_count + drive.state().vessel_clip_count;
-            const int cuts = drive.state().cut_count + drive.state().opening_count;
+            const sim::State& state = drive.state();
+            const int strand_clips = state.clip_count, vessel_clips = state.vessel_clip_count;
+            const int strand_cuts = state.cut_count, openings = state.opening_count;
             drive.take(at);
             for (int i = 0; i < 20000 && !drive.done(); ++i) drive.tick();
             drive.let_go();
             for (int i = 0; i < 5000 && !drive.done(); ++i) drive.tick();
+            Json clipped = Json::array(), cut = Json::array();  // names of vessels and strands
+            const sim::Model& model = session.model();
+            for (int i = strand_clips; i < state.clip_count; ++i)
+              if (const int strand = state.clips[std::size_t(i)].strand; strand >= 0)
+                clipped.push_back(model.strands[std::size_t(strand)].name);
+            for (int i = vessel_clips; i < state.vessel_clip_count; ++i)
+              clipped.push_back(fmt::format("{}, {:.0f} % of its width",
+                                            model.vessels.list[std::size_t(state.vessel_clips[std::size_t(i)].vessel)].name,
+                                            100 * state.vessel_clips[std::size_t(i)].cover));
+            for (int i = strand_cuts; i < state.cut_count; ++i)
+              if (const int strand = state.cuts[std::size_t(i)].strand; strand >= 0)
+                cut.push_back(model.strands[std::size_t(strand)].name);
+            for (int i = openings; i < state.opening_count; ++i)
+              cut.push_back(model.vessels.list[std::size_t(state.openings[std::size_t(i)].vessel)].name);
             session.said().push_back(
-                with_blood({{"use", o.text("instrument")},
-                            {"clips", drive.state().clip_count + drive.state().vessel_clip_count - clips},
-                            {"cuts", drive.state().cut_count + drive.state().opening_count - cuts}},
-                           drive));
+                with_blood({{"use", o.text("instrument")}, {"clipped", clipped}, {"cut", cut}}, drive));
           }};
 }
 

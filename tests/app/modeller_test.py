@@ -1,0 +1,242 @@
+#!/usr/bin/env python3
+"""Drives the modeller's real window by mouse and keys: a scene is begun, a ball put into it, moved, a point dragged, undone,
+saved, tried and operated on; then it is killed, and what was not saved is offered again.
+
+    tools/with_xvfb.sh 1400x900 python3 tests/app/modeller_test.py PATH/TO/trocar [--kills N]
+
+--kills N instead: killed at N random moments while somebody works; nothing older than two seconds may be lost.
+Exit: 0 passed, 1 failed, 77 something to run it with is missing.
+"""
+import argparse
+import json
+import os
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from trainee import Eyes, Failed, MouseAndKeys, xdo
+
+MOST_LOST = 2.0  # [s] of work: the file of what is unsaved is written at most a second after a change
+
+
+def check(condition, what):
+    if not condition:
+        raise Failed(what)
+
+
+class Modeller:
+    def __init__(self, program, folder, file=None, name="log"):
+        self.folder = Path(folder)
+        self.log = self.folder / f"{name}.jsonl"
+        environment = dict(os.environ, TROCAR_DATA=str(self.folder / "data"))
+        words = [program, "model", *([str(file)] if file else []), "--log", str(self.log)]
+        self.process = subprocess.Popen(words, cwd=folder, env=environment)
+        self.eyes = Eyes(str(self.log), self.process)
+        self.hands = MouseAndKeys(self.eyes)
+
+    def happened(self, what, count, limit=60, **details):
+        return self.eyes.wait(f"{what} {details} no. {count}",
+                              lambda: len(self.eyes.happened(what, **details)) >= count, limit)
+
+    def menu(self, menu, item):
+        self.hands.press(f"menu {menu}")
+        self.hands.press(item)
+
+    def fill(self, field, text):
+        x, y = self.eyes.where(field)
+        xdo("mousemove", x, y)
+        time.sleep(0.3)
+        xdo("click", "--repeat", 2, "--delay", 120, 1)  # all of it is chosen
+        time.sleep(0.4)
+        xdo("type", "--delay", 30, text)
+        time.sleep(0.3)
+
+    def keys(self, *keys):
+        for key in keys:
+            xdo("key", key)
+            time.sleep(0.25)
+
+    def over_view(self, across=0.5, down=0.5):
+        x, y, width, height = self.eyes.screen["view"]
+        xdo("mousemove", int(x + across * width), int(y + down * height))
+        time.sleep(0.3)
+
+    def kill(self):
+        self.process.send_signal(signal.SIGKILL)
+        self.process.wait()
+
+
+def centre_of(file):
+    """The first section's centre, as the file says it."""
+    text = file.read_text(encoding="utf-8")
+    return [float(v) for v in re.search(r'"centre_mm": \[([^\]]*)\]', text).group(1).split(",")]
+
+
+def begin_with_a_ball(m):
+    m.eyes.on("start")
+    m.hands.press("New scene")
+    m.fill("file name", "mine.json")
+    m.hands.press("Create")
+    m.happened("opened", 1)
+    m.menu("Add", "Ball or ellipsoid ...")
+    m.hands.press("Add")
+    m.happened("step", 1, do="ellipsoid")
+    m.menu("Add", "Hold the chosen one ...")
+    m.fill("ask radius_mm", "9")
+    m.hands.press("Add")
+    m.happened("step", 1, do="hold")
+    m.eyes.wait("a good build", lambda: any(e["good"] for e in m.eyes.happened("built")), 60)
+
+
+def session(program, folder):
+    m = Modeller(program, folder)
+    begin_with_a_ball(m)
+    m.hands.press("solid:organ")
+    m.eyes.wait("points of the ball", lambda: m.eyes.screen["selected"] == "solid:organ" and m.eyes.screen["points"], 30)
+
+    # exactly 12 mm to the front, by keys
+    m.over_view()
+    m.keys("g", "z", "1", "2", "Return")
+    m.happened("gesture", 1, kept=True)
+    m.keys("ctrl+s")
+    m.happened("saved", 1)
+    file = Path(folder) / "mine.json"
+    before = centre_of(file)
+    check(abs(before[2] - (-110 + 12)) < 1e-6, f"moved by 12 mm exactly: {before}")
+
+    # a point dragged with the mouse, undone, done again
+    time.sleep(1.0)
+    m.eyes.read()
+    x, y = m.eyes.screen["points"][0]
+    xdo("mousemove", x, y, "mousedown", 1)
+    time.sleep(0.4)
+    for i in range(1, 6):
+        xdo("mousemove", x + 6 * i, y - 4 * i)
+        time.sleep(0.15)
+    xdo("mouseup", 1)
+    m.happened("gesture", 2)
+    m.keys("ctrl+s")
+    m.happened("saved", 2)
+    dragged = centre_of(file)
+    check(sum(abs(a - b) for a, b in zip(dragged, before)) > 1, f"a dragged point has moved: {before} {dragged}")
+    m.keys("ctrl+z", "ctrl+s")
+    m.happened("saved", 3)
+    check(centre_of(file) == before, "undone, the file says what it said")
+    m.keys("ctrl+shift+z", "ctrl+s")
+    m.happened("saved", 4)
+    check(centre_of(file) == dragged, "done again, it says the other")
+
+    # the test drive takes hold of the ball
+    m.keys("f")
+    m.keys("t")
+    m.over_view()
+    xdo("mousedown", 1)
+    m.eyes.wait("the grasper to take hold", lambda: m.eyes.happened("drive", holds=True), 60)
+    m.over_view(0.5, 0.35)
+    time.sleep(0.5)
+    xdo("mouseup", 1)
+    m.eyes.wait("the grasper to let go", lambda: m.eyes.happened("drive", holds=False), 60)
+    m.keys("t")
+
+    # the trainer opens on it
+    m.keys("F5")
+    m.happened("operate", 1, started=True)
+
+    def trainer():
+        found = subprocess.run(["pgrep", "-P", str(m.process.pid)], capture_output=True, text=True).stdout.split()
+        titles = subprocess.run(["xdotool", "search", "--name", "^Trocar$"], capture_output=True, text=True).stdout.split()
+        return found and titles and found
+    children = m.eyes.wait("the trainer's window", trainer, 60)
+    for child in children:
+        os.kill(int(child), signal.SIGKILL)
+
+    # killed with something unsaved: it is offered again
+    m.over_view()
+    m.keys("g", "x", "7", "Return")
+    m.happened("gesture", 3)
+    time.sleep(MOST_LOST)
+    m.kill()
+    check(centre_of(file) == dragged, "nothing half saved")
+    again = Modeller(program, folder, name="again")
+    again.hands.press("Recover it")
+    again.happened("recovered", 1)
+    again.keys("ctrl+s")
+    again.happened("saved", 1)
+    check(abs(centre_of(file)[0] - dragged[0] - 7) < 1e-6, "what was not saved is there again")
+
+    # closing with nothing unsaved just ends
+    again.keys("ctrl+q")
+    again.process.wait(timeout=20)
+    check(again.process.returncode == 0, f"it ends well: {again.process.returncode}")
+
+
+def kills(program, folder, count, seed):
+    """Moves by a millimetre each, without saving; what comes back is what was done but for the last two seconds."""
+    random_moment = random.Random(seed)
+    m = Modeller(program, folder)
+    begin_with_a_ball(m)
+    m.keys("ctrl+s")
+    m.happened("saved", 1)
+    m.keys("ctrl+q")
+    m.process.wait(timeout=20)
+    file = Path(folder) / "mine.json"
+    start = centre_of(file)[0]
+    for i in range(count):
+        m = Modeller(program, folder, file, name=f"kill{i}")
+        m.hands.press("solid:organ")
+        m.over_view()
+        done = []
+        until = time.monotonic() + random_moment.uniform(0.5, 6)
+        while time.monotonic() < until:
+            m.keys("g", "x", "1", "Return")
+            m.eyes.read()
+            kept = len(m.eyes.happened("gesture", kept=True))
+            while len(done) < kept:
+                done.append(time.monotonic())
+        killed = time.monotonic()
+        m.kill()
+        sure = sum(1 for t in done if t < killed - MOST_LOST)
+        check(centre_of(file)[0] == start, "the file itself is as it was saved")
+        lost = list((Path(folder) / "data" / "modeller" / "unsaved").glob("*.json"))
+        found = 0
+        if lost:
+            texts = json.loads(lost[0].read_text(encoding="utf-8"))["texts"]
+            found = float(re.search(r'"centre_mm": \[([^,]*),', texts[0]["text"]).group(1)) - start
+            lost[0].unlink()
+        check(found >= sure, f"kill {i}: {sure} moves were older than {MOST_LOST} s, {found} came back")
+        print(f"kill {i}: {len(done)} moves, {found:.0f} kept")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program")
+    parser.add_argument("--kills", type=int, default=0)
+    parser.add_argument("--seed", type=int, default=1)
+    o = parser.parse_args()
+    if not os.environ.get("DISPLAY") or not shutil.which("xdotool"):
+        print("no display or no xdotool: skipped")
+        return 77
+    folder = tempfile.mkdtemp(prefix="trocar-modeller-")
+    try:
+        if o.kills:
+            kills(os.path.abspath(o.program), folder, o.kills, o.seed)
+        else:
+            session(os.path.abspath(o.program), folder)
+    except Failed as failed:
+        print(f"FAILED: {failed}")
+        return 1
+    finally:
+        subprocess.run(["pkill", "-f", folder], check=False)
+        shutil.rmtree(folder, ignore_errors=True)
+    print("passed")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
