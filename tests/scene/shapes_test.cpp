@@ -147,6 +147,11 @@ TEST(ClosedShapes, SeveralWaysToBeNoneAreTold) {
       "stations": [{"s_mm": 0, "radius_mm": 8, "wall_mm": 2}, {"s_mm": 9, "radius_mm": 8}]})" +
                                cell)),
               "expected a wall_mm at every station or at none");
+  std::string long_line;
+  for (int i = 0; i < 300; ++i) long_line += fmt::format("{}[{}, 0, 0]", i == 0 ? "" : ", ", i);
+  expect_only(t.faults(t.solid(R"("tube": {"line_mm": [)" + long_line +
+                               R"(], "stations": [{"s_mm": 0, "radius_mm": 8}]})" + cell)),
+              "300 points of its line, at most 200 expected");
   expect_only(t.faults(t.solid(R"("revolved": {"profile_mm": [[0, 0, 1], [3, 4, 1]]})" + cell)), "rows of 2 numbers");
   expect_only(t.faults(t.solid(R"("revolved": {"profile_mm": [[0, 0], [0, 4], [3, 8]]})" + cell)),
               "expected r above 0 between the ends");
@@ -226,15 +231,16 @@ TEST(ClosedShapes, ArePouchesThatHangStill) {
 
 TEST(ClosedShapes, ThinPartsThatCellsLoseAreToldAndMuchOfABodyIsRefused) {
   Table t;
-  const auto tube = [&t](const char* cell) {
-    return t.solid(std::string(kHollowTube) + R"(, "cuttable": true, "cell_mm": )" + cell);
-  };
+  const std::string filled = R"(, "cuttable": true, "cell_mm": 5)";
   CompileReport report;
-  compile(read(tube("3.4")), &report);
+  compile(read(t.solid(R"("tube": {"line_mm": [[-30, 0, 0], [30, 0, 0]],
+      "stations": [{"s_mm": 0, "radius_mm": 8}, {"s_mm": 60, "radius_mm": 1}]})" +
+                       filled)),
+          &report);
   ASSERT_EQ(report.doubts.size(), 1u);
-  EXPECT_NE(report.doubts[0].message.find("'body' has thin parts: cells of 3.4 mm keep "), std::string::npos)
+  EXPECT_NE(report.doubts[0].message.find("'body' has thin parts: cells of 5 mm keep "), std::string::npos)
       << report.doubts[0].message;
-  EXPECT_THROW(compile(read(tube("5"))), core::BadInput);
+  EXPECT_THROW(compile(read(t.solid(kHollowTube + filled))), core::BadInput);
 }
 
 /// A ball of 20 mm radius about the origin [mm].
@@ -264,6 +270,12 @@ TEST(SurfaceShapes, AreReadFromEveryFormatWithItsUnit) {
     const auto tenfold = read(t.solid(file + R"(, "unit_mm": 10}, "cell_mm": 60)")).solids.at(0).shape;
     EXPECT_NEAR(geometry::volume(tenfold.surface->mesh) / volume, 1000, 0.01) << name;
   }
+  geometry::TriMesh in_metres = ball;
+  for (Vec3d& p : in_metres.positions) p = p / 1000.0;
+  t.folder.write("metres.obj", geometry::to_obj(in_metres));
+  const auto metres = read(t.solid(R"("surface": {"file": "metres.obj"}, "cell_mm": 6)")).solids.at(0).shape;
+  ASSERT_EQ(metres.surface->doubts.size(), 1u) << "which nobody has said";
+  EXPECT_NE(metres.surface->doubts[0].find("its coordinates are millimetres; longest side"), std::string::npos);
   expect_only(t.faults(t.solid(R"("surface": {"file": "none.obj"}, "cell_mm": 6)")), "none of this name");
   expect_only(t.faults(t.solid(R"("surface": {"file": "ball.obj", "unit_mm": 1000}, "cell_mm": 60)")),
               "expected coordinates within 2000 mm");
@@ -290,6 +302,11 @@ TEST(SurfaceShapes, WhatIsNotClosedIsMendedAndTold) {
   t.folder.write("sheet.obj", geometry::to_obj(sheet));
   expect_only(t.faults(t.solid(R"("surface": {"file": "sheet.obj"}, "cell_mm": 6)")),
               "expected a surface that can be mended to a closed one, got: ");
+  t.folder.write("sheets.obj", geometry::to_obj(std::vector<geometry::SurfacePart>{{"one", sheet}, {"two", open}}));
+  expect_only(t.faults(t.solid(R"("surface": {"file": "sheets.obj"}, "cell_mm": 6)")),
+              "(\"part\" takes one of: one, two)");
+  EXPECT_EQ(t.faults(t.solid(R"("surface": {"file": "sheets.obj", "part": "two"}, "cell_mm": 6)")),
+            std::vector<std::string>{});
 }
 
 TEST(SurfaceShapes, SliversOfOthersCostNoSubSteps) {
@@ -356,6 +373,18 @@ TEST(ControlPoints, WeighWhatTheBodyDoesAboutItsCentreAndHangStill) {
   EXPECT_NEAR(length(centre / mass - geometry::centre_of_volume(fine)), 0, 1e-4);
   EXPECT_LE(body_of(c.report).substeps, 20);
   EXPECT_LT(drift(c.model), 1e-5);
+}
+
+TEST(ControlPoints, AnswerAtOnceAsWell) {
+  Table t;
+  CompileReport report;
+  const sim::Model model =
+      compile(read(t.solid(egg() + R"(, "masses": "control_points", "skin_edge_mm": 4, "solver": "static")")), &report);
+  EXPECT_TRUE(report.doubts.empty());
+  EXPECT_LT(drift(model), 1e-5);
+  expect_only(
+      t.faults(t.solid(egg() + R"(, "masses": "control_points", "solver": "static", "elasticity": "tetrahedra")")),
+      "expected springs where masses are control points");
 }
 
 TEST(ControlPoints, TheDeformedSkinIsTheNurbsOfTheMovedControlPoints) {

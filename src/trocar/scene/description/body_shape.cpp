@@ -28,6 +28,11 @@ void require_count(const char* what, std::size_t expected, std::size_t got) {
   if (expected != got) throw std::invalid_argument(fmt::format("{} {}, {} expected", got, what, expected));
 }
 
+void require_few(const char* what, std::size_t got) {
+  if (got > kMostCurvePoints)
+    throw std::invalid_argument(fmt::format("{} {}, at most {} expected", got, what, kMostCurvePoints));
+}
+
 /// Closed around, `points` control points.
 nurbs::Knots turn_knots(const char* name, int degree, int points, const Doubles& knots) {
   if (points <= degree)
@@ -64,7 +69,8 @@ int sections_to_a_span(const nurbs::Curve& line, const Doubles& ends, const Doub
   double most = 1;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i)
     most = std::max(most, nurbs::length(line, ends[i], ends[i + 1]) / (radii[i] + radii[i + 1]));
-  return std::clamp(int(std::ceil(most)), 2, 8);
+  constexpr int kMostSections = 800;  // each of them is a row of a dense system
+  return std::clamp(int(std::ceil(most)), 2, std::clamp(kMostSections / int(ends.size()), 2, 8));
 }
 
 }  // namespace
@@ -113,6 +119,7 @@ nurbs::Surface surface_of(const NurbsShape& shape) {
 
 nurbs::Surface surface_of(const TubeShape& shape) {
   if (shape.stations.empty()) throw std::invalid_argument("at least one station expected");
+  require_few("points of its line", shape.line.size()), require_few("stations", shape.stations.size());
   const nurbs::Curve line = with_stations(shape);
   const Doubles ends = nurbs::breaks(line.knots);
   Doubles radii, walls;
@@ -129,6 +136,7 @@ nurbs::Surface surface_of(const TubeShape& shape) {
 nurbs::Surface surface_of(const RevolvedShape& shape) {
   const Vec3d z = normalised(shape.axis, Vec3d{});
   if (z == Vec3d{}) throw std::invalid_argument("an axis expected, got none");
+  require_few("points of its profile", shape.profile.size());
   if (shape.profile.size() < 2) throw std::invalid_argument("a profile of at least 2 points expected");
   const Vec3d x = geometry::frame_about(z, std::fabs(z.x) < 0.8 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0}).normal;
   std::vector<Vec3d> points;

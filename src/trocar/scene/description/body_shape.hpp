@@ -81,7 +81,8 @@ struct ClosedShape {
   bool any() const { return surface || nurbs || tube || revolved; }
 };
 
-inline constexpr int kMostControlPoints = 10'000;  ///< of a shape's net
+inline constexpr int kMostControlPoints = 10'000;     ///< of a shape's net
+inline constexpr std::size_t kMostCurvePoints = 200;  ///< of a line or a profile, and stations along it
 
 /// The closed surface, du x dv outwards, u around. @throws std::invalid_argument where there is none, with why
 geometry::nurbs::Surface surface_of(const NurbsShape& shape);

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <trocar/core/files.hpp>
+#include <trocar/core/printable.hpp>
 #include <trocar/geometry/formats/mesh_source.hpp>
 #include <trocar/geometry/repair/mend.hpp>
 #include <trocar/geometry/surface_files/surface_file.hpp>
+#include <trocar/geometry/surface_files/unit_guess.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
 
 namespace trocar::scene {
@@ -40,19 +42,39 @@ std::optional<geometry::TriMesh> parts_of(const JsonObject& o, const geometry::S
   return {};
 }
 
+/// Nobody has said in what unit it is: does it look like millimetres?
+void doubt_unit(SurfaceSource& source) {
+  const geometry::Bounds box = geometry::bounds(source.mesh.positions);
+  const Vec3d size = 1e-3 * (box.high - box.low);
+  const double longest = std::max({size.x, size.y, size.z});
+  if (longest < geometry::kShortestBody || longest > geometry::kLongestBody)
+    source.doubts.push_back("without \"unit_mm\" its coordinates are millimetres; " + geometry::guess_unit(box).words);
+}
+
+/// What to do about a file of several parts that are no body together.
+std::string parts_to_choose(const geometry::SurfaceFile& file, const std::string& chosen) {
+  constexpr std::size_t kShown = 6;
+  if (!chosen.empty() || file.parts.size() < 2) return {};
+  std::string words = " (\"part\" takes one of:";
+  for (std::size_t i = 0; i < std::min(kShown, file.parts.size()); ++i)
+    words += (i == 0 ? " " : ", ") + core::printable(file.parts[i].name);
+  return words + (file.parts.size() > kShown ? fmt::format(", and {} more)", file.parts.size() - kShown) : ")");
+}
+
 /// Closed and outwards, mended where it may be; false, and a fault, where it cannot be.
-bool become_closed(const JsonObject& o, SurfaceSource& source) {
+bool become_closed(const JsonObject& o, const std::string& parts, SurfaceSource& source) {
   const geometry::Diagnosis before = geometry::examine(source.mesh);
   if (before.is_body()) return true;
   if (!source.mend) {
-    o.fault("file", fmt::format("expected a closed surface, as it is not to be mended, got: {}", faults_of(before)));
+    o.fault("file",
+            fmt::format("expected a closed surface, as it is not to be mended, got: {}{}", faults_of(before), parts));
     return false;
   }
   geometry::MendedMesh mended = geometry::mend(source.mesh);
   if (!mended.after.is_body() || mended.mesh.triangles.empty()) {
     const std::string left = one_by_one(mended.left, [](const std::string& words) { return words; });
-    o.fault("file", fmt::format("expected a surface that can be mended to a closed one, got: {}",
-                                left.empty() ? faults_of(mended.after) : left));
+    o.fault("file", fmt::format("expected a surface that can be mended to a closed one, got: {}{}",
+                                left.empty() ? faults_of(mended.after) : left, parts));
     return false;
   }
   for (const geometry::Change& c : mended.changes) source.doubts.push_back("mended: " + c.words);
@@ -97,6 +119,7 @@ std::optional<SurfaceSource> Reading::surface_of(const JsonObject& o, SurfaceSou
   const std::optional<std::string> bytes = bytes_of(o, folder);
   if (!bytes) return {};
   const fs::path path = (folder / source.file).lexically_normal();
+  std::string parts;
   try {
     const geometry::SurfaceFile file = geometry::read_surfaces(
         *bytes, path.generic_string(),
@@ -104,14 +127,16 @@ std::optional<SurfaceSource> Reading::surface_of(const JsonObject& o, SurfaceSou
     std::optional<geometry::TriMesh> mesh = parts_of(o, file, source.part);
     if (!mesh) return {};
     source.mesh = std::move(*mesh);
+    parts = parts_to_choose(file, source.part);
     const double said = file.metres > 0 ? file.metres : 1e-3;
     const double metres = source.unit > 0 ? source.unit : said;
+    if (!(file.metres > 0) && !(source.unit > 0)) doubt_unit(source);
     for (Vec3d& p : source.mesh.positions) p = metres * p + source.place;
   } catch (const core::BadInput& e) {
     for (const core::Fault& f : e.faults()) tell(m_faults, f);
     return {};
   }
-  if (!is_sensible(o, source) || !become_closed(o, source)) return {};
+  if (!is_sensible(o, source) || !become_closed(o, parts, source)) return {};
   return source;
 }
 
