@@ -49,6 +49,10 @@ std::string values_of(const Key& key) {
       return fmt::format("array of {}points, {}", many, range_of(key));
     case Type::grid:
       return fmt::format("array of {}rows of {}points, {}", many, many, range_of(key));
+    case Type::numbers:
+      return fmt::format("array of {}numbers, {}", many, range_of(key));
+    case Type::table:
+      return fmt::format("array of {}rows of numbers, {}", many, range_of(key));
     case Type::object:
       return anchor_of(key.shape().name);
     case Type::objects:

@@ -54,10 +54,12 @@ std::span<const std::uint8_t> held_of(const sim::Model& model, int organ) {
 }
 
 /// Does it hang on free nodes only?
-bool gives_way(std::span<const std::uint8_t> held, const tissue::SkinWeights& w) {
-  for (std::size_t k = 0; k < 8; ++k)
-    if (w.weight[k] > 0 && !held.empty() && held[std::size_t(w.node[k])] != tissue::kFree) return false;
-  return true;
+bool gives_way(std::span<const std::uint8_t> held, const tissue::Skin& skin, int vertex) {
+  bool free = true;
+  skin.each_carrier(vertex, [&](int node, int, float weight) {
+    if (weight > 0 && !held.empty() && held[std::size_t(node)] != tissue::kFree) free = false;
+  });
+  return free;
 }
 
 struct Candidate {
@@ -82,9 +84,7 @@ std::vector<Candidate> candidates(const sim::Model& model, int organ, int hand, 
   std::vector<Candidate> found;
   for (int t = 0; t < int(skin.triangles.size()); ++t) {
     const std::array<int, 3>& corner = skin.triangles[std::size_t(t)];
-    if (!std::all_of(corner.begin(), corner.end(),
-                     [&](int v) { return gives_way(held, skin.weights[std::size_t(v)]); }))
-      continue;
+    if (!std::all_of(corner.begin(), corner.end(), [&](int v) { return gives_way(held, skin, v); })) continue;
     const Candidate c = candidate(skin, t, tool.port);
     if (c.facing > kFacing && allowed(tool, c.at + kAbove * c.out) && allowed(tool, c.at - depth * c.out))
       found.push_back(c);

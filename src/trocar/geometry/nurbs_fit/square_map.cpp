@@ -6,7 +6,7 @@
 
 #include <trocar/geometry/nurbs_fit/laplace.hpp>
 #include <trocar/geometry/nurbs_fit/square_map.hpp>
-#include <trocar/geometry/surfaces/fill_holes.hpp>
+#include <trocar/geometry/repair/rims.hpp>
 #include <trocar/numerics/symmetric3.hpp>
 
 namespace trocar::geometry::nurbs {
@@ -14,14 +14,18 @@ namespace {
 
 // The only rim, counter-clockwise seen from where the triangles face.
 std::vector<int> rim_of_sheet(const TriMesh& mesh) {
-  const auto all = rims(mesh);
+  const EdgeReport edges = check_edges(mesh);
+  if (edges.inconsistent > 0)
+    throw std::invalid_argument("map_to_square: triangles that share an edge are turned against each other");
+  std::vector<Rim> all = rims_of(mesh, EdgeTable(mesh));
   if (all.size() != 1)
     throw std::invalid_argument(fmt::format("map_to_square: a mesh with one rim expected, got {}", all.size()));
-  const EdgeReport edges = check_edges(mesh);
   const int euler = static_cast<int>(mesh.positions.size()) - edges.edges + static_cast<int>(mesh.triangles.size());
   if (euler != 1 || edges.crowded > 0)
     throw std::invalid_argument("map_to_square: a mesh in one piece and without handles expected");
-  return {all[0].rbegin(), all[0].rend()};
+  std::vector<int>& rim = all[0].vertices;  // its lowest vertex comes last
+  std::rotate(rim.begin(), std::min_element(rim.begin(), rim.end()) + 1, rim.end());
+  return rim;
 }
 
 // Places in the rim of the corners (0, 0), (1, 0), (1, 1), (0, 1).

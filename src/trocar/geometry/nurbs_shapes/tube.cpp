@@ -16,7 +16,7 @@ namespace trocar::geometry::nurbs {
 namespace {
 
 struct Station {
-  double u = 0.0, radius = 0.0;
+  double u = 0.0, radius = 0.0, inside = 0.0;  // inside: the radius of what is hollow
   Vec3d point;
   Frame frame;
 };
@@ -64,7 +64,7 @@ class Radii {
 };
 
 Station station_at(const Curve& spine, const Radii& radii, std::size_t span, double u) {
-  Station station{u, radii.at(span, u), point(spine, u), {}};
+  Station station{u, radii.at(span, u), 0.0, point(spine, u), {}};
   station.frame.tangent = tangent(spine, u);
   if (station.frame.tangent == Vec3d{})
     throw std::invalid_argument(fmt::format("tube: the spine has no direction at parameter {}", u));
@@ -104,12 +104,18 @@ std::vector<Station> stations_along(const Curve& spine, const std::vector<double
   return stations;
 }
 
-Surface wall_through(const Curve& spine, const std::vector<Station>& stations, double thinner) {
+// Which span of the spine a station stands in: the last one at the spine's end.
+std::size_t span_of_station(std::size_t station, std::size_t stations, const TubeOptions& options) {
+  const auto to_a_span = static_cast<std::size_t>(options.stations);
+  return std::min(station / to_a_span, (stations - 2) / to_a_span);
+}
+
+Surface wall_through(const Curve& spine, const std::vector<Station>& stations, double Station::*radius_of) {
   std::vector<Curve> sections;
   SkinOptions options;
   options.closed = spine.knots.periodic;
   for (const Station& s : stations) {
-    const double radius = s.radius - thinner;
+    const double radius = s.*radius_of;
     if (!(radius > 0.0)) throw std::invalid_argument("hollow_tube: a thickness below every radius expected");
     sections.push_back(ellipse(s.point, radius * s.frame.normal, radius * s.frame.binormal));
     options.parameters.push_back((s.u - spine.knots.start()) / spine.knots.extent());
@@ -187,7 +193,7 @@ double wall_length(const Surface& wall) {
 }  // namespace
 
 Surface tube(const Curve& spine, const std::vector<double>& radii, const TubeOptions& options) {
-  return wall_through(spine, stations_along(spine, radii, options), 0.0);
+  return wall_through(spine, stations_along(spine, radii, options), &Station::radius);
 }
 
 Surface capped(const Surface& wall, CapShape start, CapShape end) {
@@ -207,17 +213,24 @@ Surface capped(const Surface& wall, CapShape start, CapShape end) {
   return on_domain(result, Along::v, 0.0, 1.0);
 }
 
-Surface hollow_tube(const Curve& spine, const std::vector<double>& radii, double thickness,
+Surface hollow_tube(const Curve& spine, const std::vector<double>& radii, const std::vector<double>& thickness,
                     const TubeOptions& options) {
   require_valid(spine, "hollow_tube");
   if (spine.knots.periodic) throw std::invalid_argument("hollow_tube: an open spine expected");
-  if (!(thickness > 0.0)) throw std::invalid_argument("hollow_tube: a thickness above 0 expected");
-  const std::vector<Station> stations = stations_along(spine, radii, options);
-  const Surface outer = wall_through(spine, stations, 0.0);
-  const Surface inner = reversed(wall_through(spine, stations, thickness), Along::v);
-  const double rim = thickness * outer.v.extent() / wall_length(outer);
-  const Surface top = on_domain(between(outer.u, end_ring(outer, true), end_ring(inner, false)), Along::v, 0.0, rim);
-  const Surface bottom = on_domain(between(outer.u, end_ring(inner, true), end_ring(outer, false)), Along::v, 0.0, rim);
+  for (const double t : thickness)
+    if (!(t > 0.0)) throw std::invalid_argument("hollow_tube: a thickness above 0 expected");
+  std::vector<Station> stations = stations_along(spine, radii, options);
+  const Radii walls(breaks(spine.knots), thickness, false);
+  for (std::size_t i = 0; i < stations.size(); ++i)
+    stations[i].inside = stations[i].radius - walls.at(span_of_station(i, stations.size(), options), stations[i].u);
+  const Surface outer = wall_through(spine, stations, &Station::radius);
+  const Surface inner = reversed(wall_through(spine, stations, &Station::inside), Along::v);
+  const double pace = outer.v.extent() / wall_length(outer);
+  const auto rim = [&](const Surface& from, const Surface& to, const Station& at) {
+    return on_domain(between(outer.u, end_ring(from, true), end_ring(to, false)), Along::v, 0.0,
+                     pace * (at.radius - at.inside));
+  };
+  const Surface top = rim(outer, inner, stations.back()), bottom = rim(inner, outer, stations.front());
   const Surface around = joined(joined(joined(outer, top, Along::v), inner, Along::v), bottom, Along::v);
   return on_domain(around, Along::v, 0.0, 1.0);
 }

@@ -36,7 +36,12 @@ Surface capped(const Surface& wall, CapShape start, CapShape end);
 
 /// The wall between a tube of these radii and one thinner by `thickness`, as one surface like a torus: v runs along the
 /// outer wall, over the rim, back along the inner wall and over the other rim. Open spines only.
-Surface hollow_tube(const Curve& spine, const std::vector<double>& radii, double thickness,
+/// @param thickness [m] given as radii are: at the spine's distinct knots, or a single one
+Surface hollow_tube(const Curve& spine, const std::vector<double>& radii, const std::vector<double>& thickness,
                     const TubeOptions& options = {});
+inline Surface hollow_tube(const Curve& spine, const std::vector<double>& radii, double thickness,
+                           const TubeOptions& options = {}) {
+  return hollow_tube(spine, radii, std::vector<double>{thickness}, options);
+}
 
 }  // namespace trocar::geometry::nurbs

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
+#include <trocar/core/json_grammar.hpp>
 #include <trocar/geometry/surface_files/json_items.hpp>
 
 namespace trocar::geometry {
@@ -10,43 +11,11 @@ namespace {
 
 bool is_json_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
 /// Four hexadecimal digits, which stand there.
 unsigned code_unit(std::string_view text, std::size_t at) {
   unsigned code = 0;
-  for (std::size_t k = 0; k < 4; ++k) code = 16 * code + unsigned(hex_digit(text[at + k]));
+  for (std::size_t k = 0; k < 4; ++k) code = 16 * code + unsigned(core::hex_digit(text[at + k]));
   return code;
-}
-
-void add_utf8(std::string& out, unsigned code) {
-  const auto tail = [&](int shift) { out += static_cast<char>(0x80 | ((code >> shift) & 0x3f)); };
-  if (code < 0x80) {
-    out += static_cast<char>(code);
-  } else if (code < 0x800) {
-    out += static_cast<char>(0xc0 | (code >> 6));
-    tail(0);
-  } else if (code < 0x10000) {
-    out += static_cast<char>(0xe0 | (code >> 12));
-    tail(6), tail(0);
-  } else {
-    out += static_cast<char>(0xf0 | (code >> 18));
-    tail(12), tail(6), tail(0);
-  }
-}
-
-bool is_json_number(std::string_view word) {
-  if (!core::is_decimal(word) || word[0] == '+') return false;
-  const std::size_t digits = word[0] == '-' ? 1 : 0, point = word.find('.');
-  if (word[digits] == '.' || (point != word.npos && (point + 1 == word.size() || hex_digit(word[point + 1]) < 0 ||
-                                                     hex_digit(word[point + 1]) > 9)))
-    return false;
-  return !(word[digits] == '0' && digits + 1 < word.size() && word[digits + 1] >= '0' && word[digits + 1] <= '9');
 }
 
 }  // namespace
@@ -124,7 +93,7 @@ void JsonItems::number_into(Item& item) {
          (m_at < m_text.size() && std::string_view("+-.eE").find(m_text[m_at]) != std::string_view::npos))
     ++m_at;
   const std::string_view word = m_text.substr(from, m_at - from);
-  const bool good = is_json_number(word);
+  const bool good = core::is_json_number(word);
   if (good) item.number = core::to_double(word);
   item.kind = Kind::number;
   if (good && std::isfinite(item.number)) return;
@@ -142,9 +111,9 @@ std::string_view JsonItems::string() {
       continue;
     }
     const char kind = m_at + 1 < m_text.size() ? m_text[m_at + 1] : '\0';
-    const bool unicode = kind == 'u' && m_at + 6 <= m_text.size() && hex_digit(m_text[m_at + 2]) >= 0 &&
-                         hex_digit(m_text[m_at + 3]) >= 0 && hex_digit(m_text[m_at + 4]) >= 0 &&
-                         hex_digit(m_text[m_at + 5]) >= 0;
+    const bool unicode = kind == 'u' && m_at + 6 <= m_text.size() && core::hex_digit(m_text[m_at + 2]) >= 0 &&
+                         core::hex_digit(m_text[m_at + 3]) >= 0 && core::hex_digit(m_text[m_at + 4]) >= 0 &&
+                         core::hex_digit(m_text[m_at + 5]) >= 0;
     if (!unicode && (kind == '\0' || std::string_view("\"\\/bfnrt").find(kind) == std::string_view::npos))
       lose("an escape such as \\n or \\u00e9");
     m_at += unicode ? 6 : 2;
@@ -200,7 +169,7 @@ std::string JsonItems::text(int item) const {
       code = 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00);
       i += 6;
     }
-    add_utf8(out, code >= 0xd800 && code < 0xe000 ? 0xfffd : code);
+    core::append_utf8(out, code >= 0xd800 && code < 0xe000 ? 0xfffd : code);
   }
   return out;
 }

@@ -81,6 +81,12 @@ double volume(const TetMesh& mesh, int cell) {
   return volume6(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) / 6.0;
 }
 
+double volume(const TetMesh& mesh) {
+  double sum = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) sum += volume(mesh, int(c));
+  return sum;
+}
+
 TetFacts inspect(const TetMesh& mesh, double tolerance) {
   TetFacts facts;
   facts.nodes = int(mesh.points.size());

@@ -89,8 +89,8 @@ struct TetRepair {
 /// What comes out is sound(), with the same tolerance.
 TetRepair repair(const TetMesh& mesh, double tolerance = kMergeTolerance);
 
-/// What repair() left as it is, because there is more than one way to mend it, in words. Also looks for cells that lie in
-/// each other (tet_overlap.hpp).
+/// What repair() left as it is, because there is more than one way to mend it, in words. Also looks for cells that lie
+/// in each other (tet_overlap.hpp).
 std::vector<std::string> left_as_is(const TetMesh& mended);
 
 struct TetSurface {
@@ -102,5 +102,6 @@ TetSurface surface_of(const TetMesh& mesh);
 
 /// Volume of a cell, negative where it is inverted.
 double volume(const TetMesh& mesh, int cell);
+double volume(const TetMesh& mesh);  ///< of all cells, inverted ones taken off [m^3]
 
 }  // namespace trocar::geometry

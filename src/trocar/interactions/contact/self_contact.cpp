@@ -68,10 +68,10 @@ int walk_beside(const SelfPair& pair, const Surface& surface, std::size_t i, int
 /// Is one of the vertex' carriers among `rows`?
 bool is_carried(const tissue::Skin& skin, int vertex, std::span<const std::uint8_t> rows) noexcept {
   if (rows.empty()) return false;
-  const tissue::SkinWeights& w = skin.weights[std::size_t(vertex)];
-  for (std::size_t j = 0; j < w.row.size(); ++j)
-    if (w.weight[j] != 0 && rows[std::size_t(w.row[j])]) return true;
-  return false;
+  bool carried = false;
+  skin.each_carrier(vertex,
+                    [&](int, int row, float weight) { carried = carried || (weight != 0 && rows[std::size_t(row)]); });
+  return carried;
 }
 
 /// A sample that knows its vertex. @return that vertex as of now, -1 to forget it

@@ -22,15 +22,15 @@ float torn_beyond(double cell) noexcept {
 bool Surface::torn(int vertex) const noexcept {
   if (!(torn_beyond > 0)) return false;
   constexpr float kCarries = 0.01f;  // of the weight; below 0 where the skin stands out of the cells
-  const tissue::SkinWeights& w = skin->weights[size_t(vertex)];
   const Vec3d p = position(vertex) - nodes.origin;
   const double beyond2 = double(torn_beyond) * double(torn_beyond);
-  for (size_t j = 0; j < 8; ++j) {
-    if (std::fabs(w.weight[j]) < kCarries) continue;
-    const tissue::NodeState& carrier = nodes.rows[size_t(w.row[j])];
-    if (geometry::distance2(p, Vec3d{carrier.x, carrier.y, carrier.z}) > beyond2) return true;
-  }
-  return false;
+  bool beyond = false;
+  skin->each_carrier(vertex, [&](int, int row, float weight) {
+    if (beyond || std::fabs(weight) < kCarries) return;
+    const tissue::NodeState& carrier = nodes.rows[size_t(row)];
+    beyond = geometry::distance2(p, Vec3d{carrier.x, carrier.y, carrier.z}) > beyond2;
+  });
+  return beyond;
 }
 
 bool Surface::torn(int vertex, int neighbour) const noexcept {

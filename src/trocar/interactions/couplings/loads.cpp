@@ -106,15 +106,13 @@ Vec3d counted_on(Vec3d velocity) noexcept {
 
 void add_skin_load(const tissue::NodeView& nodes, const tissue::Skin& skin, int vertex, const SkinLoad& load, Tag tag,
                    NetworkLoads& loads, float least) noexcept {
-  const tissue::SkinWeights& w = skin.weights[std::size_t(vertex)];
   const Vec3f origin = vec_cast<float>(nodes.origin);
   bool another = false;
-  for (std::size_t j = 0; j < 8; ++j) {
-    const float share = w.weight[j];
-    if (share < least) continue;
-    const tissue::NodeState& n = nodes.rows[std::size_t(w.row[j])];
+  skin.each_carrier(vertex, [&](int carrier, int row, float share) {
+    if (share < least) return;
+    const tissue::NodeState& n = nodes.rows[std::size_t(row)];
     tissue::NodeLoad node;
-    node.node = w.node[j];
+    node.node = carrier;
     node.f0 = share * vec_cast<float>(load.f0);
     node.k = share * float(load.k);
     node.x0 = Vec3f{n.x, n.y, n.z} + origin + vec_cast<float>(load.shift);
@@ -122,7 +120,7 @@ void add_skin_load(const tissue::NodeView& nodes, const tissue::Skin& skin, int 
     node.d = share * float(load.d);
     loads.add(node, tag, another);
     another = true;
-  }
+  });
 }
 
 }  // namespace trocar::interactions

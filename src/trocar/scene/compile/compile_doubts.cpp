@@ -87,6 +87,13 @@ void find_slivers(const Description& d, const Solid& solid, const sim::Model& mo
   }
 }
 
+void tell_mended(const ClosedShape& shape, const std::string& body, const core::Location& at,
+                 std::vector<core::Fault>& doubts) {
+  if (!shape.surface) return;
+  for (const std::string& doubt : shape.surface->doubts)
+    doubts.push_back({at, fmt::format("the surface '{}' of '{}' is not sound; {}", shape.surface->file, body, doubt)});
+}
+
 void find_tips(const Description& d, const sim::Model& model, std::vector<core::Fault>& doubts) {
   size_t hand = 0;
   for (const Placement& p : d.placements) {
@@ -110,12 +117,14 @@ void find_tips(const Description& d, const sim::Model& model, std::vector<core::
 
 void find_doubts(const Description& d, const sim::Model& model, std::vector<core::Fault>& doubts) {
   for (const Solid& solid : d.solids) {
+    tell_mended(solid.shape, solid.name, solid.at, doubts);
     if (!solid.tets) continue;
     for (const std::string& doubt : solid.tets->doubts)
       doubts.push_back(
           {solid.at, fmt::format("the mesh '{}' of '{}' is not sound; {}", solid.tets->file, solid.name, doubt)});
     find_slivers(d, solid, model, doubts);
   }
+  for (const Pouch& pouch : d.pouches) tell_mended(pouch.shape, pouch.name, pouch.at, doubts);
   find_tips(d, model, doubts);
 }
 

@@ -72,8 +72,10 @@ std::vector<int> kept_nodes(const sim::Model& model, int organ, const OrganAsDra
   std::vector<std::uint8_t> kept(d.points.size(), 0);
   for (const tissue::Skin* skin : d.skins)
     for (int v = 0; v < skin->size(); ++v)
-      for (std::size_t k = 0; k < 8 && skin->at_surface(v); ++k)
-        if (skin->weights[std::size_t(v)].weight[k] > 0) keep(skin->weights[std::size_t(v)].node[k], kept);
+      if (skin->at_surface(v))
+        skin->each_carrier(v, [&](int node, int, float weight) {
+          if (weight > 0) keep(node, kept);
+        });
   for (const sim::StrandAnatomy& strand : model.strands)
     for (const sim::StrandEndModel* end : {&strand.start, &strand.end})
       if (end->organ == organ)

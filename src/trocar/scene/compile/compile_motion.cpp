@@ -14,9 +14,11 @@ int lattice_of(const sim::Model& model, const std::string& solid) {
 std::vector<Vec3d> centreline_of(const Description& d, const WaveSetting& wave) {
   if (!wave.centreline.empty()) return wave.centreline;
   std::vector<Vec3d> line;
-  for (const Solid& s : d.solids)
-    if (s.name == wave.solid)
-      for (const Section& section : s.sections) line.push_back(section.centre);
+  for (const Solid& s : d.solids) {
+    if (s.name != wave.solid) continue;
+    for (const Section& section : s.sections) line.push_back(section.centre);
+    if (s.shape.tube) line = s.shape.tube->line;
+  }
   return line;
 }
 

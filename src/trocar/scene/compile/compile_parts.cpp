@@ -75,6 +75,60 @@ double printed_limit(const tissue::NetworkDescription& n, Dominating dominating)
   return least;
 }
 
+tissue::Skin bare_skin(const geometry::TriMesh& mesh) {
+  tissue::Skin skin;
+  skin.triangles = mesh.triangles;
+  skin.weights.resize(mesh.positions.size());
+  const std::vector<Vec3d> normals = geometry::vertex_normals(mesh);
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    skin.rest.push_back(vec_cast<float>(mesh.positions[i]));
+    skin.rest_normal.push_back(vec_cast<float>(normals[i]));
+  }
+  tissue::index_skin(skin);
+  return skin;
+}
+
+std::optional<sim::SolidModel> hung(const Solid& solid, const Tissue& tissue, Vec3d gravity,
+                                    tissue::NetworkDescription network, double volume, std::vector<core::Fault>& faults,
+                                    CompileReport* report) {
+  network.gravity = gravity;
+  network.global_damping = 1.0;
+  const double damping = damping_time(network, tissue.damping_ms * 1e-3);
+  for (tissue::SpringDescription& s : network.springs) s.damping = damping * s.k;
+  sim::SolidModel out;
+  out.name = solid.name;
+  out.look = solid.look;
+  out.tissue = solid.tissue;
+  out.cell = solid.cell;
+  out.failure_strain = tissue.failure_strain;
+  out.anchors = anchor_nodes(solid, network.positions, network.fixed, faults);
+  const tissue::PrestressReport prestress = tissue::prestress(network, out.anchors);
+  if (!prestress.converged || prestress.failed_springs > 0) {
+    faults.push_back({solid.at, "expected '" + solid.name + "' to be held against gravity by its anchors, got " +
+                                    std::to_string(prestress.failed_springs) + " springs that cannot bear it"});
+    return {};
+  }
+  out.network = tissue::build(network, sim::kTick);
+  if (!few_substeps(solid, out.network.substeps, faults)) return {};
+  if (report) {
+    BodyReport r;
+    r.name = solid.name;
+    r.kind = "solid";
+    r.nodes = out.network.nodes;
+    r.springs = out.network.springs;
+    r.substeps = out.network.substeps;
+    r.dt_limit = out.network.dt_limit;
+    r.dt_printed = printed_limit(network, Dominating::stiffest_spring);
+    r.dt_printed_summed = printed_limit(network, Dominating::all_springs);
+    for (double m : network.mass) r.mass += m;
+    r.volume = volume;
+    r.residual = prestress.residual;
+    r.prestrain = prestress.largest_strain;
+    report->bodies.push_back(r);
+  }
+  return out;
+}
+
 bool few_substeps(const Solid& solid, int substeps, std::vector<core::Fault>& faults) {
   if (substeps <= tissue::kMostSubsteps) return true;
   faults.push_back({solid.at, "expected '" + solid.name + "' to need at most " + std::to_string(tissue::kMostSubsteps) +

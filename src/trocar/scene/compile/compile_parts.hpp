@@ -1,6 +1,7 @@
 // What compiling lattices and compiling tetrahedra have in common. Private to the folder.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <trocar/scene/compile/compile.hpp>
@@ -26,6 +27,16 @@ double damping_time(const tissue::NetworkDescription& undamped, double wanted);
 enum class Dominating { stiffest_spring, all_springs };
 /// What (4b) as printed allows, for the record.                                    [KCM99 eq.4]
 double printed_limit(const tissue::NetworkDescription& network, Dominating dominating);
+
+/// A skin without weights: triangles and their tables, drawn places and normals.
+tissue::Skin bare_skin(const geometry::TriMesh& mesh);
+
+/// A solid organ without skins, of a network that is yet to be damped: hung up in its anchors so that it is at rest as
+/// drawn. Nothing, and a fault, where they cannot bear it or it would need too many sub-steps.
+/// @param volume  of what it weighs, for the report [m^3]
+std::optional<sim::SolidModel> hung(const Solid& solid, const Tissue& tissue, Vec3d gravity,
+                                    tissue::NetworkDescription network, double volume, std::vector<core::Fault>& faults,
+                                    CompileReport* report);
 
 /// False, and a fault, where the organ would need too many.
 bool few_substeps(const Solid& solid, int substeps, std::vector<core::Fault>& faults);

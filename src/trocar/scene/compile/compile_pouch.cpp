@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <trocar/geometry/surfaces/loft.hpp>
+#include <trocar/scene/compile/body_surface.hpp>
 #include <trocar/scene/compile/compile_membrane.hpp>
 #include <trocar/scene/compile/compile_parts.hpp>
 #include <trocar/sim/model/hold_near.hpp>
@@ -164,9 +164,7 @@ void find_duct(const Pouch& pouch, const std::vector<Vec3d>& wall, const sim::Mo
 
 void compile_pouch(const Pouch& pouch, const Tissue& tissue, const Description& scene, sim::Model& model,
                    std::vector<core::Fault>& faults, CompileReport* report) try {
-  std::vector<geometry::Section> sections;
-  for (const Section& s : pouch.sections) sections.push_back({s.centre, s.across, s.deep, s.squareness});
-  const geometry::TriMesh wall = geometry::tessellate(geometry::loft(sections), pouch.spacing);
+  const geometry::TriMesh wall = surface_of_body(pouch).with_edges(pouch.spacing).mesh;
   tissue::MembraneDescription d;
   d.positions = wall.positions;
   d.triangles = wall.triangles;

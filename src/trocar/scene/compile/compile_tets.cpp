@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include <trocar/geometry/surfaces/loft.hpp>
+#include <fmt/format.h>
+
 #include <trocar/geometry/tets/stuffing.hpp>
+#include <trocar/scene/compile/body_surface.hpp>
 #include <trocar/scene/compile/compile_parts.hpp>
 #include <trocar/scene/compile/compile_tets.hpp>
 #include <trocar/tissue/tets/face_skin.hpp>
@@ -11,16 +13,25 @@
 namespace trocar::scene {
 namespace {
 
-constexpr double kLoftEdge = 0.7;    // of a cell: triangles of a loft that is filled
+constexpr double kSplineEdge = 0.7;  // of a cell: triangles of a loft or another spline that is filled
 constexpr double kSpareShare = 0.5;  // of a body's nodes, for cuts to double
 constexpr int kLeastSpare = 512;
 
-geometry::TetMesh cells_of(const Solid& solid) {
+/// What is thinner than a cell and a half is lost: some of it is told, and much of it refused.
+void tell_loss(const Solid& solid, double kept, CompileReport* report) {
+  constexpr double kTold = 0.95, kRefused = 0.6;  // of the shape's volume
+  const std::string words = fmt::format("cells of {:.3g} mm keep {:.0f} % of its volume", 1e3 * solid.cell, 100 * kept);
+  if (kept < kRefused) throw std::invalid_argument(words + ": smaller ones expected");
+  if (kept < kTold && report)
+    report->doubts.push_back({solid.at, fmt::format("'{}' has thin parts: {}, smaller ones more", solid.name, words)});
+}
+
+geometry::TetMesh cells_of(const Solid& solid, CompileReport* report) {
   if (solid.tets) return solid.tets->mesh;
-  std::vector<geometry::Section> sections;
-  for (const Section& s : solid.sections) sections.push_back({s.centre, s.across, s.deep, s.squareness});
-  const geometry::TriMesh shape = geometry::tessellate(geometry::loft(sections), kLoftEdge * solid.cell);
-  return geometry::stuffed(shape, solid.cell, {.largest_part = true});
+  const geometry::TriMesh shape = surface_of_body(solid).as_given(kSplineEdge * solid.cell);
+  geometry::TetMesh cells = geometry::stuffed(shape, solid.cell, {.largest_part = true});
+  if (solid.shape.any()) tell_loss(solid, geometry::volume(cells) / geometry::volume(shape), report);
+  return cells;
 }
 
 /// Nodes along a Morton curve, so that blocks of the skin's vertices are compact.
@@ -77,9 +88,10 @@ struct Draft {
   double cell = 0, failure_strain = 0;
 };
 
-Draft draft_of(const Solid& solid, const Tissue& tissue, Vec3d gravity, std::vector<core::Fault>& faults) {
+Draft draft_of(const Solid& solid, const Tissue& tissue, Vec3d gravity, std::vector<core::Fault>& faults,
+               CompileReport* report) {
   Draft d;
-  d.mesh = ordered(cells_of(solid));
+  d.mesh = ordered(cells_of(solid, report));
   d.cell = solid.cell > 0 ? solid.cell : mean_edge(d.mesh);
   d.failure_strain = tissue.failure_strain;
   d.material = material_of(solid, tissue);
@@ -101,7 +113,7 @@ BodyReport report_on(const Solid& solid, const Draft& d, const tissue::NetworkDe
   r.dt_printed = printed_limit(damped, Dominating::stiffest_spring);
   r.dt_printed_summed = printed_limit(damped, Dominating::all_springs);
   for (double m : damped.mass) r.mass += m;
-  for (size_t c = 0; c < d.mesh.cells.size(); ++c) r.volume += geometry::volume(d.mesh, int(c));
+  r.volume = geometry::volume(d.mesh);
   return r;
 }
 
@@ -174,7 +186,7 @@ tissue::TetMaterial tet_material(const Tissue& tissue) noexcept {
 void compile_tets(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim::Model& model,
                   std::vector<core::Fault>& faults, CompileReport* report) try {
   const size_t before = faults.size();
-  Draft d = draft_of(solid, tissue, gravity, faults);
+  Draft d = draft_of(solid, tissue, gravity, faults, report);
   if (faults.size() > before) return;
   tissue::NetworkDescription damped = d.undamped.network;
   for (tissue::SpringDescription& s : damped.springs) s.damping = d.material.damping_time * s.k;

@@ -311,11 +311,12 @@ class Compiling {
     for (size_t k = 1; k < 3; ++k)
       if (hold.share[k] > hold.share[most]) most = k;
     if (hold.kind == VesselHold::membrane) return hold.vertex[most];
-    const tissue::SkinWeights& w = m_model.skin(hold.index).weights[size_t(hold.vertex[most])];
-    size_t heaviest = 0;
-    for (size_t k = 1; k < 8; ++k)
-      if (w.weight[k] > w.weight[heaviest]) heaviest = k;
-    return w.node[heaviest];
+    std::int32_t heaviest = -1;
+    float greatest = 0;
+    m_model.skin(hold.index).each_carrier(hold.vertex[most], [&](int node, int, float weight) {
+      if (heaviest < 0 || weight > greatest) heaviest = node, greatest = weight;
+    });
+    return heaviest;
   }
 
   /// Points in space between carried ones go with both; before the first and behind the last ever less.

@@ -19,6 +19,23 @@ Extent operator+(Extent a, const Extent& b) {
 
 double half_axis(const Section& s, int k) { return std::fabs(s.across[k]) + std::fabs(s.deep[k]); }
 
+double triangles_of(double area, double edge) { return kTrianglesPerArea * area / (edge * edge); }
+
+/// Of a body filled from its closed surface.
+Extent extent_of(const Solid& solid, const ShapeSize& size) {
+  const double touched = solid.cuttable ? solid.cell : solid.skin_edge;
+  const double drawn = solid.cuttable ? solid.cell / 3 : solid.fine_edge;
+  Extent e;
+  e.triangles = triangles_of(size.area, touched) + triangles_of(size.area, drawn);
+  e.places = 1;
+  for (int k = 0; k < 3; ++k) e.places *= std::max(1.0, (size.box.high[k] - size.box.low[k]) / solid.cell);
+  // Where walls are thinner than a cell, cells at the surface are most of them.
+  const double cell = solid.cell;
+  e.nodes = (solid.cuttable ? 2 : 1) * std::max(size.volume / cell, 0.5 * size.area) / (cell * cell);
+  if (solid.at_control_points() && solid.shape.nurbs) e.nodes = 3 * double(solid.shape.nurbs->net.size());
+  return e;
+}
+
 /// Rings of triangles between two sections: at least five vertices around, however thin the body.
 double ring_triangles(double height, double around, double edge) {
   const double rings = height / (0.866 * edge);
@@ -75,7 +92,9 @@ Extent extent_of(const Solid& solid) {
     e.triangles = (1 + tissue::kDrawnParts * tissue::kDrawnParts) * 2 * e.nodes;  // were all on its surface
     return e;
   }
-  if (solid.sections.empty() || !(solid.cell > 0)) return e;
+  if (!(solid.cell > 0)) return e;
+  if (solid.shape.any()) return extent_of(solid, size_of(solid.shape));
+  if (solid.sections.empty()) return e;
   const double touched = solid.cuttable ? solid.cell : solid.skin_edge;
   const double drawn = solid.cuttable ? solid.cell / 3 : solid.fine_edge;
   double volume = 0;
@@ -132,6 +151,7 @@ Extent extent_of(const Membrane& m) {
 
 Extent extent_of(const Pouch& p) {
   Extent e;
+  if (p.shape.any()) e.triangles = triangles_of(size_of(p.shape).area, p.spacing);
   for (std::size_t i = 0; i + 1 < p.sections.size(); ++i) {
     const Section &a = p.sections[i], &b = p.sections[i + 1];
     const double around = 3.2 * std::max(length(a.across) + length(a.deep), length(b.across) + length(b.deep));

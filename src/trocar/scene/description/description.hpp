@@ -2,6 +2,7 @@
 // compile() turns it into a sim::Model. All lengths are in metres here (files say _mm), angles in radians.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include <trocar/interactions/instrument/tool_kind.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/numerics/vec3.hpp>
+#include <trocar/scene/description/body_shape.hpp>
 #include <trocar/scene/description/vessel_tree.hpp>
 #include <trocar/scene/objects/object_scenes.hpp>
 
@@ -85,12 +87,17 @@ enum class Elasticity { springs, tetrahedra };
 /// What an elastostatic organ does that has turned further than its solver is good for.
 enum class BeyondLinear { warn, hand_over };
 
-/// A volumetric organ: a spline loft or tetrahedra from a file. A loft is filled with an elastic lattice of cubic
-/// cells, or with tetrahedra where it can be cut.
+/// Where the masses of an organ are: in what fills it, or at the control points of its NURBS surface and below them.
+enum class Masses { inside, control_points };
+
+/// A volumetric organ: a spline loft, another closed shape, or tetrahedra from a file. A shape is filled with an
+/// elastic lattice of cubic cells, or with tetrahedra where it can be cut.
 struct Solid {
   std::string name, tissue, look;
-  std::vector<Section> sections;  ///< empty where there are tets
+  std::vector<Section> sections;  ///< empty where there are tets or another shape
   std::optional<TetSource> tets;
+  ClosedShape shape;
+  Masses masses = Masses::inside;
   bool cuttable = false;
   Vec3d fibre{0, 0, 0};    ///< direction, any length; zero: isotropic. Tetrahedra only
   double fibre_ratio = 1;  ///< E along the fibres over E across
@@ -104,6 +111,7 @@ struct Solid {
   BeyondLinear beyond = BeyondLinear::warn;
   core::Location at, cell_at, solver_at;
 
+  bool at_control_points() const { return masses == Masses::control_points; }
   bool answers_at_once() const { return solver == Solver::elastostatic; }
 };
 
@@ -147,9 +155,19 @@ struct Wall {
   std::string name, look;
   int rows = 0, columns = 0;
   std::vector<Vec3d> net;  ///< rows * columns control points [m], normal = d/drow x d/dcolumn points to the free side
-  double edge = 0.004;     ///< tessellation [m]
+  std::vector<double> weights;      ///< > 0, in the same order; empty: all 1
+  std::array<int, 2> degree{0, 0};  ///< along a row, along a column; 0: cubic, or as many points as there are allow
+  std::vector<double> knots_u, knots_v;  ///< of the domain along a row and a column; empty: uniform
+  double edge = 0.004;                   ///< tessellation [m]
   core::Location at;
 };
+
+/// Of its patch: along a row (0), along a column (1). @throws std::invalid_argument where they do not go with the net
+inline geometry::nurbs::Knots knots_of(const Wall& wall, int way) {
+  const int points = way == 0 ? wall.columns : wall.rows;
+  const int degree = wall.degree[std::size_t(way)] > 0 ? wall.degree[std::size_t(way)] : std::min(3, points - 1);
+  return clamped_by(degree, points, way == 0 ? wall.knots_u : wall.knots_v, way == 0 ? "knots_u" : "knots_v");
+}
 
 /// A thin translucent fold drawn between a strand and a line of points that ride on other bodies or on space.
 /// Mechanically it is the strand's foundation in this version.
@@ -201,7 +219,8 @@ struct Contents {
 /// rigid) ride on the nearest of the bodies `held_on` within `held_reach`, or stay in space.
 struct Pouch {
   std::string name, tissue, look;
-  std::vector<Section> sections;
+  std::vector<Section> sections;  ///< empty where there is another shape
+  ClosedShape shape;
   double thickness = 0;    ///< [m]
   double spacing = 0.004;  ///< of its nodes [m]
   std::vector<Anchor> held;

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -102,7 +103,28 @@ ArcMap bend(Strand& strand, const Warp& warp) {
   return map;
 }
 
+void bend(ClosedShape& shape, const Warp& warp) {
+  if (shape.revolved) {  // what is bent is none any more
+    try {
+      shape.nurbs = shape_of(surface_of(*shape.revolved));
+      shape.revolved.reset();
+    } catch (const std::invalid_argument&) {  // compile says what is wrong with it
+    }
+  }
+  if (shape.surface)
+    for (Vec3d& p : shape.surface->mesh.positions) p = warp(p);
+  if (shape.nurbs)
+    for (Vec3d& p : shape.nurbs->net) p = warp(p);
+  if (!shape.tube || shape.tube->line.size() < 2) return;
+  ArcMap map;
+  map.before = arc_at_points(shape.tube->line);
+  for (Vec3d& p : shape.tube->line) p = warp(p);
+  map.after = arc_at_points(shape.tube->line);
+  for (TubeShape::Station& s : shape.tube->stations) s.s = map(s.s);
+}
+
 void bend(Solid& solid, const Warp& warp) {
+  bend(solid.shape, warp);
   for (Section& s : solid.sections) {
     s.across = warp.along(s.centre, s.across);
     s.deep = warp.along(s.centre, s.deep);
@@ -114,6 +136,7 @@ void bend(Solid& solid, const Warp& warp) {
 }
 
 void bend(Pouch& pouch, const Warp& warp) {
+  bend(pouch.shape, warp);
   for (Section& s : pouch.sections) {
     s.across = warp.along(s.centre, s.across);
     s.deep = warp.along(s.centre, s.deep);
@@ -149,6 +172,10 @@ std::optional<Vec3d> middle_of(const VariationSetting::Region& region, const Des
     std::vector<Vec3d> points;
     for (const Section& section : s.sections) points.push_back(section.centre);
     if (s.tets) points = s.tets->mesh.points;
+    if (s.shape.surface) points = s.shape.surface->mesh.positions;
+    if (s.shape.nurbs) points = s.shape.nurbs->net;
+    if (s.shape.tube) points = s.shape.tube->line;
+    if (s.shape.revolved) points = {s.shape.revolved->from};
     Vec3d sum;
     for (const Vec3d& p : points) sum += p;
     if (!points.empty()) return sum / double(points.size());
@@ -176,11 +203,27 @@ Warp drawn_warp(const Description& d, core::Random& random) {
   return warp;
 }
 
+/// Across the body, about the middles of its rows or its axis; a surface from a file has neither.
+void thicken(ClosedShape& shape, double share) {
+  if (shape.tube)
+    for (TubeShape::Station& s : shape.tube->stations) s.radius *= share, s.wall *= share;
+  if (shape.revolved)
+    for (RevolvedShape::ProfilePoint& p : shape.revolved->profile) p.r *= share;
+  if (!shape.nurbs || shape.nurbs->columns < 1) return;
+  const auto columns = std::ptrdiff_t(shape.nurbs->columns);
+  for (auto row = shape.nurbs->net.begin(); shape.nurbs->net.end() - row >= columns; row += columns) {
+    Vec3d middle;
+    std::for_each(row, row + columns, [&](Vec3d p) { middle += p / double(columns); });
+    std::for_each(row, row + columns, [&](Vec3d& p) { p = middle + share * (p - middle); });
+  }
+}
+
 /// Everything of this name, by the same share.
 void thicken(Description& d, const std::string& name, double share) {
   const auto sections = [&](auto& body) {
     if (body.name != name) return;
     for (Section& s : body.sections) s.across = share * s.across, s.deep = share * s.deep;
+    thicken(body.shape, share);
   };
   for (Solid& s : d.solids) sections(s);
   for (Pouch& p : d.pouches) sections(p);

@@ -164,6 +164,7 @@ const Table<Contents>& contents() {
 constexpr double kMaxPouchNodes = 20'000;
 
 void check_pouch(const JsonObject& o, Pouch& p, Context&) {
+  check_one_shape(o, {"sections", "surface", "nurbs", "tube", "revolved"});
   if (p.free && !p.held.empty())
     o.fault("held", "expected no place where a wall is held that is free, got " + std::to_string(p.held.size()));
   const double nodes = extent_of(p).nodes;
@@ -278,29 +279,33 @@ const Table<Pouch>& pouch() {
   using R = Rows<Pouch>;
   static const Table<Pouch> table{
       "pouch",
-      "A thin closed wall around something: a gallbladder, a bladder.",
-      {needed(R::name("name", &Pouch::name, "what scenes and exercises call it")),
-       needed(R::ref("tissue", Reference::To::tissue, &Pouch::tissue, "of its wall")), look_row<Pouch>(),
-       needed(R::objects("sections", section, &Pouch::sections, 2, "from one end to the other, as a solid's",
-                         [](const JsonObject& o, Pouch& p, Context&) { check_last_section(o, p); })),
-       needed(R::number("thickness_mm", units::mm, &Pouch::thickness, 0.05, 20, "of the wall")),
-       R::number("spacing_mm", units::mm, &Pouch::spacing, 0.3, 50, "distance of its nodes, default {}")
-           .placed(&Pouch::spacing_at),
-       R::objects("held", held_place, &Pouch::held, 0, "places where the wall is held"),
-       R::refs("held_on", Reference::To::solid_or_strand, &Pouch::held_on,
-               "solids and strands that hold it where they are near; elsewhere it stays in place"),
-       R::number("held_reach_mm", units::mm, &Pouch::held_reach, 0.1, 100,
-                 "how near that is, from a strand's surface or a skin, default {}"),
-       R::objects("bonds", bond_setting, &Pouch::bonds, 0, "what ties the wall and can be parted"),
-       R::object("contents", contents, &Pouch::contents, "default: nothing presses").only([](const Pouch& p) {
-         return p.contents.kind != Contents::nothing;
-       }),
-       R::flag("cuttable", &Pouch::cuttable, "default {}"),
-       R::flag("free", &Pouch::free, "nothing holds it: it lies where it is put; default {}"),
-       R::ref(
-           "duct", Reference::To::strand, &Pouch::duct,
-           "the strand whose lumen opens into it, with the end that is nearer: parted without a clip, it lets out what "
-           "is inside; default: none")},
+      "A thin closed wall around something: a gallbladder, a bladder. Its shape is one of: sections (a smooth loft), "
+      "surface, "
+      "nurbs, tube, revolved.",
+      joined<Pouch>(
+          {needed(R::name("name", &Pouch::name, "what scenes and exercises call it")),
+           needed(R::ref("tissue", Reference::To::tissue, &Pouch::tissue, "of its wall")), look_row<Pouch>(),
+           R::objects("sections", section, &Pouch::sections, 2, "from one end to the other, as a solid's",
+                      [](const JsonObject& o, Pouch& p, Context&) { check_last_section(o, p); })},
+          shape_rows<Pouch>(),
+          {needed(R::number("thickness_mm", units::mm, &Pouch::thickness, 0.05, 20, "of the wall")),
+           R::number("spacing_mm", units::mm, &Pouch::spacing, 0.3, 50, "distance of its nodes, default {}")
+               .placed(&Pouch::spacing_at),
+           R::objects("held", held_place, &Pouch::held, 0, "places where the wall is held"),
+           R::refs("held_on", Reference::To::solid_or_strand, &Pouch::held_on,
+                   "solids and strands that hold it where they are near; elsewhere it stays in place"),
+           R::number("held_reach_mm", units::mm, &Pouch::held_reach, 0.1, 100,
+                     "how near that is, from a strand's surface or a skin, default {}"),
+           R::objects("bonds", bond_setting, &Pouch::bonds, 0, "what ties the wall and can be parted"),
+           R::object("contents", contents, &Pouch::contents, "default: nothing presses").only([](const Pouch& p) {
+             return p.contents.kind != Contents::nothing;
+           }),
+           R::flag("cuttable", &Pouch::cuttable, "default {}"),
+           R::flag("free", &Pouch::free, "nothing holds it: it lies where it is put; default {}"),
+           R::ref("duct", Reference::To::strand, &Pouch::duct,
+                  "the strand whose lumen opens into it, with the end that is nearer: parted without a clip, it lets "
+                  "out what "
+                  "is inside; default: none")}),
       check_pouch};
   return table;
 }

@@ -3,6 +3,10 @@
 // they catch slips of units and of the decimal point. Private to the folder.
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <initializer_list>
+
 #include <trocar/scene/description/description.hpp>
 #include <trocar/scene/files/rows.hpp>
 
@@ -34,6 +38,50 @@ void check_last_section(const JsonObject& o, const Body& body) {
   const std::size_t n = body.sections.size();
   if (n > 1 && o.has("centre_mm") && !(length(body.sections[n - 1].centre - body.sections[n - 2].centre) >= 1e-5))
     o.fault("centre_mm", "expected a centre at least 0.01 mm from the section before, got the same place");
+}
+
+/// The rows of closed shapes that are no lofts (shape_keys.cpp): of a Solid, of a Pouch.
+template <class Body>
+std::vector<Row<Body>> shape_rows();
+/// A fault where an object names none or more than one of them. @return how many
+int check_one_shape(const JsonObject& o, std::initializer_list<const char*> shapes);
+
+/// Rows of a net of control points, in millimetres.
+JsonValue written_rows(const std::vector<Vec3d>& net, int columns);
+/// Weights of control points, row by row, into T::weights; T has a number of columns.
+template <class T>
+Row<T> weights_row() {
+  return {keys::table("weights", 1e-3, 1e3, 2, "of its control points, row by row; default: all 1"),
+          [](const JsonObject& o, T& t, Context&) { t.weights = o.table("weights").values; },
+          [](const T& t, bool) {
+            std::vector<JsonValue> rows;
+            for (std::size_t i = 0; t.columns > 0 && i + std::size_t(t.columns) <= t.weights.size();
+                 i += std::size_t(t.columns))
+              rows.push_back(listed(std::vector<double>(t.weights.begin() + std::ptrdiff_t(i),
+                                                        t.weights.begin() + std::ptrdiff_t(i) + t.columns),
+                                    json_number));
+            return rows.empty() ? std::nullopt : std::optional<JsonValue>(json_array(std::move(rows)));
+          }};
+}
+/// Two whole numbers, into T::degree.
+template <class T>
+Row<T> degree_row(const std::string& meaning) {
+  Key key = keys::numbers("degree", 1, 7, 2, meaning);
+  key.max_count = 2;
+  return {std::move(key),
+          [](const JsonObject& o, T& t, Context&) {
+            const std::vector<double> two = o.numbers("degree");
+            for (std::size_t k = 0; k < two.size(); ++k) {
+              t.degree[k] = int(two[k]);
+              if (two[k] != std::floor(two[k]))
+                o.fault(o.at("degree", k), fmt::format("expected a whole number for \"degree\", got {}", two[k]));
+            }
+          },
+          [](const T& t, bool) {
+            return t.degree == T{}.degree
+                       ? std::nullopt
+                       : std::optional<JsonValue>(listed(t.degree, [](int degree) { return json_number(degree); }));
+          }};
 }
 
 const Table<Description>& organ_keys();       ///< an organ within another file

@@ -1,6 +1,9 @@
 // Keys of organ files: solids and walls, other organs that are part of them. Strands and what hangs on them:
 // fold_keys.cpp.
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <stdexcept>
 
 #include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
@@ -38,7 +41,7 @@ Row<TetSource> file_row() {
 }
 Row<TetSource> place_row() {
   return Rows<TetSource>::vec3("place_mm", units::mm, &TetSource::place, -kFar, kFar,
-                               "where its origin goes, default {}");
+                               "where its origin goes, default: the origin");
 }
 
 const Table<TetSource>& tet_mesh() {
@@ -73,6 +76,10 @@ void check_size(const JsonObject& o, const Solid& s) {
     volume += height / 3 * (top + bottom + std::sqrt(top * bottom));
     skin += height * 3 * (length(a.across) + length(a.deep) + length(b.across) + length(b.deep)) / 2;
   }
+  if (s.shape.any()) {
+    const ShapeSize size = size_of(s.shape);
+    volume = size.volume, skin = size.area;
+  }
   const double nodes = 1.3 * volume / (s.cell * s.cell * s.cell);
   if (o.has("cell_mm") && nodes > kMaxSolidNodes)
     o.fault("cell_mm", fmt::format("expected a cell that fills the body with at most {} nodes, got about {:.3g}",
@@ -83,36 +90,59 @@ void check_size(const JsonObject& o, const Solid& s) {
                                2.3 * skin / (edge * edge)));
 }
 
-/// One shape, and what belongs to it.
+bool is_lattice(const JsonObject& o, const Solid& s) {
+  return !o.names("mesh") && !o.names("voxels") && !s.cuttable && !s.at_control_points();
+}
+
+/// What belongs to a solid's shape.
 void check_shape(const JsonObject& o, const Solid& s) {
-  int shapes = 0;
-  for (const char* key : {"sections", "mesh", "voxels"}) {
-    shapes += o.names(key);
-    if (o.names(key) && shapes == 2) o.fault(key, "expected one shape, got a second one");
-  }
-  if (shapes == 0) o.fault(o.at(), "expected a shape (sections, mesh or voxels), got none");
-  if (!o.names("mesh") && !o.names("cell_mm")) o.fault(o.at(), "expected \"cell_mm\", got none");
-  if (o.names("mesh") && o.names("cell_mm"))
-    o.fault("cell_mm", "expected no cell_mm beside a mesh, whose cells are as they are, got one");
-  const bool lattice = o.names("sections") && !s.cuttable;
+  check_one_shape(o, {"sections", "mesh", "voxels", "surface", "nurbs", "tube", "revolved"});
+  const bool filled = !o.names("mesh") && !s.at_control_points();
+  if (filled && !o.names("cell_mm")) o.fault(o.at(), "expected \"cell_mm\", got none");
+  if (!filled && o.names("cell_mm"))
+    o.fault("cell_mm", o.names("mesh") ? "expected no cell_mm beside a mesh, whose cells are as they are, got one"
+                                       : "expected no cell_mm where masses are control points, got one");
+  const bool lattice = is_lattice(o, s);
   for (const char* key : {"fibre", "fibre_ratio"})
-    if (o.names(key) && lattice)
+    if (o.names(key) && (lattice || s.at_control_points()))
       o.fault(key, "expected fibres in tetrahedra only (mesh, voxels or cuttable), got some in a lattice");
   if (o.names("fibre") && !(length(s.fibre) > 1e-6)) o.fault("fibre", "expected a direction, got none");
   for (const char* key : {"elasticity", "beyond_deg", "beyond"})
     if (o.names(key) && !s.answers_at_once())
       o.fault(key, "expected \"solver\": \"static\" beside it, got an organ that is solved step by step");
   for (const char* key : {"skin_edge_mm", "fine_edge_mm"})
-    if (o.names(key) && !lattice)
+    if (o.names(key) && !lattice && !s.at_control_points())
       o.fault(key, "expected skin edges for a lattice only, got one for tetrahedra, whose faces are the skin");
+}
+
+/// What masses at control points ask for.
+void check_masses(const JsonObject& o, const Solid& s) {
+  if (!s.at_control_points()) return;
+  if (!o.names("nurbs")) return o.fault("masses", "expected control points of \"nurbs\", got another shape");
+  if (s.answers_at_once() && s.elasticity == Elasticity::tetrahedra)
+    o.fault("elasticity", "expected springs where masses are control points, got tetrahedra");
+  if (s.cuttable) o.fault("cuttable", "expected an organ that is not cuttable where masses are control points");
+  if (!s.shape.nurbs) return;
+  if (s.shape.nurbs->closing == NurbsShape::ring)
+    o.fault("masses", "expected \"closed\": \"ends\" where masses are control points, got a ring");
+  if ((s.shape.nurbs->degree[0] + 1) * (s.shape.nurbs->degree[1] + 1) > kMostCarriers)
+    o.fault("masses", fmt::format("expected degrees such that at most {} control points move a place, got {} and {}",
+                                  kMostCarriers, s.shape.nurbs->degree[0], s.shape.nurbs->degree[1]));
 }
 
 constexpr double kUsualCell = 0.005;  // [m] to go on with where the file says none
 
+/// What is written nowhere: of a mesh none, of control points as wide as their net.
+double cell_where_none_is_said(const Solid& s) {
+  if (!s.at_control_points() || !s.shape.nurbs || s.shape.nurbs->net.empty()) return kUsualCell;
+  return std::sqrt(size_of(s.shape).area / double(s.shape.nurbs->net.size())) + 1e-6;
+}
+
 void check_solid(const JsonObject& o, Solid& s, Context& c) {
-  if (!o.has("cell_mm")) s.cell = kUsualCell;
+  if (!o.has("cell_mm")) s.cell = cell_where_none_is_said(s);
   if (o.has("mesh")) s.cell = 0;
   check_shape(o, s);
+  check_masses(o, s);
   for (const JsonObject& mesh : o.objects("mesh")) c.reading->mesh_of(mesh, tet_mesh().made(mesh, c), c.folder, s);
   for (const JsonObject& part : o.objects("voxels")) {
     TetSource source;
@@ -120,7 +150,7 @@ void check_solid(const JsonObject& o, Solid& s, Context& c) {
     voxel_body().read(part, source, c);
     c.reading->voxels_of(part, std::move(source), c.folder, s);
   }
-  if (!o.has("skin_edge_mm")) s.skin_edge = s.cell;
+  if (!o.has("skin_edge_mm")) s.skin_edge = s.at_control_points() ? 0.5 * s.cell : s.cell;
   if (!o.has("fine_edge_mm")) s.fine_edge = s.skin_edge / 2;
   if (!s.tets) check_size(o, s);
 }
@@ -128,6 +158,23 @@ void check_solid(const JsonObject& o, Solid& s, Context& c) {
 bool of_mesh(const Solid& s) { return s.tets && s.tets->label == 0; }
 bool of_voxels(const Solid& s) { return s.tets && s.tets->label > 0; }
 bool of_lattice(const Solid& s) { return !s.tets && !s.cuttable; }
+bool of_cells(const Solid& s) { return !of_mesh(s) && !s.at_control_points(); }
+
+/// Do degrees, knots and weights go with the net?
+void check_patch(const JsonObject& o, const Wall& w) {
+  for (const char* key : {"net_mm", "weights", "degree", "knots_u", "knots_v"})
+    if (o.names(key) && !o.has(key)) return;
+  if (!w.weights.empty() && w.weights.size() != w.net.size())
+    o.fault("weights",
+            fmt::format("expected one for each of {} control points, got {}", w.net.size(), w.weights.size()));
+  for (const auto& [key, way] : {std::pair{"knots_u", 0}, std::pair{"knots_v", 1}}) {
+    try {
+      if (o.has("net_mm")) knots_of(w, way);
+    } catch (const std::invalid_argument& e) {
+      o.fault(o.names(key) ? key : "degree", fmt::format("expected knots that go with the net, got: {}", e.what()));
+    }
+  }
+}
 
 void check_wall(const JsonObject& o, Wall& w, Context&) {
   double surface = 0;
@@ -136,6 +183,7 @@ void check_wall(const JsonObject& o, Wall& w, Context&) {
       const Vec3d* p = w.net.data() + r * w.columns + c;
       surface += length(cross(p[w.columns + 1] - p[0], p[w.columns] - p[1])) / 2;
     }
+  check_patch(o, w);
   if (o.has("edge_mm") && 2.3 * surface / (w.edge * w.edge) > kMaxTriangles)
     o.fault("edge_mm", fmt::format("expected an edge that gives at most {} triangles, got about {:.3g}", kMaxTriangles,
                                    2.3 * surface / (w.edge * w.edge)));
@@ -148,11 +196,15 @@ void read_net(const JsonObject& o, Wall& w, Context&) {
   for (const Vec3d& p : grid.points) w.net.push_back(p / 1000.0);
 }
 
-std::optional<JsonValue> written_net(const Wall& w, bool) {
-  std::vector<JsonValue> rows;
-  for (auto row = w.net.begin(); row != w.net.end(); row += w.columns)
-    rows.push_back(listed(std::vector<Vec3d>(row, row + w.columns), [](Vec3d p) { return written_by(units::mm, p); }));
-  return json_array(std::move(rows));
+std::optional<JsonValue> written_net(const Wall& w, bool) { return written_rows(w.net, w.columns); }
+
+/// Its shape's rows after the first three, the others behind them.
+std::vector<Row<Solid>> with_shapes(std::vector<Row<Solid>> rows) {
+  std::vector<Row<Solid>> shapes = shape_rows<Solid>();
+  const auto behind =
+      std::find_if(rows.begin(), rows.end(), [](const Row<Solid>& r) { return r.key.name == "cell_mm"; });
+  rows.insert(behind, std::make_move_iterator(shapes.begin()), std::make_move_iterator(shapes.end()));
+  return rows;
 }
 
 std::vector<Row<Description>> organ_rows() {
@@ -190,55 +242,69 @@ const Table<Solid>& solid() {
   using R = Rows<Solid>;
   static const Table<Solid> table{
       "solid",
-      "A volumetric organ. Its shape is one of: sections (a smooth loft), mesh, voxels. A loft is filled with an "
-      "elastic "
-      "lattice of cubic cells, or with tetrahedra where it is cuttable; the others are tetrahedra always.",
-      {needed(R::name("name", &Solid::name, "what scenes and exercises call it")),
-       needed(R::ref("tissue", Reference::To::tissue, &Solid::tissue, "its material")), look_row<Solid>(),
-       R::objects("sections", section, &Solid::sections, 2, "from one end to the other",
-                  [](const JsonObject& o, Solid& s, Context&) { check_last_section(o, s); }),
-       R::own(keys::object(
-                  "mesh", []() -> const Shape& { return tet_mesh(); }, "tetrahedra from a file"),
-              nullptr,
-              [](const Solid& s, bool) {
-                return of_mesh(s) ? std::optional<JsonValue>(tet_mesh().written(*s.tets)) : std::nullopt;
-              }),
-       R::own(
-           keys::object(
-               "voxels", []() -> const Shape& { return voxel_body(); }, "a label of a volume, filled with tetrahedra"),
-           nullptr,
-           [](const Solid& s, bool) {
-             return of_voxels(s) ? std::optional<JsonValue>(voxel_body().written(*s.tets)) : std::nullopt;
-           }),
-       R::number("cell_mm", units::mm, &Solid::cell, 0.1, 100, "edge of the lattice's cubes; needed but for a mesh")
-           .placed(&Solid::cell_at),
-       R::flag("cuttable", &Solid::cuttable, "can it be cut anywhere, so that pieces come off? default {}"),
-       R::vec3("fibre", units::one, &Solid::fibre, -1, 1, "direction of its fibres, default: none; not for a lattice"),
-       R::number("fibre_ratio", units::one, &Solid::fibre_ratio, 0.2, 5,
-                 "stiffness along the fibres over across, default {}"),
-       R::number("skin_edge_mm", units::mm, &Solid::skin_edge, 0.2, 100,
-                 "edge of the touched skin's triangles, default: cell_mm")
-           .only(of_lattice),
-       R::number("fine_edge_mm", units::mm, &Solid::fine_edge, 0.1, 100,
-                 "edge of the drawn skin's triangles, default: half of skin_edge_mm")
-           .only(of_lattice),
-       R::objects("anchors", anchor, &Solid::anchors, 0, "what holds it"),
-       R::choice("solver", Choices<Solver>{{"dynamic", Solver::dynamic_network}, {"static", Solver::elastostatic}},
-                 &Solid::solver,
-                 "dynamic: springs and masses, step by step; static: linear elastostatics, which answers at once and "
-                 "knows no inertia; default {}")
-           .placed(&Solid::solver_at),
-       R::choice("elasticity",
-                 Choices<Elasticity>{{"springs", Elasticity::springs}, {"tetrahedra", Elasticity::tetrahedra}},
-                 &Solid::elasticity,
-                 "of a static solver: of the organ's springs, as the dynamic one has them, or of linear tetrahedra; "
-                 "default {}"),
-       R::number(
-           "beyond_deg", units::deg, &Solid::beyond_angle, 0.1, 180,
-           "of a static solver: turn of the whole organ, or largest displacement beside that over the organ's size "
-           "(57.3 degrees: as large as it), that is too much for it, default {}"),
-       R::choice("beyond", Choices<BeyondLinear>{{"warn", BeyondLinear::warn}, {"hand_over", BeyondLinear::hand_over}},
-                 &Solid::beyond, "what it does then: say so, or go over to the dynamic solver for good; default {}")},
+      "A volumetric organ. Its shape is one of: sections (a smooth loft), surface, nurbs, tube, revolved, mesh, "
+      "voxels. "
+      "Mesh and voxels are tetrahedra; the others are filled with an elastic lattice of cubic cells, or with "
+      "tetrahedra "
+      "where they are cuttable.",
+      with_shapes(
+          {needed(R::name("name", &Solid::name, "what scenes and exercises call it")),
+           needed(R::ref("tissue", Reference::To::tissue, &Solid::tissue, "its material")), look_row<Solid>(),
+           R::objects("sections", section, &Solid::sections, 2, "from one end to the other",
+                      [](const JsonObject& o, Solid& s, Context&) { check_last_section(o, s); }),
+           R::own(keys::object(
+                      "mesh", []() -> const Shape& { return tet_mesh(); }, "tetrahedra from a file"),
+                  nullptr,
+                  [](const Solid& s, bool) {
+                    return of_mesh(s) ? std::optional<JsonValue>(tet_mesh().written(*s.tets)) : std::nullopt;
+                  }),
+           R::own(keys::object(
+                      "voxels", []() -> const Shape& { return voxel_body(); },
+                      "a label of a volume, filled with tetrahedra"),
+                  nullptr,
+                  [](const Solid& s, bool) {
+                    return of_voxels(s) ? std::optional<JsonValue>(voxel_body().written(*s.tets)) : std::nullopt;
+                  }),
+           R::number("cell_mm", units::mm, &Solid::cell, 0.1, 100,
+                     "edge of the lattice's cubes; needed but for a mesh and for masses at control points")
+               .placed(&Solid::cell_at)
+               .only(of_cells),
+           R::choice(
+               "masses", Choices<Masses>{{"inside", Masses::inside}, {"control_points", Masses::control_points}},
+               &Solid::masses,
+               "inside: in the cells that fill it; control_points: at the control points of its nurbs and below them, "
+               "so that its surface stays that NURBS; default {}"),
+           R::flag("cuttable", &Solid::cuttable, "can it be cut anywhere, so that pieces come off? default {}"),
+           R::vec3("fibre", units::one, &Solid::fibre, -1, 1,
+                   "direction of its fibres, default: none; not for a lattice"),
+           R::number("fibre_ratio", units::one, &Solid::fibre_ratio, 0.2, 5,
+                     "stiffness along the fibres over across, default {}"),
+           R::number("skin_edge_mm", units::mm, &Solid::skin_edge, 0.2, 100,
+                     "edge of the touched skin's triangles, default: cell_mm")
+               .only(of_lattice),
+           R::number("fine_edge_mm", units::mm, &Solid::fine_edge, 0.1, 100,
+                     "edge of the drawn skin's triangles, default: half of skin_edge_mm")
+               .only(of_lattice),
+           R::objects("anchors", anchor, &Solid::anchors, 0, "what holds it"),
+           R::choice(
+               "solver", Choices<Solver>{{"dynamic", Solver::dynamic_network}, {"static", Solver::elastostatic}},
+               &Solid::solver,
+               "dynamic: springs and masses, step by step; static: linear elastostatics, which answers at once and "
+               "knows no inertia; default {}")
+               .placed(&Solid::solver_at),
+           R::choice(
+               "elasticity",
+               Choices<Elasticity>{{"springs", Elasticity::springs}, {"tetrahedra", Elasticity::tetrahedra}},
+               &Solid::elasticity,
+               "of a static solver: of the organ's springs, as the dynamic one has them, or of linear tetrahedra; "
+               "default {}"),
+           R::number(
+               "beyond_deg", units::deg, &Solid::beyond_angle, 0.1, 180,
+               "of a static solver: turn of the whole organ, or largest displacement beside that over the organ's size "
+               "(57.3 degrees: as large as it), that is too much for it, default {}"),
+           R::choice(
+               "beyond", Choices<BeyondLinear>{{"warn", BeyondLinear::warn}, {"hand_over", BeyondLinear::hand_over}},
+               &Solid::beyond, "what it does then: say so, or go over to the dynamic solver for good; default {}")}),
       check_solid};
   return table;
 }
@@ -251,6 +317,12 @@ const Table<Wall>& wall() {
       "side.",
       {needed(R::name("name", &Wall::name, "what it is called")), look_row<Wall>(),
        needed(R::own(keys::grid("net_mm", -kFar, kFar, 2, "rows of control points"), read_net, written_net)),
+       weights_row<Wall>(),
+       degree_row<Wall>("along a row and along a column, default: 3, or one less than there are points"),
+       R::numbers("knots_u", &Wall::knots_u, -1e6, 1e6, 2,
+                  "those along a row, from end to end: columns - degree + 1; default: uniform"),
+       R::numbers("knots_v", &Wall::knots_v, -1e6, 1e6, 2,
+                  "those along a column, from end to end: rows - degree + 1; default: uniform"),
        R::number("edge_mm", units::mm, &Wall::edge, 0.5, 200, "edge of its triangles, default {}")},
       check_wall};
   return table;

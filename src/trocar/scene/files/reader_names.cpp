@@ -251,9 +251,12 @@ void Reading::check_wave(const WaveSetting& wave) {
     std::vector<Vec3d> line = wave.centreline;
     if (line.empty())
       for (const Section& s : solid.sections) line.push_back(s.centre);
+    if (line.empty() && solid.shape.tube) line = solid.shape.tube->line;
     if (line.size() < 2) {
-      tell(m_faults, {wave.at, fmt::format("expected \"centreline_mm\" for \"{}\", which has no sections, got none",
-                                           solid.name)});
+      tell(
+          m_faults,
+          {wave.at, fmt::format("expected \"centreline_mm\" for \"{}\", which has no sections and is no tube, got none",
+                                solid.name)});
       continue;
     }
     const double whole = curve_length(line);

@@ -53,6 +53,9 @@ class Reading {
   /// Fills a solid from the file that `o` names; `source` has the other keys of it.
   void mesh_of(const JsonObject& o, TetSource source, const std::filesystem::path& folder, Solid& s);
   void voxels_of(const JsonObject& o, TetSource source, const std::filesystem::path& folder, Solid& s);
+  /// The closed surface from the file that `o` names; nothing, and a fault, where there is none.
+  std::optional<SurfaceSource> surface_of(const JsonObject& o, SurfaceSource source,
+                                          const std::filesystem::path& folder);
   /// To be checked when everything is known: a sheet or membrane that ends on a strand at `to`; a tool's reach.
   void ends_on(const std::string& strand, double to, core::Location at) {
     m_sheet_ends.push_back({strand, to, std::move(at)});
@@ -98,6 +101,9 @@ class Reading {
                 const Read& read, const Read& read_here);
   /// The bytes of a file that is not JSON, named by o's "file"; none, and a fault, where it cannot be read.
   std::optional<std::string> bytes_of(const JsonObject& o, const std::filesystem::path& folder);
+
+  /// Those of a file that another one in `folder` names. @throws core::BadInput
+  std::string bytes_beside(const std::filesystem::path& folder, const std::string& name);
 
   /// Too many bodies to compare all with all; told once.
   bool crowded();

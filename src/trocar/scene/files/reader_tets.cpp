@@ -13,20 +13,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-double volume_of(const geometry::TetMesh& mesh) {
-  double sum = 0;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) sum += geometry::volume(mesh, int(c));
-  return sum;
-}
-
 /// The mesh's surface filled anew: what was said of its cells is said of none that are left. Throws
 /// std::invalid_argument where the surface is open, or finer than the cubes.
 void refill(TetSource& source) {
   constexpr double kKept = 0.95;  // of its volume; what is thinner than a cube and a half is lost
-  const double before = volume_of(source.mesh);
+  const double before = geometry::volume(source.mesh);
   geometry::TetMesh filled = geometry::stuffed(geometry::surface_of(source.mesh).mesh, source.refill,
                                                {.most_cells = kMaxSolidCells, .largest_part = true});
-  const double after = volume_of(filled);
+  const double after = geometry::volume(filled);
   source.doubts.clear();
   if (after < kKept * before || after > before / kKept)
     source.doubts.push_back(fmt::format("filled anew it holds {:.3g} of {:.3g} ml: a smaller \"refill_mm\" keeps more",

@@ -71,7 +71,20 @@ using Choices = std::vector<std::pair<const char*, E>>;
 
 /// A name that must belong to something by the time all files are read.
 struct Reference {
-  enum class To { tissue, solid, strand, solid_or_strand, carrier, vessel, port, instrument, drawn, look, marked, pouch };
+  enum class To {
+    tissue,
+    solid,
+    strand,
+    solid_or_strand,
+    carrier,
+    vessel,
+    port,
+    instrument,
+    drawn,
+    look,
+    marked,
+    pouch
+  };
   To to;
   std::string name;
   core::Location at;
@@ -204,6 +217,13 @@ struct Rows {
     return plain(
         keys::choice(name, words, said(meaning, [&] { return word(usual(member)); })), member,
         [=](const JsonObject& o) { return meant(o.text(name)); }, [=](E v) { return json_text(word(v)); });
+  }
+  template <class M>
+  static R numbers(const std::string& name, M member, double low, double high, std::size_t at_least,
+                   const std::string& meaning) {
+    return plain(
+        keys::numbers(name, low, high, at_least, meaning), member, [=](const JsonObject& o) { return o.numbers(name); },
+        [](const std::vector<double>& values) { return listed(values, json_number); });
   }
   template <class M>
   static R text(const std::string& name, M member, const std::string& meaning) {

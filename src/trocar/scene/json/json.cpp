@@ -8,6 +8,7 @@
 
 #include <trocar/core/decimal.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/json_grammar.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/scene/json/json.hpp>
 
@@ -35,50 +36,10 @@ int utf8_length(std::string_view text, std::size_t at) {
   return overlong || surrogate || beyond ? 0 : length;
 }
 
-void append_utf8(std::string& out, unsigned code) {
-  const auto put = [&](unsigned byte) { out.push_back(static_cast<char>(byte)); };
-  if (code < 0x80) return put(code);
-  if (code < 0x800) {
-    put(0xc0 | (code >> 6));
-  } else {
-    if (code < 0x10000) {
-      put(0xe0 | (code >> 12));
-    } else {
-      put(0xf0 | (code >> 18));
-      put(0x80 | ((code >> 12) & 0x3f));
-    }
-    put(0x80 | ((code >> 6) & 0x3f));
-  }
-  put(0x80 | (code & 0x3f));
-}
-
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_word(char c) {
   return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '+' || c == '-' ||
          c == '.';
-}
-
-/// Does the word follow JSON's number grammar?  [RFC 8259 section 6]
-bool is_json_number(std::string_view word) {
-  std::size_t i = 0;
-  const auto digits = [&] {
-    const std::size_t from = i;
-    while (i < word.size() && is_digit(word[i])) ++i;
-    return i > from;
-  };
-  if (i < word.size() && word[i] == '-') ++i;
-  const std::size_t first = i;
-  if (!digits() || (word[first] == '0' && i > first + 1)) return false;
-  if (i < word.size() && word[i] == '.') {
-    ++i;
-    if (!digits()) return false;
-  }
-  if (i < word.size() && (word[i] == 'e' || word[i] == 'E')) {
-    ++i;
-    if (i < word.size() && (word[i] == '+' || word[i] == '-')) ++i;
-    if (!digits()) return false;
-  }
-  return i == word.size();
 }
 
 bool looks_not_finite(std::string_view word) {
@@ -246,7 +207,7 @@ class Parser {
       v.truth = text == "true";
       return v;
     }
-    if (is_json_number(text)) {
+    if (core::is_json_number(text)) {
       JsonValue v = made(at, Kind::number);
       v.number = core::to_double(text);
       if (std::isfinite(v.number)) return v;
@@ -260,7 +221,7 @@ class Parser {
   }
 
   static const char* wanted_instead_of(const std::string& word) {
-    if (is_json_number(word) || looks_not_finite(word)) return "a finite number";
+    if (core::is_json_number(word) || looks_not_finite(word)) return "a finite number";
     const bool numeric = is_digit(word[0]) || word[0] == '-' || word[0] == '+' || word[0] == '.';
     return numeric ? "a number as JSON writes it (like -0.5 or 2e-3)" : "a value";
   }
@@ -309,11 +270,7 @@ class Parser {
   int hex4() {
     int code = 0;
     for (int i = 0; i < 4; ++i) {
-      const char c = peek();
-      const int digit = is_digit(c)            ? c - '0'
-                        : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                        : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                               : -1;
+      const int digit = core::hex_digit(peek());
       if (digit < 0) return -1;
       code = code * 16 + digit;
       next();
@@ -328,12 +285,12 @@ class Parser {
       m_has_nul = true;
       return fault(at, "expected a character of a text, got \\u0000");  // texts of the system end there
     }
-    if (first < 0xd800 || first > 0xdfff) return append_utf8(out, unsigned(first));
+    if (first < 0xd800 || first > 0xdfff) return core::append_utf8(out, unsigned(first));
     if (first < 0xdc00 && peek() == '\\' && peek(1) == 'u') {
       next(), next();
       const int second = hex4();
       if (second >= 0xdc00 && second <= 0xdfff)
-        return append_utf8(out, 0x10000u + ((unsigned(first) - 0xd800u) << 10) + (unsigned(second) - 0xdc00u));
+        return core::append_utf8(out, 0x10000u + ((unsigned(first) - 0xd800u) << 10) + (unsigned(second) - 0xdc00u));
     }
     lost(at, "expected a pair of surrogates, \\ud800-\\udbff then \\udc00-\\udfff, got half of one");
   }

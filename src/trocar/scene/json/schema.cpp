@@ -116,6 +116,10 @@ class Writer {
         return array(point(key), key.min_count, key.max_count);
       case Type::grid:
         return array(array(point(key), key.min_count, key.max_count), key.min_count, key.max_count);
+      case Type::numbers:
+        return array(number(key, "number"), key.min_count, key.max_count);
+      case Type::table:
+        return array(array(number(key, "number"), key.min_count, key.max_count), key.min_count, key.max_count);
       case Type::object:
         return reference(key.shape());
       case Type::objects:

@@ -84,7 +84,11 @@ class Check {
       case Type::points:
         return list(value, [this](const JsonValue& v) { return vec3(v); });
       case Type::grid:
-        return grid(value);
+        return rows(value, "points", [this](const JsonValue& v) { return vec3(v); });
+      case Type::numbers:
+        return list(value, [this](const JsonValue& v) { return number(v); });
+      case Type::table:
+        return rows(value, "numbers", [this](const JsonValue& v) { return number(v); });
       case Type::object:
         return value.kind == Kind::object || wrong(value, article(m_key.shape().name) + " in {}");
       case Type::objects:
@@ -164,15 +168,17 @@ class Check {
                                 few ? m_key.min_count : m_key.max_count, m_key.name, value.items.size())});
     return false;
   }
-  bool grid(const JsonValue& value) const {
+  /// All of one length.
+  template <class Item>
+  bool rows(const JsonValue& value, const char* of, Item&& item) const {
     std::size_t columns = 0;
     return list(value, [&](const JsonValue& line) {
-      if (line.kind != Kind::array) return wrong(line, "a row of points");
-      bool good = list(line, [this](const JsonValue& v) { return vec3(v); });
+      if (line.kind != Kind::array) return wrong(line, fmt::format("a row of {}", of));
+      bool good = list(line, item);
       if (columns == 0) columns = line.items.size();
       if (line.items.size() != columns) {
         tell(m_faults, {{m_file, line.line, line.column},
-                        fmt::format("expected rows of {} points for \"{}\", got a row of {}", columns, m_key.name,
+                        fmt::format("expected rows of {} {} for \"{}\", got a row of {}", columns, of, m_key.name,
                                     line.items.size())});
         good = false;
       }
@@ -217,6 +223,16 @@ Key points(std::string name, double low, double high, std::size_t min_count, std
 }
 Key grid(std::string name, double low, double high, std::size_t min_count, std::string meaning) {
   Key key = ranged(std::move(name), Type::grid, low, high, std::move(meaning));
+  key.min_count = min_count;
+  return key;
+}
+Key numbers(std::string name, double low, double high, std::size_t min_count, std::string meaning) {
+  Key key = ranged(std::move(name), Type::numbers, low, high, std::move(meaning));
+  key.min_count = min_count;
+  return key;
+}
+Key table(std::string name, double low, double high, std::size_t min_count, std::string meaning) {
+  Key key = ranged(std::move(name), Type::table, low, high, std::move(meaning));
   key.min_count = min_count;
   return key;
 }
@@ -326,6 +342,22 @@ PointGrid JsonObject::grid(std::string_view key) const {
   for (const JsonValue& line : v->items)
     for (const JsonValue& point : line.items) grid.points.push_back(to_vec3(point));
   return grid;
+}
+std::vector<double> JsonObject::numbers(std::string_view key) const {
+  std::vector<double> all;
+  if (const JsonValue* v = good(key))
+    for (const JsonValue& item : v->items) all.push_back(item.number);
+  return all;
+}
+NumberTable JsonObject::table(std::string_view key) const {
+  NumberTable table;
+  const JsonValue* v = good(key);
+  if (!v) return table;
+  table.rows = v->items.size();
+  table.columns = table.rows == 0 ? 0 : v->items[0].items.size();
+  for (const JsonValue& line : v->items)
+    for (const JsonValue& item : line.items) table.values.push_back(item.number);
+  return table;
 }
 
 std::vector<JsonObject> JsonObject::objects(std::string_view key) const {

@@ -40,6 +40,8 @@ struct Key {
     vec3,      ///< three numbers, each in [low, high]
     points,    ///< array of vec3
     grid,      ///< array of rows, each an array of vec3, all of the same length
+    numbers,   ///< array of numbers in [low, high]
+    table,     ///< array of rows, each an array of numbers in [low, high], all of the same length
     object,    ///< an object of `shape`
     objects,   ///< array of objects of `shape`
     includes,  ///< array of relative file names or objects of `shape`
@@ -75,6 +77,8 @@ Key choice(std::string name, std::vector<std::string> choices, std::string meani
 Key vec3(std::string name, double low, double high, std::string meaning);
 Key points(std::string name, double low, double high, std::size_t min_count, std::string meaning);
 Key grid(std::string name, double low, double high, std::size_t min_count, std::string meaning);
+Key numbers(std::string name, double low, double high, std::size_t min_count, std::string meaning);
+Key table(std::string name, double low, double high, std::size_t min_count, std::string meaning);
 Key object(std::string name, std::function<const Shape&()> shape, std::string meaning);
 Key objects(std::string name, std::function<const Shape&()> shape, std::size_t min_count, std::string meaning);
 Key includes(std::string name, std::function<const Shape&()> shape, std::string meaning);
@@ -87,6 +91,12 @@ Key needed(Key key);  ///< the same row, required
 struct PointGrid {
   std::size_t rows = 0, columns = 0;
   std::vector<Vec3d> points;
+};
+
+/// Rows of numbers, one after the other.
+struct NumberTable {
+  std::size_t rows = 0, columns = 0;
+  std::vector<double> values;
 };
 
 /// An object of a file seen through its table. Cheap to copy; the value, table, file and faults must outlive it.
@@ -107,6 +117,8 @@ class JsonObject {
   Vec3d vec3(std::string_view key, Vec3d fallback = {}) const;
   std::vector<Vec3d> points(std::string_view key) const;
   PointGrid grid(std::string_view key) const;
+  std::vector<double> numbers(std::string_view key) const;
+  NumberTable table(std::string_view key) const;
 
   /// The objects of an `objects` key, or the one of an `object` key: checked by the row's table. Values of an
   /// `includes` key that are file names are left out; see values().

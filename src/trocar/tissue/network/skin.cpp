@@ -50,6 +50,7 @@ Float4 place_of(const NodeState* q, const SkinWeights& w) noexcept {
 void pose_skin(const NodeView& nodes, const Skin& skin, SkinPose& pose) noexcept {
   const Float4 origin = load4(vec_cast<float>(nodes.origin));
   const NodeState* q = nodes.rows.data();
+  const bool wide = !skin.more.empty();
   Box4 bounds;
   for (int first = 0; first < skin.size(); first += kSkinBlock) {
     Box4 block;
@@ -58,7 +59,9 @@ void pose_skin(const NodeView& nodes, const Skin& skin, SkinPose& pose) noexcept
       Box4 patch;
       for (int i = from; i < std::min(from + kSkinPatch, last); ++i) {
         if (!skin.at_surface(i)) continue;
-        const Float4 x = place_of(q, skin.weights[size_t(i)]) + origin;
+        Float4 x = place_of(q, skin.weights[size_t(i)]);
+        if (wide) x += place_of(q, skin.more[size_t(i)]);
+        x += origin;
         pose.position[size_t(i)] = vec3(x);
         patch.add(x);
       }
@@ -108,22 +111,20 @@ Vec3d skin_normal(const Skin& skin, const SkinPose& pose, int vertex) noexcept {
 }
 
 Vec3d skin_point(const NodeView& nodes, const Skin& skin, int vertex) noexcept {
-  const SkinWeights& w = skin.weights[size_t(vertex)];
   Vec3d p = nodes.origin;
-  for (size_t j = 0; j < 8; ++j) {
-    const NodeState& n = nodes.rows[size_t(w.row[j])];
-    p += double(w.weight[j]) * Vec3d{n.x, n.y, n.z};
-  }
+  skin.each_carrier(vertex, [&](int, int row, float weight) {
+    const NodeState& n = nodes.rows[size_t(row)];
+    p += double(weight) * Vec3d{n.x, n.y, n.z};
+  });
   return p;
 }
 
 Vec3d skin_velocity(const NodeView& nodes, const Skin& skin, int vertex) noexcept {
-  const SkinWeights& w = skin.weights[size_t(vertex)];
   Vec3d v{0, 0, 0};
-  for (size_t j = 0; j < 8; ++j) {
-    const NodeState& n = nodes.rows[size_t(w.row[j])];
-    v += double(w.weight[j]) * Vec3d{n.vx, n.vy, n.vz};
-  }
+  skin.each_carrier(vertex, [&](int, int row, float weight) {
+    const NodeState& n = nodes.rows[size_t(row)];
+    v += double(weight) * Vec3d{n.vx, n.vy, n.vz};
+  });
   return v;
 }
 

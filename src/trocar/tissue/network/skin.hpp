@@ -40,6 +40,7 @@ struct SkinWeights {
 /// Const after compile. Vertices are in a spatially coherent order, so that blocks of kSkinBlock are compact.
 struct Skin {
   std::vector<SkinWeights> weights;             ///< (m)
+  std::vector<SkinWeights> more;                ///< (m) what rows of W have beyond eight nodes; empty: none has any
   std::vector<std::array<int, 3>> triangles;    ///< outward
   std::vector<Vec3f> rest;                      ///< (m) drawn positions, world [m]
   std::vector<Vec3f> rest_normal;               ///< (m) unit, outward
@@ -47,15 +48,28 @@ struct Skin {
   std::vector<int> face_first, face;            ///< CSR: triangles at a vertex, ascending
 
   int size() const { return int(weights.size()); }
+  /// f(node, row, weight) for every place of a vertex' row of W, weights of 0 among them.
+  template <class F>
+  void each_carrier(int vertex, F&& f) const {
+    each_of(weights[size_t(vertex)], f);
+    if (!more.empty()) each_of(more[size_t(vertex)], f);
+  }
   /// Has the vertex a triangle? Bodies that can be cut keep vertices for the nodes inside them.
   bool at_surface(int vertex) const { return face_first[size_t(vertex)] < face_first[size_t(vertex) + 1]; }
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("weights", s.weights, core::FieldNote{.made_once = true}), v("triangles", s.triangles),
+    v("weights", s.weights, core::FieldNote{.made_once = true}),
+        v("more", s.more, core::FieldNote{.hashed = !s.more.empty(), .made_once = true}), v("triangles", s.triangles),
         v("rest", s.rest, core::FieldNote{.made_once = true}), v("rest_normal", s.rest_normal, core::kMadeOnce),
         v("neighbour_first", s.neighbour_first, core::kNotHashed), v("neighbour", s.neighbour, core::kNotHashed),
         v("face_first", s.face_first, core::kNotHashed), v("face", s.face, core::kNotHashed);
+  }
+
+ private:
+  template <class F>
+  static void each_of(const SkinWeights& w, F&& f) {
+    for (size_t j = 0; j < w.weight.size(); ++j) f(w.node[j], w.row[j], w.weight[j]);
   }
 };
 
