@@ -1,0 +1,33 @@
+// What a DICOM file says of itself, before its pixels are looked at. Used by the readers only.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <trocar/volumes/files/raster.hpp>
+#include <trocar/volumes/files/slice_stack.hpp>
+
+namespace gdcm {
+class DataSet;
+}
+
+namespace trocar::volumes {
+
+struct DicomHeader {
+  std::string path;
+  std::string uid, description, modality, photometric;
+  int columns = 0, rows = 0, frames = 1;
+  Vec3d row{1, 0, 0}, column{0, 1, 0};
+  double between_columns = 0, between_rows = 0;  ///< of pixels [mm]; 0: not said
+  double tilt_deg = 0;                           ///< of the gantry
+  std::vector<SlicePlace> places;                ///< of the frames; empty: not said
+  std::vector<Rescale> rescale;                  ///< of the frames
+  std::string fault;                             ///< why its pixels cannot be used, or empty
+};
+
+/// @throws core::BadInput  for numbers that are none
+DicomHeader dicom_header(const gdcm::DataSet& data, const std::string& path);
+/// Do both belong to the same stack of slices?
+bool same_stack(const DicomHeader& a, const DicomHeader& b);
+
+}  // namespace trocar::volumes
