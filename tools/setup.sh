@@ -24,7 +24,7 @@ build=(
   libglfw3-dev libimgui-dev  # the window and its panels
   libstb-dev           # PNG
   zlib1g-dev           # volumes of voxels packed with gzip (NRRD, NIfTI, MetaImage)
-  libgdcm-dev          # scans as DICOM: its syntaxes and compressions; without it they are refused, all else works
+  libgdcm-dev          # JPEG in DICOM scans; without it these are refused, all else works
   libsqlite3-dev       # the session store: attempts and results
   libopenal-dev        # sounds of the window
   fonts-dejavu-core    # its text

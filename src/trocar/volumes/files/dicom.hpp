@@ -1,5 +1,4 @@
-// DICOM by way of GDCM: series of slices, multi-frame images, compressed or not. Without GDCM the same functions throw
-// core::EnvironmentLacks. Used by the front door only.
+// DICOM: series of slices, multi-frame images, packed or not. Used by the front door only.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +6,6 @@
 #include <trocar/volumes/files/readers.hpp>
 
 namespace trocar::volumes {
-
-bool looks_like_dicom(std::string_view bytes);
 
 /// A series of a folder: the one that holds `file`, where that is not empty, else that of options.series.
 Raster read_dicom_series(const std::filesystem::path& folder, const std::filesystem::path& file,

@@ -1,13 +1,8 @@
-#ifdef TROCAR_GDCM
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include <fmt/format.h>
-#include <gdcmByteValue.h>
-#include <gdcmDataSet.h>
-#include <gdcmSequenceOfItems.h>
 
 #include <trocar/core/decimal.hpp>
 #include <trocar/core/printable.hpp>
@@ -20,27 +15,17 @@ namespace {
 constexpr int kMostFrames = 65536;
 
 /// An attribute's text without its padding; empty where it is not there.
-std::string text_of(const gdcm::DataSet& data, const gdcm::Tag& tag) {
-  if (!data.FindDataElement(tag)) return "";
-  const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
-  if (!bytes || !bytes->GetPointer()) return "";
-  std::string text(bytes->GetPointer(), std::min<std::size_t>(bytes->GetLength(), 4096));
+std::string text_of(const DicomItem& data, std::uint32_t tag) {
+  const DicomElement* element = data.find(tag);
+  if (!element) return "";
+  std::string text(element->value.substr(0, 4096));
   while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
   return text;
 }
 
-int unsigned_short_of(const gdcm::DataSet& data, const gdcm::Tag& tag) {
-  if (!data.FindDataElement(tag)) return 0;
-  const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
-  if (!bytes || !bytes->GetPointer() || bytes->GetLength() < 2) return 0;
-  std::uint16_t value = 0;  // GDCM has turned big-endian numbers already
-  std::memcpy(&value, bytes->GetPointer(), 2);
-  return value;
-}
-
 /// Numbers apart by backslashes; none where the attribute is not there or empty.
-std::vector<double> decimals_of(const gdcm::DataSet& data, const gdcm::Tag& tag, std::size_t count,
-                                const std::string& path, const char* name) {
+std::vector<double> decimals_of(const DicomItem& data, std::uint32_t tag, std::size_t count, const std::string& path,
+                                const char* name) {
   const std::string text = text_of(data, tag);
   std::vector<double> out;
   if (text.empty()) return out;
@@ -61,46 +46,36 @@ std::vector<double> decimals_of(const gdcm::DataSet& data, const gdcm::Tag& tag,
 }
 
 /// The item of a sequence in a data set, or null.
-class Item {
- public:
-  Item() = default;
-  Item(const gdcm::DataSet& data, const gdcm::Tag& sequence, std::size_t number = 0) {
-    if (!data.FindDataElement(sequence)) return;
-    m_items = data.GetDataElement(sequence).GetValueAsSQ();
-    if (m_items && number < m_items->GetNumberOfItems()) m_data = &m_items->GetItem(number + 1).GetNestedDataSet();
-  }
-  const gdcm::DataSet* get() const { return m_data; }
-  Item inside(const gdcm::Tag& sequence) const { return m_data ? Item(*m_data, sequence) : Item(); }
+const DicomItem* item_of(const DicomItem* data, std::uint32_t sequence, std::size_t number = 0) {
+  const DicomElement* element = data ? data->find(sequence) : nullptr;
+  return element && number < element->items.size() ? &element->items[number] : nullptr;
+}
 
- private:
-  gdcm::SmartPointer<gdcm::SequenceOfItems> m_items;  // keeps what m_data points into
-  const gdcm::DataSet* m_data = nullptr;
-};
-
-const gdcm::Tag kSharedGroups(0x5200, 0x9229), kFrameGroups(0x5200, 0x9230);
+constexpr std::uint32_t kSharedGroups = 0x52009229, kFrameGroups = 0x52009230;
 
 /// Reads what stands in the data set itself, in what all frames share, or in what is each frame's own.
-class Reader {
+class HeaderOfImage {
  public:
-  Reader(const gdcm::DataSet& data, DicomHeader& out) : m_data(data), m_out(out), m_shared(data, kSharedGroups) {}
+  HeaderOfImage(const DicomDocument& file, DicomHeader& out)
+      : m_data(file.root), m_big(file.big_endian), m_out(out), m_shared(item_of(&m_data, kSharedGroups)) {}
 
   void read() {
-    m_out.uid = core::printable(text_of(m_data, {0x0020, 0x000e}));
-    m_out.description = core::printable(text_of(m_data, {0x0008, 0x103e}));
-    m_out.modality = core::printable(text_of(m_data, {0x0008, 0x0060}));
-    m_out.photometric = text_of(m_data, {0x0028, 0x0004});
-    m_out.rows = unsigned_short_of(m_data, {0x0028, 0x0010});
-    m_out.columns = unsigned_short_of(m_data, {0x0028, 0x0011});
-    const auto tilt = decimals(m_data, {0x0018, 0x1120}, 1, "Gantry/Detector Tilt");
+    m_out.uid = core::printable(text_of(m_data, 0x0020000e));
+    m_out.description = core::printable(text_of(m_data, 0x0008103e));
+    m_out.modality = core::printable(text_of(m_data, 0x00080060));
+    m_out.photometric = text_of(m_data, 0x00280004);
+    m_out.rows = unsigned_short(0x00280010);
+    m_out.columns = unsigned_short(0x00280011);
+    const auto tilt = decimals(m_data, 0x00181120, 1, "Gantry/Detector Tilt");
     if (!tilt.empty()) m_out.tilt_deg = tilt[0];
-    const auto frames = decimals(m_data, {0x0028, 0x0008}, 1, "Number of Frames");
+    const auto frames = decimals(m_data, 0x00280008, 1, "Number of Frames");
     if (!frames.empty() && !(frames[0] >= 1 && frames[0] <= kMostFrames))
       refuse(m_out.path, fmt::format("expected 1 to {} frames, got {}", kMostFrames, frames[0]));
     if (!frames.empty()) m_out.frames = int(frames[0]);
     pixels();
-    const auto number = decimals(m_data, {0x0020, 0x0013}, 1, "Instance Number");
+    const auto number = decimals(m_data, 0x00200013, 1, "Instance Number");
     for (int f = 0; f < m_out.frames; ++f) {
-      const Item own(m_data, kFrameGroups, std::size_t(f));
+      const DicomItem* own = item_of(&m_data, kFrameGroups, std::size_t(f));
       place(own, number.empty() ? 0 : int(std::clamp(number[0], -1e9, 1e9)) + f);
       rescale(own);
       if (f == 0) plane(own);
@@ -109,50 +84,68 @@ class Reader {
   }
 
  private:
-  const gdcm::DataSet& m_data;
+  const DicomItem& m_data;
+  bool m_big;
   DicomHeader& m_out;
-  Item m_shared;
+  const DicomItem* m_shared;
 
-  std::vector<double> decimals(const gdcm::DataSet& data, const gdcm::Tag& tag, std::size_t count, const char* name) {
+  int unsigned_short(std::uint32_t tag) const {
+    const DicomElement* element = m_data.find(tag);
+    if (!element || element->value.size() < 2) return 0;
+    const auto byte = [&](std::size_t i) { return int(static_cast<unsigned char>(element->value[i])); };
+    return byte(m_big ? 1 : 0) + 256 * byte(m_big ? 0 : 1);
+  }
+
+  std::vector<double> decimals(const DicomItem& data, std::uint32_t tag, std::size_t count, const char* name) {
     return decimals_of(data, tag, count, m_out.path, name);
   }
-  std::vector<double> decimals(const Item& own, const gdcm::Tag& group, const gdcm::Tag& tag, std::size_t count,
+  std::vector<double> decimals(const DicomItem* own, std::uint32_t group, std::uint32_t tag, std::size_t count,
                                const char* name) {
-    for (const Item& item : {own.inside(group), m_shared.inside(group)})
-      if (item.get() && item.get()->FindDataElement(tag)) return decimals(*item.get(), tag, count, name);
+    for (const DicomItem* item : {item_of(own, group), item_of(m_shared, group)})
+      if (item && item->find(tag)) return decimals(*item, tag, count, name);
     return decimals(m_data, tag, count, name);
   }
 
   void pixels() {
-    const int samples = unsigned_short_of(m_data, {0x0028, 0x0002});
+    const int samples = unsigned_short(0x00280002);
     if (m_out.rows == 0 || m_out.columns == 0)
       m_out.fault = "expected an image, got a file without rows and columns";
     else if (samples > 1 || (m_out.photometric != "MONOCHROME2" && m_out.photometric != "MONOCHROME1"))
       m_out.fault =
           fmt::format("expected one grey value a pixel, got {} ({} values)", shown(m_out.photometric), samples);
-    else if (m_data.FindDataElement(gdcm::Tag(0x0028, 0x3000)))
+    else if (m_data.find(0x00283000))
       m_out.fault = "expected slope and intercept, got values by a table (Modality LUT)";
+    m_out.allocated = unsigned_short(0x00280100);
+    m_out.stored = unsigned_short(0x00280101);
+    m_out.is_signed = unsigned_short(0x00280103) == 1;
+    const int high = unsigned_short(0x00280102);
+    const bool known = m_out.allocated == 8 || m_out.allocated == 16 || m_out.allocated == 32;
+    if (m_out.fault.empty() &&
+        (!known || m_out.stored < 1 || m_out.stored > m_out.allocated || high != m_out.stored - 1))
+      m_out.fault =
+          fmt::format("expected 8, 16 or 32 bits a pixel with those that count lowest, got {} of {} bits up to bit {}",
+                      m_out.stored, m_out.allocated, high);
   }
 
-  void place(const Item& own, int number) {
-    const auto at = decimals(own, {0x0020, 0x9113}, {0x0020, 0x0032}, 3, "Image Position (Patient)");
+  void place(const DicomItem* own, int number) {
+    const auto at = decimals(own, 0x00209113, 0x00200032, 3, "Image Position (Patient)");
     if (at.empty()) return;
-    const auto thickness = decimals(own, {0x0028, 0x9110}, {0x0018, 0x0050}, 1, "Slice Thickness");
+    const auto thickness = decimals(own, 0x00289110, 0x00180050, 1, "Slice Thickness");
     m_out.places.push_back({{at[0], at[1], at[2]}, number, thickness.empty() ? 0 : thickness[0]});
   }
 
-  void rescale(const Item& own) {
-    const auto intercept = decimals(own, {0x0028, 0x9145}, {0x0028, 0x1052}, 1, "Rescale Intercept");
-    const auto slope = decimals(own, {0x0028, 0x9145}, {0x0028, 0x1053}, 1, "Rescale Slope");
+  void rescale(const DicomItem* own) {
+    const auto intercept = decimals(own, 0x00289145, 0x00281052, 1, "Rescale Intercept");
+    const auto slope = decimals(own, 0x00289145, 0x00281053, 1, "Rescale Slope");
     Rescale r;
     if (!intercept.empty()) r.intercept = intercept[0];
     if (!slope.empty() && slope[0] != 0) r.slope = slope[0];
     m_out.rescale.push_back(r);
   }
 
-  void plane(const Item& own) {
-    const auto axes = decimals(own, {0x0020, 0x9116}, {0x0020, 0x0037}, 6, "Image Orientation (Patient)");
-    const auto apart = decimals(own, {0x0028, 0x9110}, {0x0028, 0x0030}, 2, "Pixel Spacing");
+  void plane(const DicomItem* own) {
+    const auto axes = decimals(own, 0x00209116, 0x00200037, 6, "Image Orientation (Patient)");
+    const auto apart = decimals(own, 0x00289110, 0x00280030, 2, "Pixel Spacing");
     if (apart.size() == 2) m_out.between_rows = apart[0], m_out.between_columns = apart[1];
     if (axes.empty()) return;
     const Vec3d row{axes[0], axes[1], axes[2]}, column{axes[3], axes[4], axes[5]};
@@ -167,10 +160,16 @@ class Reader {
 
 }  // namespace
 
-DicomHeader dicom_header(const gdcm::DataSet& data, const std::string& path) {
+Element DicomHeader::element() const {
+  if (allocated == 8) return is_signed ? Element::int8 : Element::uint8;
+  if (allocated == 16) return is_signed ? Element::int16 : Element::uint16;
+  return is_signed ? Element::int32 : Element::uint32;
+}
+
+DicomHeader dicom_header(const DicomDocument& file, const std::string& path) {
   DicomHeader out;
   out.path = path;
-  Reader(data, out).read();
+  HeaderOfImage(file, out).read();
   return out;
 }
 
@@ -182,5 +181,3 @@ bool same_stack(const DicomHeader& a, const DicomHeader& b) {
 }
 
 }  // namespace trocar::volumes
-
-#endif

@@ -1,69 +1,25 @@
-#ifdef TROCAR_GDCM
-
 #include <algorithm>
 #include <cstring>
-#include <iostream>
-#include <mutex>
-#include <sstream>
 
 #include <fmt/format.h>
-#include <gdcmImage.h>
-#include <gdcmImageReader.h>
-#include <gdcmReader.h>
-#include <gdcmTrace.h>
 
-#include <trocar/core/error.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/volumes/files/dicom_pixels.hpp>
 
 namespace trocar::volumes {
 namespace {
 
-std::mutex& gdcm_mutex() {
-  static std::mutex mutex;
-  return mutex;
+[[noreturn]] void damaged_pixels(const DicomHeader& header, const std::string& what) {
+  refuse(header.path, "expected a whole DICOM file, got a damaged one: " + what);
 }
 
-/// What of a warning is worth telling: its last line with words.
-std::string short_line(const std::string& text) {
-  std::string line, last;
-  std::istringstream lines(text);
-  while (std::getline(lines, line))
-    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
-  return core::printable(std::string_view(last).substr(0, 160));
+std::size_t frame_bytes(const DicomHeader& header) {
+  return std::size_t(header.rows) * std::size_t(header.columns) * std::size_t(header.allocated / 8);
 }
 
-bool element_of(const gdcm::PixelFormat& format, Element& element) {
-  switch (format.GetScalarType()) {
-    case gdcm::PixelFormat::UINT8:
-      element = Element::uint8;
-      return true;
-    case gdcm::PixelFormat::INT8:
-      element = Element::int8;
-      return true;
-    case gdcm::PixelFormat::UINT12:
-    case gdcm::PixelFormat::UINT16:
-      element = Element::uint16;
-      return true;
-    case gdcm::PixelFormat::INT12:
-    case gdcm::PixelFormat::INT16:
-      element = Element::int16;
-      return true;
-    case gdcm::PixelFormat::UINT32:
-      element = Element::uint32;
-      return true;
-    case gdcm::PixelFormat::INT32:
-      element = Element::int32;
-      return true;
-    case gdcm::PixelFormat::FLOAT32:
-      element = Element::real32;
-      return true;
-    case gdcm::PixelFormat::FLOAT64:
-      element = Element::real64;
-      return true;
-    default:
-      return false;
-  }
+bool own_order_is_big() {
+  const std::uint16_t one = 1;
+  return *reinterpret_cast<const char*>(&one) == 0;
 }
 
 /// Bits above those that are stored may hold anything: signs are spread over them, the rest is cleared.
@@ -82,106 +38,117 @@ void keep_stored_bits(std::vector<char>& bytes, int stored) {
     std::memcpy(bytes.data() + at, &value, sizeof(T));
   }
 }
+void clean_up(std::vector<char>& bytes, const DicomHeader& header) {
+  switch (header.element()) {
+    case Element::int8:
+      return keep_stored_bits<std::int8_t>(bytes, header.stored);
+    case Element::uint8:
+      return keep_stored_bits<std::uint8_t>(bytes, header.stored);
+    case Element::int16:
+      return keep_stored_bits<std::int16_t>(bytes, header.stored);
+    case Element::uint16:
+      return keep_stored_bits<std::uint16_t>(bytes, header.stored);
+    case Element::int32:
+      return keep_stored_bits<std::int32_t>(bytes, header.stored);
+    default:
+      return keep_stored_bits<std::uint32_t>(bytes, header.stored);
+  }
+}
 
-void clean_up(DicomPixels& pixels, int stored) {
-  if (pixels.element == Element::uint8) keep_stored_bits<std::uint8_t>(pixels.bytes, stored);
-  if (pixels.element == Element::int8) keep_stored_bits<std::int8_t>(pixels.bytes, stored);
-  if (pixels.element == Element::uint16) keep_stored_bits<std::uint16_t>(pixels.bytes, stored);
-  if (pixels.element == Element::int16) keep_stored_bits<std::int16_t>(pixels.bytes, stored);
+std::vector<char> plain_pixels(const DicomElement& pixels, const DicomHeader& header, bool big) {
+  const std::size_t wanted = frame_bytes(header) * std::size_t(header.frames);
+  if (pixels.value.size() < wanted)
+    damaged_pixels(header, fmt::format("{} bytes of pixels instead of {}", pixels.value.size(), wanted));
+  std::vector<char> out(pixels.value.begin(), pixels.value.begin() + std::ptrdiff_t(wanted));
+  // Pixels of a byte are written as words of two, too.
+  const std::size_t word = std::max<std::size_t>(2, std::size_t(header.allocated / 8));
+  if (big != own_order_is_big())
+    for (std::size_t at = 0; at + word <= out.size(); at += word)
+      std::reverse(out.begin() + std::ptrdiff_t(at), out.begin() + std::ptrdiff_t(at + word));
+  return out;
+}
+
+std::uint32_t little32(std::string_view bytes, std::size_t at) {
+  std::uint32_t out = 0;
+  for (std::size_t i = 0; i < 4; ++i) out |= std::uint32_t(static_cast<unsigned char>(bytes[at + i])) << 8 * i;
+  return out;
+}
+
+/// Fragments belong to frames one by one, all to the only frame, or as the table of offsets says.
+std::vector<std::string> packed_frames(const DicomElement& pixels, const DicomHeader& header) {
+  const std::size_t frames = std::size_t(header.frames);
+  if (pixels.fragments.size() < frames + 1)
+    damaged_pixels(header, fmt::format("{} packed frames instead of {}",
+                                       std::max<std::size_t>(pixels.fragments.size(), 1) - 1, frames));
+  std::vector<std::string> out(frames);
+  const std::string_view table = pixels.fragments[0];
+  const bool one_each = pixels.fragments.size() == frames + 1;
+  if (!one_each && frames > 1 && table.size() < 4 * frames)
+    refuse(header.path, "expected a fragment for each frame or a table of offsets, got neither");
+  std::size_t frame = 0, offset = 0;
+  for (std::size_t f = 1; f < pixels.fragments.size(); ++f) {
+    if (one_each)
+      frame = f - 1;
+    else
+      while (frame + 1 < frames && offset >= little32(table, 4 * (frame + 1))) ++frame;
+    out[frame].append(pixels.fragments[f]);
+    offset += pixels.fragments[f].size() + 8;
+  }
+  return out;
+}
+
+/// Runs of bytes; the bytes of a number are apart, the highest first. [PS3.5, annex G]
+std::vector<char> unpacked_rle(std::string_view packed, const DicomHeader& header) {
+  const std::size_t width = std::size_t(header.allocated / 8), count = frame_bytes(header) / width;
+  if (packed.size() < 64 || little32(packed, 0) != width)
+    damaged_pixels(header, fmt::format("no RLE of {} segments", width));
+  std::vector<char> out(count * width);
+  for (std::size_t s = 0; s < width; ++s) {
+    const std::size_t from = little32(packed, 4 + 4 * s);
+    const std::size_t to = s + 1 < width ? little32(packed, 8 + 4 * s) : packed.size();
+    if (from < 64 || from > to || to > packed.size()) damaged_pixels(header, "RLE segments outside of their frame");
+    const std::size_t place = own_order_is_big() ? s : width - 1 - s;
+    std::size_t done = 0;
+    for (std::size_t at = from; at < to && done < count;) {
+      const int control = static_cast<signed char>(packed[at++]);
+      if (control == -128) continue;
+      const std::size_t run = std::size_t(control < 0 ? 1 - control : 1 + control);
+      const std::size_t needed = control < 0 ? 1 : run;
+      if (to - at < needed) damaged_pixels(header, "an RLE segment that ends early");
+      for (std::size_t i = 0; i < run && done < count; ++i, ++done)
+        out[done * width + place] = packed[at + (control < 0 ? 0 : i)];
+      at += needed;
+    }
+    if (done < count) damaged_pixels(header, "an RLE segment that ends early");
+  }
+  return out;
 }
 
 }  // namespace
 
-struct GdcmWarnings::Held {
-  std::lock_guard<std::mutex> lock{gdcm_mutex()};
-  std::ostringstream text;
-};
-
-GdcmWarnings::GdcmWarnings() : m_held(std::make_unique<Held>()) {
-  gdcm::Trace::SetWarningStream(m_held->text);
-  gdcm::Trace::SetErrorStream(m_held->text);
-  gdcm::Trace::WarningOn();
-  gdcm::Trace::ErrorOn();
-  gdcm::Trace::DebugOff();
-}
-GdcmWarnings::~GdcmWarnings() {
-  gdcm::Trace::SetWarningStream(std::cerr);
-  gdcm::Trace::SetErrorStream(std::cerr);
-}
-std::string GdcmWarnings::taken() {
-  const std::string out = short_line(m_held->text.str());
-  m_held->text.str("");
-  return out;
-}
-
-bool read_dicom_header(std::istream& in, const std::string& path, GdcmWarnings& warnings, DicomHeader& out) {
-  gdcm::Reader reader;
-  reader.SetStream(in);
-  bool read = false;
-  try {
-    read = reader.ReadUpToTag(gdcm::Tag(0x7fe0, 0x0010));
-  } catch (const std::exception&) {
-    read = false;
+std::vector<char> dicom_pixels(const DicomDocument& file, const DicomHeader& header, std::size_t most_voxels) {
+  if (const auto fault = size_fault({header.columns, header.rows, header.frames}, most_voxels))
+    refuse(header.path, *fault);
+  const DicomElement* pixels = file.root.find(kDicomPixels);
+  if (!pixels) damaged_pixels(header, "no pixels");
+  std::vector<char> out;
+  if (file.packing == DicomPacking::none) {
+    out = plain_pixels(*pixels, header, file.big_endian);
+  } else if (file.packing == DicomPacking::other) {
+    refuse(header.path,
+           fmt::format("expected pixels that are not packed, or by RLE, JPEG, JPEG-LS or JPEG 2000, got the "
+                       "transfer syntax {}",
+                       core::printable(file.syntax)));
+  } else {
+    for (const std::string& packed : packed_frames(*pixels, header)) {
+      const std::vector<char> frame = file.packing == DicomPacking::rle
+                                          ? unpacked_rle(packed, header)
+                                          : unpacked_jpeg(packed, file.packing, file.syntax, header);
+      out.insert(out.end(), frame.begin(), frame.end());
+    }
   }
-  warnings.taken();  // what is wrong with the pixels' file is told when they are read
-  if (!read) return false;
-  out = dicom_header(reader.GetFile().GetDataSet(), path);
-  return true;
-}
-
-DicomPixels read_dicom_pixels(std::istream& in, const DicomHeader& header, GdcmWarnings& warnings,
-                              std::size_t most_voxels) {
-  warnings.taken();
-  const std::size_t pixels = std::size_t(header.rows) * std::size_t(header.columns) * std::size_t(header.frames);
-  if (pixels > most_voxels)
-    refuse(header.path, fmt::format("expected at most {} voxels, got {} x {} x {}", most_voxels, header.columns,
-                                    header.rows, header.frames));
-  const auto damaged = [&](const std::string& why) {
-    refuse(header.path, fmt::format("expected a whole DICOM image, got a damaged one: {}", why));
-  };
-  DicomPixels out;
-  int stored = 0;
-  try {
-    gdcm::ImageReader reader;
-    reader.SetStream(in);
-    if (!reader.Read()) damaged(warnings.taken());
-    const gdcm::Image& image = reader.GetImage();
-    const gdcm::PixelFormat& format = image.GetPixelFormat();
-    const std::string syntax = image.GetTransferSyntax().GetString() ? image.GetTransferSyntax().GetString() : "";
-    if (!element_of(format, out.element) || format.GetSamplesPerPixel() != 1)
-      refuse(header.path, fmt::format("expected grey values of 8 to 32 bits or floating-point ones, got {} bits in {}",
-                                      format.GetBitsStored(), format.GetBitsAllocated()));
-    const unsigned frames = image.GetNumberOfDimensions() > 2 ? image.GetDimension(2) : 1;
-    if (image.GetDimension(0) != unsigned(header.columns) || image.GetDimension(1) != unsigned(header.rows) ||
-        frames != unsigned(header.frames))
-      damaged("its size changed while it was read");
-    if (format.GetHighBit() + 1 != format.GetBitsStored())
-      refuse(header.path,
-             fmt::format("expected the highest bit {}, got {}", format.GetBitsStored() - 1, format.GetHighBit()));
-    const std::size_t wanted = pixels * width_of(out.element);
-    if (image.GetBufferLength() != wanted)
-      damaged(fmt::format("{} bytes of pixels instead of {}", image.GetBufferLength(), wanted));
-    const gdcm::ByteValue* raw = image.GetDataElement().GetByteValue();
-    if (raw && !image.GetTransferSyntax().IsEncapsulated() && raw->GetLength() < wanted)
-      damaged(fmt::format("{} bytes of pixels instead of {}", std::size_t(raw->GetLength()), wanted));
-    if (const std::string said = warnings.taken(); !said.empty()) damaged(said);
-    out.bytes.resize(wanted);
-    const bool decoded = image.GetBuffer(out.bytes.data());
-    if (const std::string said = warnings.taken(); !said.empty()) damaged(said);
-    if (!decoded)
-      refuse(header.path, fmt::format("expected a compression that GDCM decodes, got {}", core::printable(syntax)));
-    stored = format.GetBitsStored();
-  } catch (const core::BadInput&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    damaged("it asks for more memory than there is");
-  } catch (const std::exception& e) {
-    damaged(core::printable(std::string_view(e.what()).substr(0, 160)));
-  }
-  clean_up(out, stored);
+  clean_up(out, header);
   return out;
 }
 
 }  // namespace trocar::volumes
-
-#endif

@@ -1,15 +1,12 @@
 // DICOM files of a folder: told apart by series, put in order, decoded one after the other.
-#ifdef TROCAR_GDCM
-
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/files.hpp>
 #include <trocar/volumes/files/dicom.hpp>
 #include <trocar/volumes/files/dicom_pixels.hpp>
 
@@ -27,16 +24,39 @@ struct Found {
   std::string not_usable;  // why the first of the DICOM files without usable pixels is none
 };
 
-/// Files with DICOM's mark, or named as such; the rest of a folder is not even opened by GDCM.
-bool may_be_dicom(const fs::path& path) {
-  char start[132] = {};
+constexpr std::size_t kBeginning = std::size_t(1) << 16;  // most headers are shorter
+constexpr std::uint64_t kMostFileBytes = std::uint64_t(1) << 31;
+
+/// False where this is no DICOM file.
+bool read_header(const fs::path& path, DicomHeader& out) {
+  std::string bytes(kBeginning, '\0');
   std::ifstream in(path, std::ios::binary);
-  in.read(start, sizeof start);
-  if (in.gcount() == sizeof start && std::memcmp(start + 128, "DICM", 4) == 0) return true;
-  std::string extension = path.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return extension == ".dcm" || extension == ".ima";
+  in.read(bytes.data(), std::streamsize(bytes.size()));
+  bytes.resize(std::size_t(in.gcount()));
+  if (!looks_like_dicom(bytes)) return false;
+  const std::string name = path.generic_string();
+  const bool marked = bytes.size() > 132 && bytes.compare(128, 4, "DICM") == 0;
+  try {
+    DicomDocument file = parse_dicom(bytes, name, true);
+    if (file.ends_early) {
+      bytes = core::read_file(path, kMostFileBytes);
+      file = parse_dicom(bytes, name);
+    }
+    out = dicom_header(file, name);
+  } catch (const core::BadInput&) {
+    if (marked) throw;
+    return false;  // some other file that begins as DICOM without its mark does
+  }
+  return true;
+}
+
+std::vector<char> read_pixels(const DicomHeader& header, const ReadOptions& options) {
+  const std::string bytes = core::read_file(header.path, kMostFileBytes);
+  const DicomDocument file = parse_dicom(bytes, header.path);
+  const DicomHeader again = dicom_header(file, header.path);
+  if (!same_stack(again, header) || again.frames != header.frames || again.element() != header.element())
+    refuse(header.path, "expected the file as it was a moment ago, got another one");
+  return dicom_pixels(file, header, options.most_voxels);
 }
 
 std::vector<fs::path> files_below(const fs::path& folder) {
@@ -56,20 +76,18 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return out;
 }
 
-Found find_series(const fs::path& folder, GdcmWarnings& warnings, const Progress& progress) {
+Found find_series(const fs::path& folder, const Progress& progress) {
   Found out;
   const std::vector<fs::path> files = files_below(folder);
   for (std::size_t i = 0; i < files.size(); ++i) {
     tell(progress, double(i) / double(files.size()));
     DicomHeader header;
-    std::ifstream in(files[i], std::ios::binary);
-    const std::string name = files[i].generic_string();
-    if (!may_be_dicom(files[i]) || !read_dicom_header(in, name, warnings, header)) {
+    if (!read_header(files[i], header)) {
       ++out.others;
       continue;
     }
     if (!header.fault.empty()) {
-      if (out.not_usable.empty()) out.not_usable = name + ": " + header.fault;
+      if (out.not_usable.empty()) out.not_usable = header.path + ": " + header.fault;
       ++out.others;
       continue;
     }
@@ -136,20 +154,20 @@ class Stack {
   }
 
   /// Puts the frames of a file where they belong.
-  void put(Raster& raster, std::size_t file, const DicomPixels& pixels) {
+  void put(Raster& raster, std::size_t file, const std::vector<char>& pixels) {
     const DicomHeader& header = m_series[file];
     if (raster.owned.empty()) {
-      raster.element = pixels.element;
+      raster.element = header.element();
       raster.owned.resize(raster.wanted());
     }
-    if (pixels.element != raster.element)
+    if (header.element() != raster.element)
       refuse(header.path, fmt::format("expected {} as in the other slices, got {}", name_of(raster.element),
-                                      name_of(pixels.element)));
-    const std::size_t bytes = pixels.bytes.size() / std::size_t(header.frames);
+                                      name_of(header.element())));
+    const std::size_t bytes = pixels.size() / std::size_t(header.frames);
     for (int f = 0; f < header.frames; ++f) {
       const auto slice = std::find(m_wanted.begin(), m_wanted.end(), first_frame(file) + f) - m_wanted.begin();
       if (slice == std::ptrdiff_t(m_wanted.size())) continue;
-      std::copy_n(pixels.bytes.begin() + std::ptrdiff_t(bytes) * f, bytes,
+      std::copy_n(pixels.begin() + std::ptrdiff_t(bytes) * f, bytes,
                   raster.owned.begin() + std::ptrdiff_t(bytes) * slice);
       raster.rescale[std::size_t(slice)] = header.rescale[std::size_t(f)];
     }
@@ -224,17 +242,13 @@ void tell_choice(const Found& found, std::size_t chosen, ReadReport& report) {
 
 }  // namespace
 
-bool reads_dicom() { return true; }
-
 std::vector<SeriesFacts> dicom_series(const fs::path& folder, const ReadOptions& options) {
-  GdcmWarnings warnings;
-  return facts_of(find_series(folder, warnings, options.progress));
+  return facts_of(find_series(folder, options.progress));
 }
 
 Raster read_dicom_series(const fs::path& folder, const fs::path& file, const ReadOptions& options, ReadReport& report) {
   report.format = "DICOM";
-  GdcmWarnings warnings;
-  const Found found = find_series(folder, warnings, part(options.progress, 0, 0.3));
+  const Found found = find_series(folder, part(options.progress, 0, 0.3));
   const std::string name = (file.empty() ? folder : file).generic_string();
   if (found.series.empty())
     refuse(name, found.not_usable.empty() ? "expected DICOM images, got none"
@@ -248,8 +262,7 @@ Raster read_dicom_series(const fs::path& folder, const fs::path& file, const Rea
   for (std::size_t f = 0; f < series.size(); ++f) {
     tell(options.progress, 0.3 + 0.4 * double(f) / double(series.size()));
     if (!stack.needs(f)) continue;
-    std::ifstream in(series[f].path, std::ios::binary);
-    stack.put(raster, f, read_dicom_pixels(in, series[f], warnings, options.most_voxels));
+    stack.put(raster, f, read_pixels(series[f], options));
   }
   share_rescale(raster);
   return raster;
@@ -257,22 +270,15 @@ Raster read_dicom_series(const fs::path& folder, const fs::path& file, const Rea
 
 Raster read_dicom_bytes(const Source& source) {
   source.report.format = "DICOM";
-  GdcmWarnings warnings;
-  std::istringstream in{std::string(source.bytes)};
-  std::vector<DicomHeader> series(1);
-  if (!read_dicom_header(in, source.file, warnings, series[0]))
-    refuse(source.file, "expected a DICOM file, got a damaged one");
+  const DicomDocument file = parse_dicom(source.bytes, source.file);
+  const std::vector<DicomHeader> series{dicom_header(file, source.file)};
   if (!series[0].fault.empty()) refuse(source.file, series[0].fault);
   Raster raster;
   Stack stack(series, source.file, source.options, source.report);
   stack.arrange(raster);
-  in.clear();
-  in.seekg(0);
-  stack.put(raster, 0, read_dicom_pixels(in, series[0], warnings, source.options.most_voxels));
+  stack.put(raster, 0, dicom_pixels(file, series[0], source.options.most_voxels));
   share_rescale(raster);
   return raster;
 }
 
 }  // namespace trocar::volumes
-
-#endif

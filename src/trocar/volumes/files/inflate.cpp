@@ -12,11 +12,14 @@ namespace {
 constexpr std::size_t kMostRatio = 1032;  // what deflate can make of a byte at best [RFC 1951]
 constexpr std::size_t kPart = std::size_t(1) << 20;
 
+int window_bits(Wrapping wrapping) {
+  return wrapping == Wrapping::gzip ? 15 + 16 : wrapping == Wrapping::zlib ? 15 : -15;
+}
+
 class Inflater {
  public:
   Inflater(std::string_view packed, Wrapping wrapping, const std::string& file) : m_left(packed), m_file(file) {
-    if (inflateInit2(&m_stream, 15 + (wrapping == Wrapping::gzip ? 16 : 0)) != Z_OK)
-      refuse(file, "expected memory for unpacking, got none");
+    if (inflateInit2(&m_stream, window_bits(wrapping)) != Z_OK) refuse(file, "expected memory for unpacking, got none");
   }
   ~Inflater() { inflateEnd(&m_stream); }
   Inflater(const Inflater&) = delete;
@@ -82,10 +85,12 @@ std::vector<char> inflated(std::string_view packed, Wrapping wrapping, std::size
     if (got == 0) refuse(file, fmt::format("expected {} bytes unpacked, got {}", from + count, dropped));
     dropped += got;
   }
-  std::vector<char> out(std::min(count, most));
+  // Where it is not known how much there is, memory grows with what was found.
+  std::vector<char> out(at_most ? std::min(count, kPart) : count);
   std::size_t done = 0;
-  while (done < out.size()) {
+  while (done < count) {
     tell(progress, double(from + done) / double(from + count));
+    if (done == out.size()) out.resize(std::min(count, 2 * out.size()));
     const std::size_t got = in.read(out.data() + done, std::min(out.size() - done, 16 * kPart));
     done += got;
     if (got == 0) break;

@@ -9,7 +9,7 @@
 
 namespace trocar::volumes {
 
-enum class Wrapping : unsigned char { gzip, zlib };
+enum class Wrapping : unsigned char { gzip, zlib, none };
 
 /// Bytes `from` up to `from + count` of what was packed; what comes before is unpacked and dropped. Files of several
 /// members, as parallel packers write them, are one. No more memory is asked for than the packed bytes can fill.

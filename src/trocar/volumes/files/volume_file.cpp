@@ -7,6 +7,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
 #include <trocar/volumes/files/dicom.hpp>
+#include <trocar/volumes/files/dicom_elements.hpp>
 #include <trocar/volumes/files/header_fields.hpp>
 
 namespace trocar::volumes {
@@ -41,12 +42,11 @@ Opened open(const fs::path& path, const ReadOptions& options, ReadReport& report
     return out;
   }
   char start[132] = {};
-  std::ifstream(path, std::ios::binary).read(start, sizeof start);
-  std::string extension = lowered(path.extension().string());
-  if (looks_like_dicom({start, sizeof start}) || extension == ".dcm" || extension == ".ima") {
+  std::ifstream in(path, std::ios::binary);
+  in.read(start, sizeof start);
+  if (looks_like_dicom({start, std::size_t(in.gcount())})) {
     fs::path folder = path.parent_path();
     if (folder.empty()) folder = ".";
-    if (!fs::exists(path, error)) refuse(path.generic_string(), "expected a file, got none of this name");
     out.raster = read_dicom_series(folder, path, options, report);
     return out;
   }
@@ -87,8 +87,6 @@ LabelFile labels_of(const Raster& raster, const std::string& file, const ReadOpt
 }
 
 }  // namespace
-
-bool looks_like_dicom(std::string_view bytes) { return bytes.size() >= 132 && bytes.substr(128, 4) == "DICM"; }
 
 bool is_plain_name(std::string_view name) {
   return !name.empty() && name.size() < 256 && name[0] != '.' &&

@@ -48,7 +48,7 @@ struct VolumeFile {
   ReadReport report;
 };
 /// @throws core::BadInput   with all faults found, `path:line:col` in headers of text, bytes counted elsewhere
-/// @throws core::EnvironmentLacks  for DICOM where the program was built without GDCM
+/// @throws core::EnvironmentLacks  for JPEG in DICOM where the program was built without GDCM
 /// @throws Cancelled        where options.progress said so
 VolumeFile read_volume(const std::filesystem::path& path, const ReadOptions& options = {});
 
@@ -67,7 +67,7 @@ LabelFile read_labels_bytes(std::string_view bytes, const std::string& file, con
 /// The DICOM series in a folder and the folders below it, most slices first, then by their names in DICOM.
 std::vector<SeriesFacts> list_series(const std::filesystem::path& folder, const ReadOptions& options = {});
 
-/// Can this build read DICOM?
-bool reads_dicom();
+/// Can this build unpack JPEG, JPEG-LS and JPEG 2000 in DICOM?
+bool unpacks_jpeg();
 
 }  // namespace trocar::volumes
