@@ -123,7 +123,7 @@ struct VolumeCaster::Impl {
     j.table_from = float(table_from);
     j.table_scale = float((kTableSize - 1) / (table_to - table_from));
     if (!tints.empty()) j.tints = tints.data(), j.tint_table = tint_table.data(), j.tint_opacity = tint_opacity.data();
-    j.shade_full = float((table_to - table_from) / 100);
+    j.shade_full = float((table_to - table_from) / 30);
     j.fine_gradient = quality.fine_gradient;
     j.width = width;
     j.height = height;
