@@ -2,7 +2,6 @@
 // and not files: its parser ends the program at some damaged ones. What it only warns of is a fault, because pixels
 // that are not there become zeros with no more than a warning.
 #include <algorithm>
-#include <mutex>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -10,10 +9,9 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/volumes/files/dicom_pixels.hpp>
+#include <trocar/volumes/files/in_child.hpp>
 
 #ifdef TROCAR_GDCM
-#include <iostream>
-
 #include <gdcmFragment.h>
 #include <gdcmImage.h>
 #include <gdcmSequenceOfFragments.h>
@@ -90,40 +88,14 @@ class Marks {
 
 #ifdef TROCAR_GDCM
 
-/// GDCM writes warnings to streams that the whole program shares: one at a time holds them, and reads what was written.
-class GdcmWarnings {
- public:
-  GdcmWarnings() {
-    gdcm::Trace::SetWarningStream(m_text);
-    gdcm::Trace::SetErrorStream(m_text);
-    gdcm::Trace::WarningOn();
-    gdcm::Trace::ErrorOn();
-    gdcm::Trace::DebugOff();
-  }
-  ~GdcmWarnings() {
-    gdcm::Trace::SetWarningStream(std::cerr);
-    gdcm::Trace::SetErrorStream(std::cerr);
-  }
-  GdcmWarnings(const GdcmWarnings&) = delete;
-  GdcmWarnings& operator=(const GdcmWarnings&) = delete;
-
-  /// Their last line with words; empty where nothing was written.
-  std::string taken() const {
-    std::string line, last;
-    std::istringstream lines(m_text.str());
-    while (std::getline(lines, line))
-      if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
-    return core::printable(std::string_view(last).substr(0, 160));
-  }
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex one;
-    return one;
-  }
-  std::lock_guard<std::mutex> m_lock{mutex()};
-  std::ostringstream m_text;
-};
+/// The last line with words of what GDCM has written.
+std::string last_words(const std::string& written) {
+  std::string line, last;
+  std::istringstream lines(written);
+  while (std::getline(lines, line))
+    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+  return core::printable(std::string_view(last).substr(0, 160));
+}
 
 gdcm::Image packed_image(const std::string& packed, const std::string& syntax, const DicomHeader& header) {
   gdcm::Image image;
@@ -145,28 +117,48 @@ gdcm::Image packed_image(const std::string& packed, const std::string& syntax, c
   return image;
 }
 
-std::vector<char> by_gdcm(const std::string& packed, const std::string& syntax, const DicomHeader& header) {
-  const GdcmWarnings warnings;
-  std::vector<char> out;
-  std::string failure;
+constexpr int kMostSeconds = 60;
+
+/// In the child: 'p' and the pixels, or 'f' and what is wrong. Its streams for warnings are its own.
+std::string unpack_all(const std::vector<std::string>& frames, const std::string& syntax, const DicomHeader& header) {
+  std::ostringstream written;
+  gdcm::Trace::SetWarningStream(written);
+  gdcm::Trace::SetErrorStream(written);
+  gdcm::Trace::WarningOn();
+  gdcm::Trace::ErrorOn();
+  gdcm::Trace::DebugOff();
+  const std::size_t wanted = frame_bytes(header);
+  std::string out = "p";
   try {
-    const gdcm::Image image = packed_image(packed, syntax, header);
-    const std::size_t wanted =
-        std::size_t(header.rows) * std::size_t(header.columns) * std::size_t(header.allocated / 8);
-    if (image.GetBufferLength() != wanted) failure = "another size than it says";
-    out.resize(wanted);
-    if (failure.empty() && !image.GetBuffer(out.data())) failure = "its pixels cannot be unpacked";
+    for (const std::string& frame : frames) {
+      const gdcm::Image image = packed_image(frame, syntax, header);
+      if (image.GetBufferLength() != wanted) return "fanother size than it says";
+      out.resize(out.size() + wanted);
+      if (!image.GetBuffer(out.data() + out.size() - wanted)) return "fits pixels cannot be unpacked";
+      if (const std::string said = last_words(written.str()); !said.empty()) return "f" + said;
+    }
   } catch (const std::exception& e) {
-    failure = core::printable(std::string_view(e.what()).substr(0, 160));
+    return "f" + core::printable(std::string_view(e.what()).substr(0, 160));
   }
-  if (const std::string said = warnings.taken(); !said.empty()) failure = said;
-  if (!failure.empty()) refuse(header.path, "expected a whole DICOM file, got a damaged one: " + failure);
   return out;
+}
+
+std::vector<char> by_gdcm(const std::vector<std::string>& frames, const std::string& syntax,
+                          const DicomHeader& header) {
+  const std::size_t wanted = frame_bytes(header) * frames.size();
+  const ChildResult child = in_child([&] { return unpack_all(frames, syntax, header); }, kMostSeconds, wanted + 4096);
+  std::string failure;
+  if (!child.came_back || child.bytes.empty())
+    failure = "unpacking its pixels fails";
+  else if (child.bytes[0] != 'p' || child.bytes.size() != wanted + 1)
+    failure = child.bytes.substr(1);
+  if (!failure.empty()) refuse(header.path, "expected a whole DICOM file, got a damaged one: " + failure);
+  return {child.bytes.begin() + 1, child.bytes.end()};
 }
 
 #else
 
-std::vector<char> by_gdcm(const std::string&, const std::string& syntax, const DicomHeader& header) {
+std::vector<char> by_gdcm(const std::vector<std::string>&, const std::string& syntax, const DicomHeader& header) {
   throw core::EnvironmentLacks(fmt::format(
       "{}: this build does not unpack JPEG in DICOM (transfer syntax {}): install libgdcm-dev and build again, "
       "or convert the series to NIfTI or NRRD",
@@ -185,17 +177,19 @@ bool unpacks_jpeg() {
 #endif
 }
 
-std::vector<char> unpacked_jpeg(const std::string& packed, DicomPacking packing, const std::string& syntax,
+std::vector<char> unpacked_jpeg(const std::vector<std::string>& frames, DicomPacking packing, const std::string& syntax,
                                 const DicomHeader& header) {
-  const CodestreamSize size = Marks(packed, header).size(packing);
-  if (size.columns != std::uint32_t(header.columns) || size.rows != std::uint32_t(header.rows) ||
-      size.components != 1 || size.bits > std::uint32_t(header.allocated) || header.allocated > 16)
-    refuse(header.path,
-           fmt::format("expected a packed frame of {} x {} pixels with one value of up to {} bits, got {} x {} "
-                       "with {} of {} bits",
-                       header.columns, header.rows, std::min(header.allocated, 16), size.columns, size.rows,
-                       size.components, size.bits));
-  return by_gdcm(packed, syntax, header);
+  for (const std::string& packed : frames) {
+    const CodestreamSize size = Marks(packed, header).size(packing);
+    if (size.columns != std::uint32_t(header.columns) || size.rows != std::uint32_t(header.rows) ||
+        size.components != 1 || size.bits > std::uint32_t(header.allocated) || header.allocated > 16)
+      refuse(header.path,
+             fmt::format("expected a packed frame of {} x {} pixels with one value of up to {} bits, got {} x "
+                         "{} with {} of {} bits",
+                         header.columns, header.rows, std::min(header.allocated, 16), size.columns, size.rows,
+                         size.components, size.bits));
+  }
+  return by_gdcm(frames, syntax, header);
 }
 
 }  // namespace trocar::volumes

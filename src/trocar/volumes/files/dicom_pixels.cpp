@@ -13,10 +13,6 @@ namespace {
   refuse(header.path, "expected a whole DICOM file, got a damaged one: " + what);
 }
 
-std::size_t frame_bytes(const DicomHeader& header) {
-  return std::size_t(header.rows) * std::size_t(header.columns) * std::size_t(header.allocated / 8);
-}
-
 bool own_order_is_big() {
   const std::uint16_t one = 1;
   return *reinterpret_cast<const char*>(&one) == 0;
@@ -140,11 +136,14 @@ std::vector<char> dicom_pixels(const DicomDocument& file, const DicomHeader& hea
                        "transfer syntax {}",
                        core::printable(file.syntax)));
   } else {
-    for (const std::string& packed : packed_frames(*pixels, header)) {
-      const std::vector<char> frame = file.packing == DicomPacking::rle
-                                          ? unpacked_rle(packed, header)
-                                          : unpacked_jpeg(packed, file.packing, file.syntax, header);
-      out.insert(out.end(), frame.begin(), frame.end());
+    const std::vector<std::string> frames = packed_frames(*pixels, header);
+    if (file.packing != DicomPacking::rle) {
+      out = unpacked_jpeg(frames, file.packing, file.syntax, header);
+    } else {
+      for (const std::string& packed : frames) {
+        const std::vector<char> frame = unpacked_rle(packed, header);
+        out.insert(out.end(), frame.begin(), frame.end());
+      }
     }
   }
   clean_up(out, header);

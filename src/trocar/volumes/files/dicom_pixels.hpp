@@ -12,8 +12,12 @@ namespace trocar::volumes {
 /// @throws core::EnvironmentLacks  for JPEG in a build without GDCM
 std::vector<char> dicom_pixels(const DicomDocument& file, const DicomHeader& header, std::size_t most_voxels);
 
-/// A frame of JPEG, JPEG-LS or JPEG 2000.
-std::vector<char> unpacked_jpeg(const std::string& packed, DicomPacking packing, const std::string& syntax,
+/// Frames of JPEG, JPEG-LS or JPEG 2000, one after the other.
+std::vector<char> unpacked_jpeg(const std::vector<std::string>& frames, DicomPacking packing, const std::string& syntax,
                                 const DicomHeader& header);
+
+inline std::size_t frame_bytes(const DicomHeader& header) {
+  return std::size_t(header.rows) * std::size_t(header.columns) * std::size_t(header.allocated / 8);
+}
 
 }  // namespace trocar::volumes
