@@ -23,7 +23,8 @@ build=(
   libgl1-mesa-dri      # and its driver, for machines without graphics card as well
   libglfw3-dev libimgui-dev  # the window and its panels
   libstb-dev           # PNG
-  zlib1g-dev           # volumes of voxels packed with gzip (NRRD)
+  zlib1g-dev           # volumes of voxels packed with gzip (NRRD, NIfTI, MetaImage)
+  libgdcm-dev          # JPEG in DICOM scans; without it these are refused, all else works
   libsqlite3-dev       # the session store: attempts and results
   libopenal-dev        # sounds of the window
   fonts-dejavu-core    # its text

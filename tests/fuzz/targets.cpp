@@ -24,6 +24,10 @@ std::span<const Target> targets() {
       {"surface_vtk", surface_file, 2'000, surface_vtk_seeds, surface_words},
       {"surface_gltf", surface_file, 4'000, surface_gltf_seeds, surface_words},
       {"nrrd", nrrd_file, 2'000, nrrd_seeds, nrrd_words},
+      {"volume_nifti", volume_file, 2'000, volume_nifti_seeds, volume_words},
+      {"volume_nrrd", volume_file, 2'000, volume_nrrd_seeds, volume_words},
+      {"volume_meta", volume_file, 2'000, volume_meta_seeds, volume_words},
+      {"volume_dicom", volume_file, 3'000, volume_dicom_seeds, volume_words},
   };
   return all;
 }

@@ -43,6 +43,12 @@ std::vector<std::string> surface_words();
 void nrrd_file(Bytes bytes);
 std::vector<Seed> nrrd_seeds();
 std::vector<std::string> nrrd_words();
+void volume_file(Bytes bytes);
+std::vector<Seed> volume_nifti_seeds();
+std::vector<Seed> volume_nrrd_seeds();
+std::vector<Seed> volume_meta_seeds();
+std::vector<Seed> volume_dicom_seeds();
+std::vector<std::string> volume_words();
 
 /// So small that a compile takes milliseconds.
 bool quick_to_compile(const scene::Description& description);

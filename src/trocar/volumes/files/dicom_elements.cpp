@@ -1,0 +1,267 @@
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include <trocar/core/printable.hpp>
+#include <trocar/volumes/files/dicom_elements.hpp>
+#include <trocar/volumes/files/inflate.hpp>
+#include <trocar/volumes/files/raster.hpp>
+
+namespace trocar::volumes {
+namespace {
+
+constexpr std::uint32_t kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd = 0xfffee0dd;
+constexpr std::uint32_t kUndefined = 0xffffffff;
+constexpr int kDeepestItem = 12;
+constexpr std::size_t kMostElements = 2'000'000, kPreamble = 132;
+constexpr std::size_t kMostInflated = std::size_t(1) << 30;
+
+/// Sequences that the reader looks into; all others of known length are passed over.
+constexpr std::uint32_t kWanted[] = {0x52009229, 0x52009230, 0x00209113, 0x00209116,
+                                     0x00289110, 0x00289145, 0x00283000};
+bool is_wanted(std::uint32_t tag) {
+  return std::find(std::begin(kWanted), std::end(kWanted), tag) != std::end(kWanted);
+}
+
+/// Representations whose length has 32 bits.
+bool has_long_length(std::string_view vr) {
+  for (const std::string_view known : {"OB", "OW", "OF", "OD", "OL", "OV", "SQ", "UT", "UN", "UC", "UR", "SV", "UV"})
+    if (vr == known) return true;
+  return false;
+}
+bool is_vr(std::string_view two) {
+  return two.size() == 2 && two[0] >= 'A' && two[0] <= 'Z' && two[1] >= 'A' && two[1] <= 'Z';
+}
+
+struct Syntax {
+  const char* uid;
+  DicomPacking packing;
+};
+constexpr Syntax kPacked[] = {
+    {"1.2.840.10008.1.2.5", DicomPacking::rle},          {"1.2.840.10008.1.2.4.50", DicomPacking::jpeg},
+    {"1.2.840.10008.1.2.4.51", DicomPacking::jpeg},      {"1.2.840.10008.1.2.4.57", DicomPacking::jpeg},
+    {"1.2.840.10008.1.2.4.70", DicomPacking::jpeg},      {"1.2.840.10008.1.2.4.80", DicomPacking::jpeg_ls},
+    {"1.2.840.10008.1.2.4.81", DicomPacking::jpeg_ls},   {"1.2.840.10008.1.2.4.90", DicomPacking::jpeg_2000},
+    {"1.2.840.10008.1.2.4.91", DicomPacking::jpeg_2000},
+};
+
+/// The bytes given are a file's beginning, and it goes on.
+struct EndsEarly {};
+
+struct ElementHead {
+  std::uint32_t tag = 0, length = 0;
+  std::string_view vr;  // empty in implicit syntaxes
+};
+
+class Parser {
+ public:
+  Parser(std::string_view bytes, const std::string& file, bool beginning_only)
+      : m_bytes(bytes), m_file(file), m_beginning(beginning_only) {}
+
+  bool implicit = false, big = false;
+
+  std::size_t at() const { return m_at; }
+  void go_to(std::size_t at) { m_at = at; }
+  std::size_t left(std::size_t end) const { return end - m_at; }
+
+  /// Elements up to `end`, or to the mark that ends an item of undefined length.
+  DicomItem data_set(std::size_t end, bool to_mark, int depth) {
+    DicomItem out;
+    while (m_at < end) {
+      const std::size_t from = m_at;
+      const ElementHead e = element(end);
+      if (e.tag == kItemEnd && to_mark) return out;
+      if (depth == 0 && e.tag >> 16 == 0xfffe) damaged(from, "an item outside of sequences");
+      if (depth == 0 && m_beginning && e.tag == kDicomPixels) return out;
+      if (!out.elements.empty() && depth == 0 && e.tag < out.elements.back().tag)
+        damaged(from, "elements out of order");
+      out.elements.push_back(value_of(e, end, depth));
+    }
+    if (to_mark) damaged(m_at, "an item without its end");
+    return out;
+  }
+
+  /// One element of the group that says how the others are written; false where another group begins.
+  bool meta_element(DicomElement& out) {
+    const std::size_t from = m_at;
+    const std::uint32_t group = number(2, m_bytes.size());
+    m_at = from;
+    if (group != 2) return false;
+    const ElementHead e = element(m_bytes.size());
+    out = value_of(e, m_bytes.size(), 0);
+    return true;
+  }
+
+  [[noreturn]] void damaged(std::size_t at, const std::string& what) const {
+    refuse(m_file, fmt::format("expected a whole DICOM file, got a damaged one: at byte {}: {}", at, what));
+  }
+
+ private:
+  std::string_view m_bytes;
+  const std::string& m_file;
+  bool m_beginning;
+  std::size_t m_at = 0, m_count = 0;
+
+  void need(std::size_t count, std::size_t end) const {
+    if (left(end) >= count) return;
+    if (m_beginning && end == m_bytes.size()) throw EndsEarly{};
+    damaged(m_at, fmt::format("{} bytes, where {} are left", count, left(end)));
+  }
+  std::uint32_t number(int width, std::size_t end) {
+    need(std::size_t(width), end);
+    std::uint32_t out = 0;
+    for (int i = 0; i < width; ++i) {
+      const auto byte = std::uint32_t(static_cast<unsigned char>(m_bytes[m_at + std::size_t(i)]));
+      out |= byte << 8 * (big ? width - 1 - i : i);
+    }
+    m_at += std::size_t(width);
+    return out;
+  }
+
+  ElementHead element(std::size_t end) {
+    if (++m_count > kMostElements) damaged(m_at, "more than two million elements");
+    ElementHead e;
+    const std::uint32_t group = number(2, end);
+    e.tag = group << 16 | number(2, end);
+    if (group == 0xfffe || implicit) {
+      e.length = number(4, end);
+      return e;
+    }
+    need(2, end);
+    e.vr = m_bytes.substr(m_at, 2);
+    if (!is_vr(e.vr)) damaged(m_at, "no value representation");
+    m_at += 2;
+    if (!has_long_length(e.vr)) {
+      e.length = number(2, end);
+      return e;
+    }
+    number(2, end);  // reserved
+    e.length = number(4, end);
+    return e;
+  }
+
+  DicomElement value_of(const ElementHead& e, std::size_t end, int depth) {
+    DicomElement out;
+    out.tag = e.tag;
+    const bool undefined = e.length == kUndefined;
+    if (undefined && e.tag == kDicomPixels) {
+      fragments(end, out);
+    } else if (undefined) {
+      if (!implicit && e.vr != "SQ" && e.vr != "UN") damaged(m_at, "a value without a length");
+      // What is unknown and has no length is written in implicit elements, whatever the rest is.
+      const bool was = implicit;
+      implicit = implicit || e.vr == "UN";
+      items(end, true, depth, out);
+      implicit = was;
+    } else {
+      if (depth == 0 && !is_wanted(e.tag) && m_beginning && e.length > left(end)) throw EndsEarly{};
+      need(e.length, end);
+      const std::size_t to = m_at + e.length;
+      if (is_wanted(e.tag) && (implicit || e.vr == "SQ"))
+        items(to, false, depth, out);
+      else
+        out.value = m_bytes.substr(m_at, e.length);
+      m_at = to;
+    }
+    return out;
+  }
+
+  void items(std::size_t end, bool to_mark, int depth, DicomElement& out) {
+    if (depth >= kDeepestItem) damaged(m_at, "sequences within sequences, twelve deep");
+    while (m_at < end) {
+      const std::size_t from = m_at;
+      const ElementHead e = element(end);
+      if (e.tag == kSequenceEnd && to_mark) return;
+      if (e.tag != kItem) damaged(from, "no item in a sequence");
+      const bool open = e.length == kUndefined;
+      if (!open) need(e.length, end);
+      const std::size_t to = open ? end : m_at + e.length;
+      out.items.push_back(data_set(to, open, depth + 1));
+      if (!open) m_at = to;
+    }
+    if (to_mark) damaged(m_at, "a sequence without its end");
+  }
+
+  void fragments(std::size_t end, DicomElement& out) {
+    while (true) {
+      const std::size_t from = m_at;
+      const ElementHead e = element(end);
+      if (e.tag == kSequenceEnd) return;
+      if (e.tag != kItem) damaged(from, "no fragment among packed pixels");
+      need(e.length, end);
+      out.fragments.push_back(m_bytes.substr(m_at, e.length));
+      m_at += e.length;
+    }
+  }
+};
+
+void use_syntax(DicomDocument& out, Parser& parser, const std::string& file) {
+  const std::string& uid = out.syntax;
+  if (uid == "1.2.840.10008.1.2") {
+    parser.implicit = true;
+  } else if (uid == "1.2.840.10008.1.2.2") {
+    parser.big = out.big_endian = true;
+  } else if (uid != "1.2.840.10008.1.2.1" && uid != "1.2.840.10008.1.2.1.99") {
+    out.packing = DicomPacking::other;
+    for (const Syntax& s : kPacked)
+      if (uid == s.uid) out.packing = s.packing;
+    if (uid.compare(0, 14, "1.2.840.10008.") != 0)
+      refuse(file, fmt::format("expected a transfer syntax of DICOM, got '{}'", core::printable(uid.substr(0, 64))));
+  }
+}
+
+}  // namespace
+
+const DicomElement* DicomItem::find(std::uint32_t tag) const {
+  const auto found =
+      std::find_if(elements.begin(), elements.end(), [&](const DicomElement& e) { return e.tag == tag; });
+  return found == elements.end() ? nullptr : &*found;
+}
+
+bool looks_like_dicom(std::string_view bytes) {
+  if (bytes.size() >= kPreamble && bytes.substr(128, 4) == "DICM") return true;
+  // Without the mark: group 2 or 8 with a small element, then letters or a short length.
+  if (bytes.size() < 16 || (bytes[0] != '\2' && bytes[0] != '\x08') || bytes[1] != '\0' || bytes[3] != '\0')
+    return false;
+  return is_vr(bytes.substr(4, 2)) || (bytes[6] == '\0' && bytes[7] == '\0');
+}
+
+DicomDocument parse_dicom(std::string_view bytes, const std::string& file, bool beginning_only) {
+  if (!looks_like_dicom(bytes)) refuse(file, "expected a DICOM file, got another one");
+  DicomDocument out;
+  Parser parser(bytes, file, beginning_only);
+  try {
+    const bool marked = bytes.size() >= kPreamble && bytes.substr(128, 4) == "DICM";
+    parser.go_to(marked ? kPreamble : 0);
+    if (marked || bytes[0] == '\2') {
+      DicomElement e;
+      while (parser.left(bytes.size()) > 0 && parser.meta_element(e))
+        if (e.tag == 0x00020010) {
+          out.syntax = std::string(e.value.substr(0, 64));
+          while (!out.syntax.empty() && (out.syntax.back() == '\0' || out.syntax.back() == ' ')) out.syntax.pop_back();
+        }
+      if (out.syntax.empty()) {
+        if (beginning_only && parser.left(bytes.size()) == 0) throw EndsEarly{};
+        refuse(file, "expected the transfer syntax of a DICOM file, got none");
+      }
+    } else {
+      out.syntax = is_vr(bytes.substr(4, 2)) ? "1.2.840.10008.1.2.1" : "1.2.840.10008.1.2";
+    }
+    use_syntax(out, parser, file);
+    if (out.syntax == "1.2.840.10008.1.2.1.99") {
+      if (beginning_only) throw EndsEarly{};
+      out.inflated = inflated(bytes.substr(parser.at()), Wrapping::none, 0, kMostInflated, file, true);
+      Parser inside({out.inflated.data(), out.inflated.size()}, file, false);
+      out.root = inside.data_set(out.inflated.size(), false, 0);
+    } else {
+      out.root = parser.data_set(bytes.size(), false, 0);
+      if (beginning_only && parser.at() == bytes.size()) out.ends_early = true;
+    }
+  } catch (const EndsEarly&) {
+    out.ends_early = true;
+  }
+  return out;
+}
+
+}  // namespace trocar::volumes

@@ -1,0 +1,50 @@
+// The elements of a DICOM file, as a tree over its bytes. Every length is looked at before it is believed: what comes
+// out lies within the file. Used by the readers only.
+//
+//   const DicomDocument file = parse_dicom(bytes, "a.dcm");
+//   const DicomElement* rows = file.root.find(0x00280010);
+//
+// Source: DICOM PS3.5 (2023b), sections 7 and 10, annex A.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trocar::volumes {
+
+struct DicomElement;
+/// A data set: the file's own, or that of an item of a sequence.
+struct DicomItem {
+  std::vector<DicomElement> elements;
+  const DicomElement* find(std::uint32_t tag) const;  ///< the first of this tag, or null
+};
+struct DicomElement {
+  std::uint32_t tag = 0;  ///< group << 16 | element
+  std::string_view value;
+  std::vector<DicomItem> items;             ///< of sequences that somebody here asks for
+  std::vector<std::string_view> fragments;  ///< of packed pixels, the table of offsets first
+};
+
+enum class DicomPacking : unsigned char { none, rle, jpeg, jpeg_ls, jpeg_2000, other };
+
+struct DicomDocument {
+  DicomItem root;
+  std::string syntax;  ///< the transfer syntax's identifier
+  DicomPacking packing = DicomPacking::none;
+  bool big_endian = false;
+  bool ends_early = false;     ///< of a beginning: more bytes are needed
+  std::vector<char> inflated;  ///< of deflated files; the elements lie in it
+};
+
+inline constexpr std::uint32_t kDicomPixels = 0x7fe00010;
+
+/// @param beginning_only  the bytes are the beginning of a file: stop at the pixels, or tell that it ends early
+/// @throws core::BadInput  where it is no DICOM file, or a damaged one
+DicomDocument parse_dicom(std::string_view bytes, const std::string& file, bool beginning_only = false);
+
+/// With DICOM's mark, or as files without it begin.
+bool looks_like_dicom(std::string_view bytes);
+
+}  // namespace trocar::volumes

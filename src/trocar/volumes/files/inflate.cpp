@@ -1,0 +1,127 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <trocar/volumes/files/inflate.hpp>
+#include <trocar/volumes/files/raster.hpp>
+
+namespace trocar::volumes {
+namespace {
+
+constexpr std::size_t kMostRatio = 1032;  // what deflate can make of a byte at best [RFC 1951]
+constexpr std::size_t kPart = std::size_t(1) << 20;
+
+int window_bits(Wrapping wrapping) {
+  return wrapping == Wrapping::gzip ? 15 + 16 : wrapping == Wrapping::zlib ? 15 : -15;
+}
+
+class Inflater {
+ public:
+  Inflater(std::string_view packed, Wrapping wrapping, const std::string& file) : m_left(packed), m_file(file) {
+    if (inflateInit2(&m_stream, window_bits(wrapping)) != Z_OK) refuse(file, "expected memory for unpacking, got none");
+  }
+  ~Inflater() { inflateEnd(&m_stream); }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+
+  std::size_t packed_left() const { return m_left.size() + m_stream.avail_in; }
+
+  /// Fills as much as there is; fewer bytes at the end only.
+  std::size_t read(char* out, std::size_t count) {
+    std::size_t done = 0;
+    while (done < count && !m_ended) {
+      refill();
+      m_stream.next_out = reinterpret_cast<Bytef*>(out + done);
+      m_stream.avail_out = static_cast<uInt>(std::min(count - done, kPart));
+      const uInt before = m_stream.avail_out;
+      const int status = inflate(&m_stream, Z_NO_FLUSH);
+      done += before - m_stream.avail_out;
+      if (status == Z_STREAM_END) {
+        next_member();
+      } else if (status == Z_BUF_ERROR || (status == Z_OK && before == m_stream.avail_out && packed_left() == 0)) {
+        m_ended = true;  // cut off in the middle: who wanted more says so
+      } else if (status != Z_OK) {
+        refuse(m_file, fmt::format("expected packed data, got damaged ones, {} bytes from the end", packed_left()));
+      }
+    }
+    return done;
+  }
+
+ private:
+  z_stream m_stream{};
+  std::string_view m_left;
+  std::string m_file;
+  bool m_ended = false;
+
+  void refill() {
+    if (m_stream.avail_in > 0 || m_left.empty()) return;
+    const std::size_t part = std::min(m_left.size(), kPart);
+    // zlib does not write through next_in; its type says so only where ZLIB_CONST is defined.
+    m_stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(m_left.data()));
+    m_stream.avail_in = static_cast<uInt>(part);
+    m_left.remove_prefix(part);
+  }
+  void next_member() {
+    refill();
+    const bool more = m_stream.avail_in > 0 && *m_stream.next_in == 0x1f;
+    m_ended = !more || inflateReset(&m_stream) != Z_OK;
+  }
+};
+
+}  // namespace
+
+std::vector<char> inflated(std::string_view packed, Wrapping wrapping, std::size_t from, std::size_t count,
+                           const std::string& file, bool at_most, const Progress& progress) {
+  const std::size_t most = packed.size() * kMostRatio + 1024;
+  if (!at_most && (count > most || from > most - count))
+    refuse(file, fmt::format("expected {} bytes unpacked, got {} packed, which cannot be so many", from + count,
+                             packed.size()));
+  Inflater in(packed, wrapping, file);
+  std::vector<char> part(std::min(from, kPart));
+  for (std::size_t dropped = 0; dropped < from;) {
+    tell(progress, double(dropped) / double(from + count));
+    const std::size_t got = in.read(part.data(), std::min(part.size(), from - dropped));
+    if (got == 0) refuse(file, fmt::format("expected {} bytes unpacked, got {}", from + count, dropped));
+    dropped += got;
+  }
+  // Where it is not known how much there is, memory grows with what was found.
+  std::vector<char> out(at_most ? std::min(count, kPart) : count);
+  std::size_t done = 0;
+  while (done < count) {
+    tell(progress, double(from + done) / double(from + count));
+    if (done == out.size()) out.resize(std::min(count, 2 * out.size()));
+    const std::size_t got = in.read(out.data() + done, std::min(out.size() - done, 16 * kPart));
+    done += got;
+    if (got == 0) break;
+  }
+  if (done < count && !at_most)
+    refuse(file, fmt::format("expected {} bytes unpacked, got {}", from + count, from + done));
+  out.resize(done);
+  return out;
+}
+
+std::string gzipped(std::string_view bytes) {
+  z_stream stream{};
+  // Level 1: scans are noise, on which the others gain a few per cent in several times the time.
+  deflateInit2(&stream, 1, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
+  std::string out;
+  std::vector<char> part(kPart);
+  int status = Z_OK;
+  do {
+    if (stream.avail_in == 0 && !bytes.empty()) {
+      const std::size_t next = std::min(bytes.size(), kPart);
+      stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+      stream.avail_in = static_cast<uInt>(next);
+      bytes.remove_prefix(next);
+    }
+    stream.next_out = reinterpret_cast<Bytef*>(part.data());
+    stream.avail_out = static_cast<uInt>(part.size());
+    status = deflate(&stream, bytes.empty() ? Z_FINISH : Z_NO_FLUSH);
+    out.append(part.data(), part.size() - stream.avail_out);
+  } while (status == Z_OK || status == Z_BUF_ERROR);
+  deflateEnd(&stream);
+  return out;
+}
+
+}  // namespace trocar::volumes

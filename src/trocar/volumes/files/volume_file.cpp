@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/core/files.hpp>
+#include <trocar/volumes/files/dicom.hpp>
+#include <trocar/volumes/files/dicom_elements.hpp>
+#include <trocar/volumes/files/header_fields.hpp>
+
+namespace trocar::volumes {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMostBytes = std::uint64_t(4) << 30;
+constexpr double kStraight = 0.05;  // [degrees]; a hundred slices of 1 mm are a tenth of a millimetre aside then
+
+Raster read_bytes(const Source& source) {
+  if (source.bytes.empty()) refuse(source.file, "expected a volume, got an empty file");
+  if (looks_like_dicom(source.bytes)) return read_dicom_bytes(source);
+  if (looks_like_nifti(source.bytes)) return read_nifti(source);
+  if (looks_like_nrrd(source.bytes)) return read_nrrd_volume(source);
+  if (looks_like_metaimage(source.bytes)) return read_metaimage(source);
+  refuse(source.file,
+         fmt::format("expected DICOM, NIfTI, NRRD or MetaImage, got {}", shown(source.bytes.substr(0, 16))));
+}
+
+/// What a file is read into: the bytes must live as long as the raster looks into them.
+struct Opened {
+  std::string bytes;
+  Raster raster;
+};
+
+Opened open(const fs::path& path, const ReadOptions& options, ReadReport& report) {
+  Opened out;
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    out.raster = read_dicom_series(path, {}, options, report);
+    return out;
+  }
+  char start[132] = {};
+  std::ifstream in(path, std::ios::binary);
+  in.read(start, sizeof start);
+  if (looks_like_dicom({start, std::size_t(in.gcount())})) {
+    fs::path folder = path.parent_path();
+    if (folder.empty()) folder = ".";
+    out.raster = read_dicom_series(folder, path, options, report);
+    return out;
+  }
+  out.bytes = core::read_file(path, kMostBytes);
+  const FileBeside beside = [&](const std::string& name) {
+    return core::read_file(path.parent_path() / fs::path(name), kMostBytes);
+  };
+  out.raster = read_bytes({out.bytes, path.generic_string(), options, report, beside});
+  return out;
+}
+
+template <class T>
+T straight(T image, ReadReport& report, const ReadOptions& options, const std::string& file) {
+  const double shear = shear_deg(image.grid);
+  if (shear <= kStraight) return image;
+  const Grid onto = straightened(image.grid);
+  if (const auto fault = size_fault({onto.size[0], onto.size[1], onto.size[2]}, 2 * options.most_voxels))
+    refuse(file, *fault);
+  report.notes.push_back(
+      fmt::format("the grid is sheared by {:.3g} degrees: it was resampled onto a straight one", shear));
+  if constexpr (std::is_same_v<T, Volume>)
+    return resampled(image, onto, NAN, part(options.progress, 0.8, 1));
+  else
+    return resampled(image, onto, part(options.progress, 0.8, 1));
+}
+
+VolumeFile volume_of(const Raster& raster, const std::string& file, const ReadOptions& options, ReadReport report) {
+  Volume volume = packed_volume(raster, file, report.notes, part(options.progress, 0.7, 0.8));
+  VolumeFile out{straight(std::move(volume), report, options, file), {}};
+  out.report = std::move(report);
+  return out;
+}
+LabelFile labels_of(const Raster& raster, const std::string& file, const ReadOptions& options, ReadReport report) {
+  Labels labels = packed_labels(raster, file, report.notes, part(options.progress, 0.7, 0.8));
+  LabelFile out{straight(std::move(labels), report, options, file), {}};
+  out.report = std::move(report);
+  return out;
+}
+
+}  // namespace
+
+bool is_plain_name(std::string_view name) {
+  return !name.empty() && name.size() < 256 && name[0] != '.' &&
+         name.find_first_of("/\\:%\0") == std::string_view::npos && name.find('\0') == std::string_view::npos;
+}
+
+int choose_frame(const Source& source, std::int64_t frames, const char* what) {
+  if (frames < 1 || frames > 65536) refuse(source.file, fmt::format("expected 1 to 65536 {}, got {}", what, frames));
+  const int wanted = source.options.frame;
+  source.report.frames = int(frames);
+  source.report.frame = wanted;
+  if (wanted < 0 || wanted >= frames)
+    refuse(source.file, fmt::format("expected one of {} {} (0 to {}), got {}", frames, what, frames - 1, wanted));
+  if (frames > 1) source.report.notes.push_back(fmt::format("{} {}: number {} is read", frames, what, wanted));
+  return wanted;
+}
+
+VolumeFile read_volume(const fs::path& path, const ReadOptions& options) {
+  ReadReport report;
+  const Opened opened = open(path, options, report);
+  return volume_of(opened.raster, path.generic_string(), options, std::move(report));
+}
+LabelFile read_labels(const fs::path& path, const ReadOptions& options) {
+  ReadReport report;
+  const Opened opened = open(path, options, report);
+  return labels_of(opened.raster, path.generic_string(), options, std::move(report));
+}
+VolumeFile read_volume_bytes(std::string_view bytes, const std::string& file, const ReadOptions& options) {
+  ReadReport report;
+  const Raster raster = read_bytes({bytes, file, options, report, {}});
+  return volume_of(raster, file, options, std::move(report));
+}
+LabelFile read_labels_bytes(std::string_view bytes, const std::string& file, const ReadOptions& options) {
+  ReadReport report;
+  const Raster raster = read_bytes({bytes, file, options, report, {}});
+  return labels_of(raster, file, options, std::move(report));
+}
+
+std::vector<SeriesFacts> list_series(const fs::path& folder, const ReadOptions& options) {
+  return dicom_series(folder, options);
+}
+
+}  // namespace trocar::volumes
