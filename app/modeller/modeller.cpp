@@ -190,13 +190,17 @@ void Modeller::picture() {
       m_things = modeller::outline(*m_document);
       m_things_of = m_document->version();
     }
-    draw_views();
-    if (!m_files.is_open() && !m_help && m_question == Question::none && m_adding.empty()) point();
+    if (scan_shown()) {
+      draw_scan();
+    } else {
+      draw_views();
+      if (!m_files.is_open() && !m_help && m_question == Question::none && m_adding.empty()) point();
+      draw_properties();
+      draw_over_views();
+    }
     draw_menu_bar();
     draw_outline();
-    draw_properties();
     draw_status();
-    draw_over_views();
   } else {
     draw_start();
   }
@@ -213,6 +217,9 @@ void Modeller::picture() {
         leave();
       }
       if (wanted == FileFor::save_as) save_as(chosen);
+      if (wanted == FileFor::scan) m_scan.open(chosen), m_scan_shown = true;
+      if (wanted == FileFor::labels) m_scan.take_labels(chosen);
+      if (wanted == FileFor::write_labels) m_scan.write_labels(chosen);
       if (wanted == FileFor::new_scene || wanted == FileFor::new_organ) {
         if (chosen.extension() != ".json") chosen += ".json";
         modeller::Document begun =
@@ -243,7 +250,7 @@ void Modeller::log_widgets() {
   Json places = Json::object();
   for (const ui::Widget& w : widgets) places[w.id] = {w.x, w.y};
   const Area& a = m_views[std::size_t(m_active)].area;
-  m_log.event("screen", {{"name", m_document ? "modeller" : "start"},
+  m_log.event("screen", {{"name", !m_document ? "start" : scan_shown() ? "scan" : "modeller"},
                          {"view", {a.x, a.y, a.width, a.height}},
                          {"selected", m_selected},
                          {"points", points},
@@ -290,7 +297,8 @@ bool Modeller::step(scene::JsonValue step) {
     if (!operation) return false;
     scene::JsonValue parameters = step;
     parameters.members.erase(parameters.members.begin());
-    modeller::apply(*operation, parameters, "here", *m_document);
+    const std::string said = modeller::apply(*operation, parameters, "here", *m_document);
+    if (!said.empty()) tell(said);
     if (m_log.on() && !m_previewed) m_log.event("step", {{"do", operation->parameters.name}});
     return true;
   } catch (const core::BadInput& bad) {

@@ -1,4 +1,5 @@
 // Keys, as editors of shapes have them.
+#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
@@ -12,6 +13,11 @@ namespace trocar::app {
 void Modeller::listen() {
   if (m_window.keys().help) m_help = !m_help;
   for (const std::string& path : m_window.dropped()) {
+    if (m_document && fs::path(path).extension() != ".json") {
+      m_scan.open(path);
+      m_scan_shown = true;
+      continue;
+    }
     m_to_open = path;
     m_after = After::open;
     leave();
@@ -43,6 +49,8 @@ void Modeller::obey_key_of_gesture(int key) {
 }
 
 void Modeller::obey_key(int key, int mods) {
+  if (key == GLFW_KEY_TAB && m_scan.shows()) m_scan_shown = !m_scan_shown;
+  if (m_scan.shows() && scan_shown() && m_scan.obey_key(key, mods)) return;
   const bool control = mods & GLFW_MOD_CONTROL, shift = mods & GLFW_MOD_SHIFT, alt = mods & GLFW_MOD_ALT;
   if (!m_document) return;
   if (control) {
@@ -61,6 +69,7 @@ void Modeller::obey_key(int key, int mods) {
     if (key == GLFW_KEY_Q && !alt) m_after = After::quit, leave();
     return;
   }
+  if (scan_shown()) return;
   if (key == GLFW_KEY_T) toggle_drive();
   if (key == GLFW_KEY_ESCAPE) {
     if (m_help)

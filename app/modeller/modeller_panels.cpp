@@ -107,6 +107,10 @@ void Modeller::draw_menu_bar() {
       if (item(label)) m_adding = operation, m_asked.clear();
     ImGui::EndMenu();
   }
+  if (menu("Scan")) {
+    draw_scan_menu();
+    ImGui::EndMenu();
+  }
   if (menu("View")) {
     if (item("All of it", "F")) frame_selected();
     if (item("From the feet", "1")) look_from(1);

@@ -21,6 +21,7 @@
 #include "modeller/file_panel.hpp"
 #include "modeller/gesture.hpp"
 #include "modeller/modeller.hpp"
+#include "modeller/scan_desk.hpp"
 #include "modeller/viewport.hpp"
 #include "shell/event_log.hpp"
 #include "shell/ui.hpp"
@@ -107,6 +108,12 @@ class Modeller {
   void toggle_drive();
   void drive_on();
 
+  // modeller_scan.cpp
+  bool scan_shown() const { return m_scan_shown && (m_scan.shows() || m_scan.reads()); }
+  void draw_scan();
+  void draw_scan_menu();
+  void make_organ(const std::string& segment);
+
   void log_widgets();
   float text_height() const { return 19 * m_window.scale(); }
 
@@ -148,8 +155,11 @@ class Modeller {
   std::vector<Vec3d> m_measured;  ///< [m] places that were clicked
   bool m_measuring = false;
 
+  ScanDesk m_scan;
+  bool m_scan_shown = false;  ///< else the document
+
   FilePanel m_files;
-  enum class FileFor { none, open, save_as, new_scene, new_organ } m_file_for = FileFor::none;
+  enum class FileFor { none, open, save_as, new_scene, new_organ, scan, labels, write_labels } m_file_for = FileFor::none;
   enum class Question { none, unsaved, recover } m_question = Question::none;
   enum class After { none, quit, open, start } m_after = After::none;
   fs::path m_to_open;

@@ -16,18 +16,33 @@ scene::Anchor middle_of(const std::vector<scene::Section>& sections, double cell
   return anchor;
 }
 
+/// A ball in the middle of a box, as large as its smaller sides allow.
+scene::Anchor middle_of(const geometry::Bounds& box, double cell) {
+  const Vec3d size = box.high - box.low;
+  scene::Anchor anchor;
+  anchor.centre = (box.low + box.high) / 2.0;
+  anchor.radius = 0.35 * std::min({size.x, size.y, size.z}) + 1.5 * cell;
+  return anchor;
+}
+
 void hold_what_nothing_holds(scene::Description& d, std::vector<std::string>& notes) {
   const auto note = [&](const std::string& name) {
     notes.push_back("nothing holds " + name + " yet: it is shown as if its middle were held");
   };
   for (scene::Solid& solid : d.solids)
-    if (solid.anchors.empty() && !solid.sections.empty()) {
-      solid.anchors.push_back(middle_of(solid.sections, solid.cell));
+    if (solid.anchors.empty()) {
+      if (!solid.sections.empty())
+        solid.anchors.push_back(middle_of(solid.sections, solid.cell));
+      else if (solid.shape.any())
+        solid.anchors.push_back(middle_of(scene::size_of(solid.shape).box, solid.cell));
+      else if (solid.tets)
+        solid.anchors.push_back(middle_of(geometry::bounds(solid.tets->mesh.positions), solid.cell));
       note(solid.name);
     }
   for (scene::Pouch& pouch : d.pouches)
-    if (pouch.held.empty() && !pouch.free && !pouch.sections.empty()) {
-      pouch.held.push_back(middle_of(pouch.sections, pouch.spacing));
+    if (pouch.held.empty() && !pouch.free) {
+      pouch.held.push_back(pouch.sections.empty() ? middle_of(scene::size_of(pouch.shape).box, pouch.spacing)
+                                                  : middle_of(pouch.sections, pouch.spacing));
       note(pouch.name);
     }
 }

@@ -11,5 +11,6 @@ std::vector<Operation> transform_operations();  ///< move, rotate, scale, mirror
 std::vector<Operation> point_operations();      ///< of lines, sections, nets: move, insert, remove
 std::vector<Operation> vessel_operations();     ///< trees of vessels
 std::vector<Operation> primitive_operations();  ///< balls, cylinders, tubes
+std::vector<Operation> spline_operations();     ///< NURBS bodies
 
 }  // namespace trocar::modeller

@@ -30,6 +30,9 @@ class Draft {
   const std::string& text(const fs::path& file) const;
   bool has(const fs::path& file) const;
   void put(const fs::path& file, std::string text) { m_texts[file] = std::move(text); }
+  /// Something worth telling about what was done: a fit's residual.
+  void say(std::string sentence) { m_said = std::move(sentence); }
+  const std::string& said() const { return m_said; }
   const Texts& texts() const { return m_texts; }
 
   Thing thing(std::string_view name) const { return thing_named(m_document, name); }
@@ -42,6 +45,7 @@ class Draft {
  private:
   const Document& m_document;
   Texts m_texts;
+  std::string m_said;
 };
 
 struct Operation {
@@ -56,7 +60,7 @@ const std::vector<Operation>& operations();
 const Operation* find_operation(std::string_view name);  ///< null where there is none
 
 /// Does what `parameters` say, as one entry of the history. `file` is named in faults. Nothing has changed where it throws.
-/// @throws core::BadInput
-void apply(const Operation& operation, const scene::JsonValue& parameters, const std::string& file, Document& document);
+/// @return what is worth telling about it; mostly nothing  @throws core::BadInput
+std::string apply(const Operation& operation, const scene::JsonValue& parameters, const std::string& file, Document& document);
 
 }  // namespace trocar::modeller

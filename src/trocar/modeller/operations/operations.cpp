@@ -12,7 +12,7 @@ const std::vector<Operation>& operations() {
   static const std::vector<Operation> all = [] {
     std::vector<Operation> list;
     for (const auto& of_kind : {body_operations, key_operations, transform_operations, point_operations,
-                                vessel_operations, primitive_operations})
+                                vessel_operations, primitive_operations, spline_operations})
       for (Operation& one : of_kind()) list.push_back(std::move(one));
     return list;
   }();
@@ -38,8 +38,8 @@ std::string Operation::title(const scene::JsonObject& o) const {
   return of.empty() ? said : said + " " + of;
 }
 
-void apply(const Operation& operation, const scene::JsonValue& parameters, const std::string& file,
-           Document& document) {
+std::string apply(const Operation& operation, const scene::JsonValue& parameters, const std::string& file,
+                  Document& document) {
   std::vector<core::Fault> faults;
   const scene::JsonObject o(parameters, operation.parameters, file, faults);
   if (!faults.empty()) throw core::BadInput(std::move(faults));
@@ -51,6 +51,7 @@ void apply(const Operation& operation, const scene::JsonValue& parameters, const
   }
   if (!faults.empty()) throw core::BadInput(std::move(faults));
   document.change(operation.title(o), draft.texts());
+  return draft.said();
 }
 
 const std::string& Draft::text(const fs::path& file) const {

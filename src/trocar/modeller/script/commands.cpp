@@ -7,6 +7,7 @@
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/modeller/drive/places.hpp>
 #include <trocar/modeller/operations/values.hpp>
+#include <trocar/modeller/script/command_kinds.hpp>
 #include <trocar/modeller/script/session.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/json/json_text.hpp>
@@ -233,9 +234,16 @@ Command shot() {
 
 }  // namespace
 
+std::vector<Command> session_commands() {
+  return {open(), begin(), save(), undo(), redo(), check(), take(), use(), pull(), let_go(), rest(), stop(), shot()};
+}
+
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all{open(), begin(), save(), undo(),   redo(), check(),
-                                        take(), use(),  pull(),  let_go(), rest(), stop(), shot()};
+  static const std::vector<Command> all = [] {
+    std::vector<Command> list = session_commands();
+    for (Command& command : scan_commands()) list.push_back(std::move(command));
+    return list;
+  }();
   return all;
 }
 

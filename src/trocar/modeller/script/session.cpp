@@ -9,8 +9,21 @@
 namespace trocar::modeller {
 
 Document& Session::document() {
-  if (!m_document) throw core::BadInput({{{"script", 0, 0}, "expected a document, got none: open or begin one first"}});
+  if (!m_document) throw core::BadInput({{{"", 0, 0}, "expected a document, got none: open or begin one first"}});
   return *m_document;
+}
+
+Scan& Session::scan() {
+  if (!m_scan) throw core::BadInput({{{"", 0, 0}, "expected a scan, got none: read one first"}});
+  return *m_scan;
+}
+
+void Session::keep_picture(const std::string& name, const render::Image& image) {
+  std::error_code ignored;
+  fs::create_directories(m_options.shots, ignored);
+  const fs::path file = m_options.shots / fmt::format("{:03}-{}.png", m_pictures.size(), name);
+  render::write_png(file.string(), image);
+  m_pictures.push_back(file.string());
 }
 
 void Session::put(Document document) {
@@ -56,12 +69,7 @@ void Session::shot(const std::string& name, const std::string& thing, const std:
   orbit.pitch = pitch;
   if (distance > 0) orbit.distance = distance;
   const Handles handles = thing.empty() ? Handles{} : handles_of(document(), thing);
-  const render::Image image = scope ? m_easel->through_scope(start) : m_easel->outside(start, orbit, handles);
-  std::error_code ignored;
-  fs::create_directories(m_options.shots, ignored);
-  const fs::path file = m_options.shots / fmt::format("{:03}-{}.png", m_pictures.size(), name);
-  render::write_png(file.string(), image);
-  m_pictures.push_back(file.string());
+  keep_picture(name, scope ? m_easel->through_scope(start) : m_easel->outside(start, orbit, handles));
 }
 
 void run_step(const scene::JsonValue& step, const std::string& file, Session& session) {
@@ -74,8 +82,11 @@ void run_step(const scene::JsonValue& step, const std::string& file, Session& se
   scene::JsonValue parameters = step;
   parameters.members.erase(parameters.members.begin() + (name - step.members.data()));
   try {
-    if (const Operation* operation = find_operation(name->value.text))
-      return apply(*operation, parameters, file, session.document());
+    if (const Operation* operation = find_operation(name->value.text)) {
+      const std::string said = apply(*operation, parameters, file, session.document());
+      if (!said.empty()) session.said().push_back({{"do", name->value.text}, {"said", said}});
+      return;
+    }
     if (const Command* command = find_command(name->value.text)) {
       std::vector<core::Fault> faults;
       const scene::JsonObject o(parameters, command->parameters, file, faults);

@@ -19,6 +19,7 @@
 #include <trocar/modeller/drive/test_drive.hpp>
 #include <trocar/modeller/operations/operation.hpp>
 #include <trocar/modeller/picture/easel.hpp>
+#include <trocar/modeller/scan/scan.hpp>
 
 namespace trocar::modeller {
 
@@ -35,6 +36,9 @@ class Session {
   Document& document();  ///< @throws core::BadInput where none is open
   void put(Document document);
 
+  Scan& scan();  ///< @throws core::BadInput where none was read
+  void put(Scan scan) { m_scan = std::move(scan); }
+
   /// What the document as it is now compiles to; made when it is first asked for.
   const Built& built();
   /// The same where it is good. @throws core::BadInput with its faults
@@ -46,6 +50,8 @@ class Session {
   /// A picture more. @param thing  whose points are shown; empty: none
   void shot(const std::string& name, const std::string& thing, const std::string& of, double yaw, double pitch,
             double distance, bool scope);
+  /// One that somebody else drew.
+  void keep_picture(const std::string& name, const render::Image& image);
   bool draws() const { return !m_options.shots.empty(); }
 
   Json& said() { return m_said; }  ///< what steps have to say, for the result
@@ -54,6 +60,7 @@ class Session {
  private:
   SessionOptions m_options;
   std::optional<Document> m_document;
+  std::optional<Scan> m_scan;
   Built m_built;
   bool m_is_built = false;
   std::unique_ptr<TestDrive> m_drive;

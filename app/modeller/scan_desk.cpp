@@ -1,0 +1,401 @@
+#include "modeller/scan_desk.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <epoxy/gl.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/volumes/files/volume_writer.hpp>
+#include <trocar/volumes/segment/brush.hpp>
+#include <trocar/volumes/segment/islands.hpp>
+#include <trocar/volumes/segment/shape_tools.hpp>
+#include <trocar/volumes/segment/threshold.hpp>
+
+#include "shell/ui.hpp"
+
+namespace trocar::app {
+namespace {
+
+constexpr const char *kPlanes[] = {"axial", "sagittal", "coronal", "block"},
+                     *kLooks[] = {"bone", "skin", "vessels", "soft tissue"};
+constexpr double kBlockTurn = 0.008;  // [rad/px]
+
+}  // namespace
+
+/// A picture in a texture.
+struct ScanDesk::Pane {
+  unsigned texture = 0;
+  volumes::SlicePlane plane;
+  std::uint64_t drawn = ~0ull;
+  int width = 0, height = 0;
+
+  ~Pane() {
+    if (texture != 0) glDeleteTextures(1, &texture);
+  }
+  void take(const volumes::Picture& picture) {
+    if (texture == 0) glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture.width, picture.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 picture.rgba.data());
+    width = picture.width;
+    height = picture.height;
+  }
+};
+
+ScanDesk::ScanDesk() : m_pool(core::default_thread_count()) {
+  for (auto& pane : m_panes) pane = std::make_unique<Pane>();
+}
+
+ScanDesk::~ScanDesk() {
+  m_stop = true;
+  if (m_reading.valid()) m_reading.wait();
+}
+
+void ScanDesk::open(const std::filesystem::path& path) {
+  if (m_reading.valid()) return;
+  m_share = 0;
+  m_stop = false;
+  m_reading = std::async(std::launch::async, [this, path] {
+    volumes::ReadOptions options;
+    options.progress = [this](double share) {
+      m_share = share;
+      return !m_stop;
+    };
+    return std::make_unique<modeller::Scan>(modeller::Scan::open(path, options));
+  });
+}
+
+void ScanDesk::take_what_was_read() {
+  if (!m_reading.valid() || m_reading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  try {
+    std::unique_ptr<modeller::Scan> read = m_reading.get();
+    m_caster.reset();
+    m_scan = std::move(read);
+  } catch (const core::BadInput& bad) {
+    m_message = bad.faults().front().message;
+    return;
+  } catch (const std::exception& failed) {  // cancelled, or a library that is lacking
+    m_message = failed.what();
+    return;
+  }
+  const volumes::Volume& v = m_scan->volume();
+  const geometry::Bounds box = volumes::patient_box(v.grid);
+  m_cross = (box.low + box.high) / 2.0;
+  if (v.unit != "HU") {  // no known unit: the window is where the values are
+    const double low = volumes::quantile(v, 0.02), high = volumes::quantile(v, 0.99);
+    m_centre = (low + high) / 2;
+    m_width = std::max(1.0, high - low);
+    m_from = m_centre;
+    m_to = high;
+  }
+  m_caster = std::make_unique<volumes::VolumeCaster>(v, m_pool);
+  m_caster->set_transfer(v.unit == "HU" ? volumes::transfer_preset(volumes::TransferPreset(m_preset))
+                                        : volumes::grey_ramp(m_centre - m_width / 2, m_centre + m_width / 2));
+  m_orbit.target = volumes::scene_from_patient(m_cross);
+  m_orbit.distance = 1.6e-3 * length(box.high - box.low);
+  m_orbit.yaw = 0.3;
+  m_orbit.pitch = 0.6;
+  m_cast_labels = ~0ull;
+  ++m_look, ++m_block_wanted;
+  m_message = fmt::format("{} x {} x {} voxels of {:.2f} x {:.2f} x {:.2f} mm", v.grid.size[0], v.grid.size[1],
+                          v.grid.size[2], v.grid.spacing.x, v.grid.spacing.y, v.grid.spacing.z);
+  for (const std::string& note : m_scan->report().notes) m_message += "; " + note;
+}
+
+void ScanDesk::take_labels(const std::filesystem::path& path) {
+  try {
+    for (const std::string& note : m_scan->take_labels(path)) m_message = note;
+    if (!m_scan->labels().segments.empty()) m_segment = m_scan->labels().segments.front().name;
+  } catch (const core::BadInput& bad) {
+    m_message = bad.faults().front().message;
+  }
+}
+
+void ScanDesk::write_labels(const std::filesystem::path& path) {
+  try {
+    volumes::write_labels(path, m_scan->labels());
+    m_message = "written: " + path.string();
+  } catch (const core::BadInput& bad) {
+    m_message = bad.faults().front().message;
+  }
+}
+
+void ScanDesk::close() {
+  m_caster.reset();
+  m_scan.reset();
+}
+
+void ScanDesk::undo() { m_message = m_scan->undo() ? "undone" : "there is nothing to undo"; }
+void ScanDesk::redo() { m_message = m_scan->redo() ? "done again" : "there is nothing to do again"; }
+
+std::uint16_t ScanDesk::label() { return m_scan->segment(m_segment); }
+std::string ScanDesk::chosen_segment() const { return m_segment; }
+
+template <class Make>
+void ScanDesk::edit(const char* name, Make&& make) {
+  const std::uint16_t of = label();
+  const double before = volumes::millilitres(m_scan->labels(), of);
+  m_scan->change(name, make(of));
+  m_message = fmt::format("{}: {} {:.2f} mL, was {:.2f}", name, m_segment, volumes::millilitres(m_scan->labels(), of), before);
+}
+
+bool ScanDesk::obey_key(int key, int mods) {
+  if (mods & GLFW_MOD_CONTROL) {
+    if (key == GLFW_KEY_Z) mods & GLFW_MOD_SHIFT ? redo() : undo();
+    return key == GLFW_KEY_Z;
+  }
+  if (key >= GLFW_KEY_1 && key <= GLFW_KEY_6) {
+    m_tool = ScanTool(key - GLFW_KEY_1);
+    ++m_look;
+    return true;
+  }
+  if (key == GLFW_KEY_ESCAPE) m_tool = ScanTool::look, ++m_look;
+  if (key == GLFW_KEY_KP_ADD || key == GLFW_KEY_EQUAL) m_brush = std::min(100.0, 1.25 * m_brush);
+  if (key == GLFW_KEY_KP_SUBTRACT || key == GLFW_KEY_MINUS) m_brush = std::max(0.5, m_brush / 1.25);
+  return key == GLFW_KEY_ESCAPE;
+}
+
+/// What the chosen tool does at a place of a slice.
+void ScanDesk::press(const Vec3d& at, const volumes::SlicePlane& plane, bool fresh) {
+  const volumes::Volume& v = m_scan->volume();
+  const volumes::Labels& labels = m_scan->labels();
+  const volumes::Index3 voxel = v.grid.nearest(at);
+  if (m_tool == ScanTool::look || !v.grid.has(voxel)) {
+    m_cross = at;
+    ++m_look;
+    return;
+  }
+  if (m_tool == ScanTool::paint || m_tool == ScanTool::erase) {
+    const bool erases = m_tool == ScanTool::erase;
+    if (!m_stroke.empty() && length(at - m_stroke.back()) < 0.25 * m_brush) return;
+    std::vector<Vec3d> way{at};
+    if (!fresh && !m_stroke.empty()) way.insert(way.begin(), m_stroke.back());
+    m_stroke.push_back(at);
+    edit(erases ? "erase" : "paint", [&](std::uint16_t of) {
+      volumes::EditRules rules;
+      if (erases) rules.inside = of;
+      volumes::Brush brush;
+      brush.radius_mm = m_brush;
+      brush.normal = plane.normal();
+      if (ImGui::GetIO().KeyShift) brush.normal.reset();  // a ball
+      return volumes::painted(v, labels, way, brush, erases ? std::uint16_t(0) : of, rules);
+    });
+    return;
+  }
+  if (!fresh) return;
+  if (m_tool == ScanTool::grow)
+    edit("grow", [&](std::uint16_t of) {
+      return volumes::grown(v, labels, std::span(&voxel, 1), {m_from, m_to}, of);
+    });
+  if (m_tool == ScanTool::islands)
+    edit("keep this island", [&](std::uint16_t of) { return volumes::chosen_kept(v, labels, of, voxel); });
+  if (m_tool == ScanTool::threshold) {  // the value there is in the middle
+    const double value = v.value(voxel), half = (m_to - m_from) / 2;
+    m_from = value - half;
+    m_to = value + half;
+    ++m_look;
+  }
+}
+
+void ScanDesk::draw_slice(Pane& pane, const Area& area, int which) {
+  const volumes::Grid& grid = m_scan->volume().grid;
+  const std::uint64_t wanted = m_look * 1000003 + m_scan->version();
+  if (pane.drawn != wanted) {
+    pane.plane = which == 0   ? volumes::axial(grid, m_cross)
+                 : which == 1 ? volumes::sagittal(grid, m_cross)
+                              : volumes::coronal(grid, m_cross);
+    volumes::SliceLook look;
+    look.centre = m_centre;
+    look.width = m_width;
+    volumes::Picture picture =
+        volumes::slice_image(m_scan->volume(), m_labels_shown ? &m_scan->labels() : nullptr, pane.plane, look);
+    if (m_tool == ScanTool::threshold)  // what Apply would take
+      for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x) {
+          const double value = m_scan->volume().at(grid.to_index(pane.plane.at(x, y)));
+          std::uint8_t* p = picture.rgba.data() + 4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x));
+          if (value >= m_from && value <= m_to) p[0] = std::uint8_t((p[0] + 255) / 2), p[1] = std::uint8_t((p[1] + 160) / 2);
+        }
+    pane.take(picture);
+    pane.drawn = wanted;
+  }
+  // the whole slice in its pane, pixels square
+  const float scale = std::min(area.width / float(pane.width), area.height / float(pane.height));
+  const float w = scale * float(pane.width), h = scale * float(pane.height);
+  const float x0 = area.x + (area.width - w) / 2, y0 = area.y + (area.height - h) / 2;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, IM_COL32(0, 0, 0, 255));
+  list.AddImage(ImTextureID(std::intptr_t(pane.texture)), {x0, y0}, {x0 + w, y0 + h});
+  const Vec3d off = m_cross - pane.plane.corner;
+  const float cx = x0 + scale * float(dot(off, pane.plane.right) / dot(pane.plane.right, pane.plane.right));
+  const float cy = y0 + scale * float(dot(off, pane.plane.down) / dot(pane.plane.down, pane.plane.down));
+  list.AddLine({x0, cy}, {x0 + w, cy}, IM_COL32(107, 191, 242, 120));
+  list.AddLine({cx, y0}, {cx, y0 + h}, IM_COL32(107, 191, 242, 120));
+  list.AddText({area.x + 8, area.y + 6}, IM_COL32(210, 214, 220, 255), kPlanes[which]);
+  list.AddRect({area.x, area.y}, {area.x + area.width, area.y + area.height}, IM_COL32(60, 64, 70, 255));
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.WantCaptureMouse || !area.holds(io.MousePos.x, io.MousePos.y)) return;
+  const Vec3d at = pane.plane.at((io.MousePos.x - x0) / scale, (io.MousePos.y - y0) / scale);
+  if (m_tool == ScanTool::paint || m_tool == ScanTool::erase)
+    list.AddCircle(io.MousePos, float(m_brush / length(pane.plane.right)) * scale, IM_COL32(242, 168, 26, 255), 48, 1.4f);
+  if (io.MouseWheel != 0) {
+    if (io.KeyShift)
+      m_brush = std::clamp(m_brush * std::exp(0.15 * io.MouseWheel), 0.5, 100.0);
+    else
+      m_cross += pane.plane.normal() * (io.MouseWheel * (which == 0 ? grid.spacing.z : grid.spacing.x)), ++m_look;
+  }
+  if (io.MouseDown[1]) {  // window and level, as everywhere
+    m_width = std::clamp(m_width * std::exp(0.005 * io.MouseDelta.x), 1.0, 100000.0);
+    m_centre -= 0.002 * m_width * io.MouseDelta.y;
+    ++m_look;
+  }
+  if (io.MouseClicked[0]) m_stroke.clear();
+  if (io.MouseDown[0]) press(at, pane.plane, io.MouseClicked[0]);
+}
+
+void ScanDesk::draw_block(const Area& area) {
+  Pane& pane = *m_panes[3];
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool over = !io.WantCaptureMouse && area.holds(io.MousePos.x, io.MousePos.y);
+  if (over && (io.MouseDown[0] || io.MouseDown[1]) && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
+    m_orbit.turn(-io.MouseDelta.x * kBlockTurn, io.MouseDelta.y * kBlockTurn);
+    ++m_block_wanted;
+  }
+  if (over && io.MouseWheel != 0) m_orbit.zoom(std::exp(-0.12 * io.MouseWheel)), ++m_block_wanted;
+  const bool painting = io.MouseDown[0] && !over;
+  if (m_cast_labels != m_scan->version() && !painting) {
+    m_caster->set_labels(m_labels_shown ? &m_scan->labels() : nullptr);
+    m_cast_labels = m_scan->version();
+    ++m_block_wanted;
+  }
+  const bool moves = m_block_drawn != m_block_wanted;
+  if (moves || !m_block_full) {
+    volumes::View view;
+    view.eye = m_orbit.eye();
+    view.target = m_orbit.target;
+    view.up = {0, 0, 1};
+    view.width = std::max(16, int(area.width));
+    view.height = std::max(16, int(area.height));
+    const volumes::Rendered r = m_caster->render(view, moves ? m_governor.quality() : volumes::Quality{});
+    if (moves) m_governor.took(r.milliseconds);
+    m_block_ms = r.milliseconds;
+    m_block_full = !moves;
+    m_block_drawn = m_block_wanted;
+    pane.take(r.picture);
+  }
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, IM_COL32(18, 20, 24, 255));
+  list.AddImage(ImTextureID(std::intptr_t(pane.texture)), {area.x, area.y}, {area.x + area.width, area.y + area.height});
+  list.AddText({area.x + 8, area.y + 6}, IM_COL32(210, 214, 220, 255), fmt::format("block, {:.0f} ms", m_block_ms).c_str());
+  list.AddRect({area.x, area.y}, {area.x + area.width, area.y + area.height}, IM_COL32(60, 64, 70, 255));
+}
+
+void ScanDesk::tool_button(const char* text, ScanTool tool) {
+  if (ui::button(text, {.width = 100, .primary = m_tool == tool})) m_tool = tool, ++m_look;
+}
+
+void ScanDesk::draw_panel(const Area& panel) {
+  ImGui::SetNextWindowPos({panel.x, panel.y});
+  ImGui::SetNextWindowSize({panel.width, panel.height});
+  ImGui::Begin("scan", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  const volumes::Volume& v = m_scan->volume();
+  ui::title("Scan");
+  ui::text(m_scan->path().filename().string(), ui::kGrey);
+  const volumes::Index3 voxel = v.grid.nearest(m_cross);
+  if (v.grid.has(voxel)) ui::text(fmt::format("at the cross: {:.0f} {}", v.value(voxel), v.unit));
+  bool changed = ui::slider("window centre", m_centre, -1000, 3000, "%.0f", false);
+  changed = ui::slider("window width", m_width, 1, 4000, "%.0f", true) || changed;
+  if (changed) ++m_look;
+  if (ImGui::BeginCombo("block", kLooks[m_preset])) {
+    for (int i = 0; i < 4; ++i)
+      if (ImGui::Selectable(kLooks[i], i == m_preset)) {
+        m_preset = i;
+        m_caster->set_transfer(volumes::transfer_preset(volumes::TransferPreset(i)));
+        ++m_block_wanted;
+      }
+    ImGui::EndCombo();
+  }
+  if (ui::checkbox("segments shown", m_labels_shown)) ++m_look, m_cast_labels = ~0ull;
+  ui::heading("segments");
+  for (const volumes::Segment& s : m_scan->labels().segments) {
+    ImGui::ColorButton(("##colour" + s.name).c_str(), ImVec4(s.colour[0], s.colour[1], s.colour[2], 1),
+                       ImGuiColorEditFlags_NoTooltip, {14, 14});
+    ImGui::SameLine();
+    if (ImGui::Selectable(fmt::format("{}  {:.1f} mL##{}", s.name, volumes::millilitres(m_scan->labels(), s.label), s.label).c_str(),
+                          s.name == m_segment))
+      m_segment = s.name;
+    ui::note_widget("segment " + s.name);
+  }
+  char name[64];
+  std::snprintf(name, sizeof name, "%s", m_segment.c_str());
+  if (ImGui::InputText("segment", name, sizeof name)) m_segment = name;
+  ui::note_widget("segment name");
+  ui::heading("tools");
+  tool_button("1 Look", ScanTool::look);
+  ImGui::SameLine();
+  tool_button("2 Paint", ScanTool::paint);
+  ImGui::SameLine();
+  tool_button("3 Erase", ScanTool::erase);
+  tool_button("4 Threshold", ScanTool::threshold);
+  ImGui::SameLine();
+  tool_button("5 Grow", ScanTool::grow);
+  ImGui::SameLine();
+  tool_button("6 Island", ScanTool::islands);
+  ui::slider("brush mm", m_brush, 0.5, 60, "%.1f", true);
+  if (m_tool == ScanTool::threshold || m_tool == ScanTool::grow) {
+    bool range = ui::slider("from", m_from, -1024, 3071, "%.0f", false);
+    range = ui::slider("to", m_to, -1024, 3071, "%.0f", false) || range;
+    if (range) ++m_look;
+  }
+  const volumes::Labels& labels = m_scan->labels();
+  if (m_tool == ScanTool::threshold && ui::button("Apply", {.width = 120, .primary = true}))
+    edit("threshold", [&](std::uint16_t of) { return volumes::thresholded(v, labels, {m_from, m_to}, of); });
+  ui::heading("the segment as a whole");
+  if (ui::button("Largest part", {.width = 150}))
+    edit("largest part", [&](std::uint16_t of) { return volumes::largest_kept(v, labels, of); });
+  ImGui::SameLine();
+  if (ui::button("Fill holes", {.width = 150}))
+    edit("fill holes", [&](std::uint16_t of) { return volumes::holes_filled(v, labels, of); });
+  if (ui::button("Smooth", {.width = 150}))
+    edit("smooth", [&](std::uint16_t of) {
+      return volumes::smoothed(v, labels, of, 3, volumes::Smoothing::keeps_volume).change;
+    });
+  ImGui::SameLine();
+  if (ui::button("Between slices", {.width = 150}))
+    edit("between slices", [&](std::uint16_t of) { return volumes::filled_between_slices(v, labels, of, 2); });
+  ui::slider("margin mm", m_margin, 0.5, 20, "%.1f", true);
+  if (ui::button("Grow by that", {.width = 150}))
+    edit("margin", [&](std::uint16_t of) { return volumes::margin_moved(v, labels, of, m_margin); });
+  ImGui::SameLine();
+  if (ui::button("Shrink by that", {.width = 150}))
+    edit("margin", [&](std::uint16_t of) { return volumes::margin_moved(v, labels, of, -m_margin); });
+  ui::heading("then");
+  if (ui::button("Make an organ of it", {.width = 220, .primary = true})) m_wanted_organ = m_segment;
+  ImGui::End();
+}
+
+void ScanDesk::draw(const Area& middle, const Area& panel) {
+  take_what_was_read();
+  if (!m_scan) return;
+  const float w = std::floor(middle.width / 2), h = std::floor(middle.height / 2);
+  for (int i = 0; i < 3; ++i)
+    draw_slice(*m_panes[std::size_t(i)], {middle.x + (i == 1 ? w : 0), middle.y + (i == 2 ? h : 0), w, h}, i);
+  draw_block({middle.x + w, middle.y + h, w, h});
+  draw_panel(panel);
+}
+
+}  // namespace trocar::app

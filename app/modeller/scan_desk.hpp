@@ -1,0 +1,94 @@
+// A patient's scan in the window: three slices that move with a cross, the block, and tools that draw segments into it.
+//
+//   ScanDesk desk;
+//   desk.open("patient/series");                     // reads beside the window
+//   if (desk.shows()) desk.draw(area, panel);        // instead of the document's views and properties
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <trocar/core/parallel.hpp>
+#include <trocar/modeller/scan/scan.hpp>
+#include <trocar/view/base/cameras.hpp>
+#include <trocar/volumes/show/caster.hpp>
+#include <trocar/volumes/show/slice_image.hpp>
+
+#include "shell/area.hpp"
+
+namespace trocar::app {
+
+/// What a press in a slice does.
+enum class ScanTool { look, paint, erase, threshold, grow, islands };
+
+class ScanDesk {
+ public:
+  ScanDesk();
+  ~ScanDesk();
+  ScanDesk(const ScanDesk&) = delete;
+  ScanDesk& operator=(const ScanDesk&) = delete;
+
+  /// Begins to read; what was there stays until it is there.
+  void open(const std::filesystem::path& path);
+  void take_labels(const std::filesystem::path& path);
+  void write_labels(const std::filesystem::path& path);
+  void close();
+  bool reads() const { return m_reading.valid(); }
+  bool shows() const { return m_scan != nullptr; }
+
+  /// Slices and block into `middle`, tools into `panel`; takes what has been read.
+  void draw(const Area& middle, const Area& panel);
+  /// Keys of segment editors: digits choose tools, + and - the brush. False: the key means nothing here.
+  bool obey_key(int key, int mods);
+  void undo();
+  void redo();
+
+  modeller::Scan& scan() { return *m_scan; }
+  /// A line about what has happened, once.
+  std::string take_message() { return std::exchange(m_message, {}); }
+  /// A segment that is to become an organ; empty: none.
+  std::string take_wanted_organ() { return std::exchange(m_wanted_organ, {}); }
+  std::string chosen_segment() const;
+
+ private:
+  struct Pane;
+  void take_what_was_read();
+  void draw_slice(Pane& pane, const Area& area, int which);
+  void draw_block(const Area& area);
+  void draw_panel(const Area& panel);
+  void press(const Vec3d& at, const volumes::SlicePlane& plane, bool fresh);
+  void tool_button(const char* label, ScanTool tool);
+  template <class Make>
+  void edit(const char* name, Make&& make);
+  std::uint16_t label();
+
+  std::unique_ptr<modeller::Scan> m_scan;
+  std::future<std::unique_ptr<modeller::Scan>> m_reading;
+  std::atomic<double> m_share{0};
+  std::atomic<bool> m_stop{false};
+  std::string m_message, m_wanted_organ, m_segment = "organ";
+  std::array<std::unique_ptr<Pane>, 4> m_panes;
+  Vec3d m_cross;  ///< [mm, L P S]
+  double m_centre = 40, m_width = 400, m_from = 0, m_to = 200, m_brush = 8, m_margin = 2;
+  ScanTool m_tool = ScanTool::look;
+  std::vector<Vec3d> m_stroke;  ///< [mm, L P S] painted with the button that is held
+  std::uint64_t m_look = 0;     ///< another number: slices look otherwise
+
+  core::ThreadPool m_pool;
+  std::unique_ptr<volumes::VolumeCaster> m_caster;
+  std::uint64_t m_cast_labels = ~0ull;
+  view::Orbit m_orbit;
+  int m_preset = 3;
+  bool m_labels_shown = true, m_turning = false;
+  std::uint64_t m_block_wanted = 1, m_block_drawn = 0;
+  bool m_block_full = false;
+  volumes::QualityGovernor m_governor{60};
+  double m_block_ms = 0;
+};
+
+}  // namespace trocar::app
