@@ -36,7 +36,7 @@ void hold_what_nothing_holds(scene::Description& d, std::vector<std::string>& no
       else if (solid.shape.any())
         solid.anchors.push_back(middle_of(scene::size_of(solid.shape).box, solid.cell));
       else if (solid.tets)
-        solid.anchors.push_back(middle_of(geometry::bounds(solid.tets->mesh.positions), solid.cell));
+        solid.anchors.push_back(middle_of(geometry::bounds(solid.tets->mesh.points), solid.cell));
       note(solid.name);
     }
   for (scene::Pouch& pouch : d.pouches)
