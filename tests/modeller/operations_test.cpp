@@ -1,6 +1,9 @@
 // What operations do to shapes.
 #include <cmath>
 
+#include <trocar/geometry/nurbs/surface.hpp>
+#include <trocar/geometry/surface_files/surface_writer.hpp>
+#include <trocar/geometry/surfaces/loft.hpp>
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/modeller/drive/built.hpp>
 #include <trocar/modeller/operations/points.hpp>
@@ -101,6 +104,65 @@ TEST(Operations, ASectionPutBetweenTwoOthersLiesBetweenThem) {
   EXPECT_NEAR(volume_of(document, "ball") / v, 1, 0.05);
   apply(document, "remove_point", R"({"of": "ball", "key": "sections", "item": 2})");
   EXPECT_NEAR(volume_of(document, "ball") / v, 1, 1e-9);
+}
+
+/// The NURBS of a solid as the document describes it now.
+geometry::nurbs::Surface spline_of(const Document& document, const std::string& name) {
+  std::vector<core::Fault> faults;
+  const auto d = document.description(faults);
+  for (const scene::Solid& solid : d->solids)
+    if (solid.name == name && solid.shape.nurbs) return scene::surface_of(*solid.shape.nurbs);
+  ADD_FAILURE() << name << " is no NURBS";
+  return {};
+}
+
+double farthest_apart(const geometry::nurbs::Surface& a, const geometry::nurbs::Surface& b) {
+  double most = 0;
+  for (int i = 0; i <= 20; ++i)
+    for (int j = 0; j <= 20; ++j)
+      most = std::max(most, length(point(a, i / 20.0, j / 20.0) - point(b, i / 20.0, j / 20.0)));
+  return most;
+}
+
+TEST(Splines, ALoftBecomesANurbsOfTheSameShapeAndKeepsItUnderKnotsAndHigherDegrees) {
+  const Workplace place;
+  Document document = with_ball(place);
+  const double v = volume_of(document, "ball");
+  apply(document, "to_spline", R"({"of": "ball"})");
+  EXPECT_NEAR(volume_of(document, "ball") / v, 1, 1e-3);
+  const geometry::nurbs::Surface first = spline_of(document, "ball");
+  apply(document, "insert_knot", R"({"of": "ball", "way": "along", "at": 0.41})");
+  apply(document, "insert_knot", R"({"of": "ball", "way": "around", "at": 0.13})");
+  EXPECT_EQ(spline_of(document, "ball").points.size(),
+            (first.u.points() + 1u) * (first.v.points() + 1u));
+  EXPECT_LT(farthest_apart(spline_of(document, "ball"), first), 1e-9);
+  apply(document, "remove_knot", R"({"of": "ball", "way": "along", "at": 0.41, "tolerance_mm": 0.001})");
+  EXPECT_LT(farthest_apart(spline_of(document, "ball"), first), 2e-6);
+  apply(document, "raise_degree", R"({"of": "ball", "way": "along"})");
+  EXPECT_LT(farthest_apart(spline_of(document, "ball"), first), 2e-6);
+  EXPECT_TRUE(build(document).good());
+}
+
+TEST(Splines, AMeshFromAFileBecomesASplineBodyAndItsResidualIsTold) {
+  const Workplace place;
+  Document document = with_ball(place, "[20, 30, 18]");
+  std::vector<geometry::Section> sections;
+  std::vector<core::Fault> faults;
+  for (const scene::Section& s : document.description(faults)->solids[0].sections)
+    sections.push_back({s.centre, s.across, s.deep, s.squareness});
+  const std::string stl = geometry::to_stl(geometry::tessellate(geometry::loft(sections), 0.003), 1e-3);
+  std::ofstream(place / "mesh.stl", std::ios::binary) << stl;
+  const std::string said = modeller::apply(
+      *find_operation("fit_spline"),
+      json(R"({"file": "mesh.stl", "name": "fitted", "tissue": "uterus", "cell_mm": 5, "around": 12, "along": 14})"), "step",
+      document);
+  EXPECT_NE(said.find("mm rms"), std::string::npos) << said;
+  EXPECT_NEAR(volume_of(document, "fitted") / volume_of(document, "ball"), 1, 0.02) << said;
+  EXPECT_NE(fault_of(document, "fit_spline",
+                     R"({"file": "mesh.stl", "name": "other", "tissue": "uterus", "cell_mm": 5, "around": 4, "along": 5,
+                         "most_mm": 0.001})")
+                .find("a fit within"),
+            std::string::npos);
 }
 
 TEST(Operations, RadiiOfADrawnTreeFollowMurraysLawAndItsFlowStays) {

@@ -26,11 +26,26 @@ void tell_loss(const Solid& solid, double kept, CompileReport* report) {
     report->doubts.push_back({solid.at, fmt::format("'{}' has thin parts: {}, smaller ones more", solid.name, words)});
 }
 
+/// Cells end in chords of a curved surface and lose what is beyond them: their outer nodes go outwards by as much as
+/// gives the volume back, where that is far less than a cell. What is lost in thin parts stays lost.
+void give_volume_back(geometry::TetMesh& cells, double volume, double cell) {
+  constexpr double kMost = 0.05;  // of a cell
+  const geometry::TetSurface surface = geometry::surface_of(cells);
+  const double lacking = volume - geometry::volume(cells), area = geometry::area(surface.mesh);
+  const double outwards = std::clamp(lacking / area, -kMost * cell, kMost * cell);
+  const std::vector<Vec3d> normals = geometry::vertex_normals(surface.mesh);
+  for (std::size_t i = 0; i < surface.node.size(); ++i)
+    cells.points[std::size_t(surface.node[i])] += outwards * normals[i];
+}
+
 geometry::TetMesh cells_of(const Solid& solid, CompileReport* report) {
   if (solid.tets) return solid.tets->mesh;
   const geometry::TriMesh shape = surface_of_body(solid).as_given(kSplineEdge * solid.cell);
   geometry::TetMesh cells = geometry::stuffed(shape, solid.cell, {.largest_part = true});
-  if (solid.shape.any()) tell_loss(solid, geometry::volume(cells) / geometry::volume(shape), report);
+  if (solid.shape.any()) {
+    tell_loss(solid, geometry::volume(cells) / geometry::volume(shape), report);
+    give_volume_back(cells, geometry::volume(shape), solid.cell);
+  }
   return cells;
 }
 

@@ -1,0 +1,116 @@
+// A patient's scan: read, measured, segmented, and organs made of it that can be grasped and cut.
+#include <cmath>
+
+#include <trocar/modeller/scan/segment_organ.hpp>
+#include <trocar/modeller/script/session.hpp>
+#include <trocar/volumes/files/volume_writer.hpp>
+#include <trocar/volumes/segment/threshold.hpp>
+
+#include "workplace.hpp"
+
+namespace trocar::modeller {
+namespace {
+
+/// A box of water with a ball of contrast agent in it, written as NRRD.
+fs::path phantom(const Workplace& place, double radius_mm) {
+  volumes::Volume v;
+  v.grid.size = {48, 44, 40};
+  v.grid.spacing = {1.5, 1.5, 2};
+  v.grid.origin = {-36, 100, -60};
+  v.stored.assign(v.grid.count(), 0);
+  const Vec3d middle = v.grid.to_patient({24, 22, 20});
+  for (std::size_t i = 0; i < v.grid.count(); ++i) {
+    const volumes::Index3 at = v.grid.place(i);
+    const Vec3d p = v.grid.to_patient({double(at[0]), double(at[1]), double(at[2])});
+    v.stored[i] = length(p - middle) < radius_mm ? 200 : 0;
+  }
+  volumes::write_volume(place / "phantom.nrrd", v);
+  return place / "phantom.nrrd";
+}
+
+TEST(Scan, ChangesOfSegmentsAreUndoneAtTheCostOfWhatWasChanged) {
+  const Workplace place;
+  Scan scan = Scan::open(phantom(place, 20));
+  const std::uint16_t ball = scan.segment("ball");
+  scan.change("threshold", volumes::thresholded(scan.volume(), scan.labels(), {100, 300}, ball));
+  const double ml = volumes::millilitres(scan.labels(), ball);
+  EXPECT_NEAR(ml, 4.0 / 3 * M_PI * 8, 0.4);
+  EXPECT_LT(scan.history_bytes(), scan.labels().at.size());  // a byte a voxel would be a copy of half of it
+  EXPECT_TRUE(scan.undo());
+  EXPECT_EQ(volumes::millilitres(scan.labels(), ball), 0);
+  EXPECT_TRUE(scan.redo());
+  EXPECT_EQ(volumes::millilitres(scan.labels(), ball), ml);
+}
+
+TEST(Scan, AnOrganOfASegmentHasItsVolumeIsGraspedAndIsCut) {
+  const Workplace place;
+  const fs::path file = phantom(place, 24);
+  Session session;
+  const auto step = [&](const std::string& text) { run_step(json(text), "script", session); };
+  step("{\"do\": \"scan\", \"file\": \"" + file.generic_string() + "\"}");
+  step(R"({"do": "threshold", "segment": "ball", "from": 100, "to": 300})");
+  step("{\"do\": \"new\", \"file\": \"" + (place / "scene.json").generic_string() + "\"}");
+  step(R"({"do": "organ_from", "segment": "ball", "name": "ball", "tissue": "liver", "cuttable": true, "cell_mm": 7,
+           "centre_mm": [0, -150, -115]})");
+  step(R"({"do": "hold", "of": "ball", "centre_mm": [0, -150, -128], "radius_mm": 14})");
+  step(R"({"do": "check", "seconds": 0.3})");
+  const Json& bodies = session.said().back()["check"];
+  EXPECT_NEAR(bodies[0]["volume_mL"].get<double>() / session.said()[2]["mL_of_segment"].get<double>(), 1, 0.02);
+  EXPECT_LE(bodies[0]["substeps"].get<int>(), 12);
+  step(R"({"do": "take", "at_mm": [4, -140, -93], "of": "ball"})");
+  step(R"({"do": "pull", "by_mm": [0, 0, 6]})");
+  EXPECT_GT(session.said().back()["pull_N"].get<double>(), 0.1);
+  step(R"({"do": "let_go"})");
+  const sim::State before = session.drive().state();
+  step(R"({"do": "use", "instrument": "scissors", "at_mm": [-8, -142, -95]})");
+  EXPECT_NE(session.drive().state().cuttables[0].version, before.cuttables[0].version);
+}
+
+TEST(Scan, ASegmentOfTwoPartsThatTouchByACornerOrNothingIsToldOrMended) {
+  const Workplace place;
+  Scan scan = Scan::open(phantom(place, 20));
+  Document document = Document::fresh(place / "scene.json", "{\"format\": 1, \"name\": \"x\", \"solids\": []}\n");
+  EXPECT_THROW(make_organ(document, scan, {"nothing", "a", "liver", "", 0, false, std::nullopt}), core::BadInput);
+  EXPECT_EQ(document.version(), 0u);
+}
+
+fs::path shared_scans() {
+  const fs::path folder = "../shared/data/volumes/totalsegmentator";
+  return fs::exists(folder) ? folder : fs::path();
+}
+
+/// The patient of ../shared/data: two organs of its label map, compiled, grasped, cut.
+TEST(Scan, ALiverAndASpleenComeOutOfACT) {
+  const fs::path folder = shared_scans();
+  if (folder.empty()) GTEST_SKIP() << "no ../shared/data here";
+  const Workplace place;
+  Session session;
+  const auto step = [&](const std::string& text) { run_step(json(text), "script", session); };
+  step("{\"do\": \"scan\", \"file\": \"" + (folder / "example_ct_dicom_raw").generic_string() + "\"}");
+  EXPECT_EQ(session.said().back()["spacing_mm"][2].get<double>(), 2);
+  step("{\"do\": \"labels\", \"file\": \"" + (folder / "example_seg_dicom.nii.gz").generic_string() + "\"}");
+  step(R"({"do": "name_segment", "segment": "5", "to": "liver"})");
+  step(R"({"do": "name_segment", "segment": "1", "to": "spleen"})");
+  step(R"({"do": "measure", "segment": "liver", "mean_from": 88.8, "mean_to": 89.8})");
+  step(R"({"do": "measure", "segment": "spleen", "mean_from": 79.1, "mean_to": 80.1})");
+  step("{\"do\": \"new\", \"file\": \"" + (place / "scene.json").generic_string() + "\"}");
+  for (const char* organ : {"liver", "spleen"}) {
+    step(std::string("{\"do\": \"islands\", \"segment\": \"") + organ + "\"}");
+    step(std::string("{\"do\": \"organ_from\", \"segment\": \"") + organ + "\", \"name\": \"" + organ +
+         "\", \"tissue\": \"liver\", \"cuttable\": true, \"centre_mm\": [" +
+         (organ[0] == 'l' ? "-40" : "75") + ", -160, -120]}");
+    const Json& made = session.said().back();
+    EXPECT_NEAR(made["mL"].get<double>() / made["mL_of_segment"].get<double>(), 1, 0.02) << organ;
+  }
+  step(R"({"do": "check", "seconds": 0})");
+  const double wanted[] = {session.said()[6]["mL"].get<double>(), session.said()[8]["mL"].get<double>()};
+  int number = 0;
+  for (const Json& body : session.said().back()["check"]) {
+    EXPECT_NEAR(body["volume_mL"].get<double>() / wanted[number++], 1, 0.02) << body["name"];
+    EXPECT_LE(body["substeps"].get<int>(), 12) << body["name"];
+    EXPECT_GT(body["volume_mL"].get<double>(), 10) << body["name"];
+  }
+}
+
+}  // namespace
+}  // namespace trocar::modeller
