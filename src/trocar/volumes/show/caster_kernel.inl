@@ -148,8 +148,9 @@ inline F way_out(V p, V d, V inverse, I cx, I cy, I cz, I empty) {
 
 /// A number 0 .. 1 for a pixel: rays that all begin at the same depth show rings.
 inline F scatter(I x, I y) {
-  I h = x * all(0x2545F491) + y * all(0x5bd1e995);
-  h = h * all(0x27d4eb2d);
+  I h = x * all(0x2545F491) + y * all(0x5bd1e995) + all(0x1b873593);
+  for (int round = 0; round < 3; ++round)
+    h = h * h + h * all(0x27d4eb2d) + bits_of(h, 15, 0x1ffff);  // squares leave no pattern
   return real(bits_of(h, 8, 0xffff)) * all(1.0f / 65536.0f);
 }
 
