@@ -93,7 +93,10 @@ void ScanDesk::take_what_was_read() {
   const volumes::Volume& v = m_scan->volume();
   const geometry::Bounds box = volumes::patient_box(v.grid);
   m_cross = (box.low + box.high) / 2.0;
-  if (v.unit != "HU") {  // no known unit: the window is where the values are
+  // CT where nobody says the unit, as in NIfTI: only Hounsfield's scale has air at -1000
+  const volumes::Statistics values = volumes::statistics(v);
+  const bool is_ct = v.unit == "HU" || (values.least <= -900 && values.greatest < 5000);
+  if (!is_ct) {  // no known unit: the window is where the values are
     const double low = volumes::quantile(v, 0.02), high = volumes::quantile(v, 0.99);
     m_centre = (low + high) / 2;
     m_width = std::max(1.0, high - low);
@@ -101,8 +104,8 @@ void ScanDesk::take_what_was_read() {
     m_to = high;
   }
   m_caster = std::make_unique<volumes::VolumeCaster>(v, m_pool);
-  m_caster->set_transfer(v.unit == "HU" ? volumes::transfer_preset(volumes::TransferPreset(m_preset))
-                                        : volumes::grey_ramp(m_centre - m_width / 2, m_centre + m_width / 2));
+  m_caster->set_transfer(is_ct ? volumes::transfer_preset(volumes::TransferPreset(m_preset))
+                                : volumes::grey_ramp(m_centre - m_width / 2, m_centre + m_width / 2));
   m_orbit.target = volumes::scene_from_patient(m_cross);
   m_orbit.distance = 1.6e-3 * length(box.high - box.low);
   m_orbit.yaw = 0.3;

@@ -7,9 +7,11 @@
 
 #include <trocar/core/random.hpp>
 #include <trocar/geometry/repair/examine.hpp>
+#include <trocar/geometry/tets/stuffing.hpp>
 #include <trocar/volumes/files/volume_file.hpp>
 #include <trocar/volumes/organ/centre_line.hpp>
 #include <trocar/volumes/organ/label_surface.hpp>
+#include <trocar/volumes/organ/label_voxels.hpp>
 #include <trocar/volumes/organ/well_composed.hpp>
 
 #include "made_volumes.hpp"
@@ -101,6 +103,16 @@ TEST(LabelSurface, WhatTheGridCutsIsClosedAndFewerTrianglesAreABodyToo) {
   EXPECT_LE(s.mesh.triangles.size(), 800u);
   EXPECT_NEAR(s.ml, s.ml_of_label, 0.02 * s.ml_of_label);
   EXPECT_THROW(label_surface(labels, 2), std::invalid_argument);
+}
+
+TEST(LabelVoxels, CellsOfALabelLieWhereItsSurfaceDoes) {
+  Labels labels = empty_labels({50, 50, 30}, {1, 1, 2});
+  put_label(labels, 4, ball({5, -3, 6}, 15));
+  const geometry::TetMesh cells = geometry::stuffed(label_voxels(labels, 4), 1, 0.004);
+  const geometry::TriMesh skin = geometry::surface_of(cells).mesh;
+  EXPECT_LT(length(geometry::centre_of_volume(skin) - scene_from_patient({5, -3, 6})), 3e-4);
+  EXPECT_NEAR(1e6 * geometry::volume(skin), millilitres(labels, 4), 0.05 * millilitres(labels, 4));
+  EXPECT_THROW(label_voxels(labels, 5), std::invalid_argument);
 }
 
 TEST(LabelSurface, OrgansOfAPatientAreBodiesOfTheirVolume) {

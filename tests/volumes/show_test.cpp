@@ -236,7 +236,7 @@ TEST(QualityGovernorTest, PicturesComeWithinTheirTime) {
   };
   for (int i = 0; i < 30; ++i) governor.took(took());
   EXPECT_LT(took(), 50);
-  cost = 35;
+  cost = 18;
   for (int i = 0; i < 40; ++i) governor.took(took());
   EXPECT_EQ(governor.quality().shrink, 1);
   EXPECT_TRUE(governor.quality().fine_gradient);

@@ -217,7 +217,7 @@ std::size_t choose_series(const Found& found, const fs::path& file, const std::s
   if (file.empty()) return 0;
   for (std::size_t s = 0; s < found.series.size(); ++s)
     for (const DicomHeader& h : found.series[s])
-      if (fs::path(h.path).filename() == file.filename()) return s;
+      if (fs::path(h.path).lexically_normal() == file.lexically_normal()) return s;
   refuse(file.generic_string(),
          found.not_usable.empty() ? "expected a DICOM image, got another file" : found.not_usable);
 }

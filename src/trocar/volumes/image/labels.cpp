@@ -11,9 +11,7 @@ const Segment* Labels::find(int label) const {
   return found == segments.end() ? nullptr : &*found;
 }
 
-Labels on_grid_of(const Volume& volume) {
-  return {volume.grid, std::vector<std::uint16_t>(volume.grid.count()), {}};
-}
+Labels on_grid_of(const Volume& volume) { return {volume.grid, std::vector<std::uint16_t>(volume.grid.count()), {}}; }
 
 std::vector<std::size_t> voxels_per_label(const Labels& labels) {
   std::vector<std::size_t> out(65536);

@@ -67,7 +67,8 @@ class Lumen {
     open.push({0.0f, start});
     std::size_t done = 0;
     while (!open.empty()) {
-      const auto [cost, voxel] = open.top();
+      const float cost = open.top().first;
+      const std::size_t voxel = open.top().second;
       open.pop();
       if (cost > out.cost[voxel]) continue;
       if (++done % 200'000 == 0) tell(progress, std::min(1.0, double(done) / double(count())));

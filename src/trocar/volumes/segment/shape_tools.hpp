@@ -36,9 +36,9 @@ LabelChange filled_between_slices(const Volume& volume, const Labels& labels, st
                                   const EditRules& rules = {});
 
 enum class Logic : unsigned char { copy, add, subtract, intersect, invert, clear };
-/// The label becomes: other; itself and other; without other; what both are - of which nothing of `other` is lost but
-/// voxels that `label` gets. `invert`: what carries no label gets this one, and what carries it none. `other` is passed
-/// over by invert and clear.
+/// What the label becomes: `copy` the other set; `add` both together; `subtract` itself without the other; `intersect`
+/// what is in both; `invert` all voxels that carry no label, and its own no more; `clear` nothing. The last two pass
+/// over `other`.
 LabelChange combined(const Volume& volume, const Labels& labels, std::uint16_t label, Logic how, const VoxelSet& other,
                      const EditRules& rules = {});
 

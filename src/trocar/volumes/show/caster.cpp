@@ -21,8 +21,9 @@ struct Rung {
   bool fine;
   double cost;  // about, of the first
 };
-constexpr Rung kLadder[] = {{1, 1, true, 1},    {1, 1, false, 0.7},  {1, 1.5, false, 0.5}, {2, 1, false, 0.2},
-                            {2, 2, false, 0.1}, {3, 2, false, 0.05}, {3, 3, false, 0.035}, {4, 4, false, 0.015}};
+constexpr Rung kLadder[] = {{1, 0.5, true, 1},    {1, 1, true, 0.55},  {1, 1, false, 0.4},
+                            {1, 1.5, false, 0.3}, {2, 1, false, 0.12}, {2, 2, false, 0.06},
+                            {3, 2, false, 0.03},  {3, 3, false, 0.02}, {4, 4, false, 0.01}};
 
 /// From places in the scene [m] to voxels: p -> turn p + shift.
 struct IntoVoxels {

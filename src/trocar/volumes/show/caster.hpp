@@ -25,12 +25,12 @@ namespace trocar::volumes {
 
 struct Quality {
   int shrink = 1;             ///< a pixel of the picture stands for so many along each side of the view
-  double step = 1;            ///< between samples [smallest distance of voxels]
+  double step = 0.5;          ///< between samples [smallest distance of voxels]
   bool fine_gradient = true;  ///< shading by slopes over two voxels; else within the cell: coarser, and cheaper
   /// Looked at between tiles: where it becomes true, the rest of the picture is left empty.
   const std::atomic<bool>* stop = nullptr;
 };
-/// Half of the view's width and height, every second sample.
+/// Half of the view's width and height, every fourth sample.
 Quality moving_quality();
 
 /// Shown is where dot(normal, p) >= offset, p in the frame of scenes [m].
@@ -80,7 +80,7 @@ class QualityGovernor {
 
  private:
   double m_budget;
-  int m_level = 4, m_quick = 0;
+  int m_level = 5, m_quick = 0;
 };
 
 }  // namespace trocar::volumes

@@ -1,7 +1,7 @@
 // The rays of a tile, over eight lanes whose operations the including file defines: F floats, I integers, M masks.
 // Rays are taken 4 x 2 pixels at a time. Cells without anything to see are left in one step, whose length is a whole
-// number of steps, so that samples stay where they would be; a ray ends where 98 % of the light are stopped. [Levoy 1990,
-// Efficient ray tracing of volume data; skipping by distances: Zuiderveld et al. 1992]
+// number of steps, so that samples stay where they would be; a ray ends where 98 % of the light are stopped. [Levoy
+// 1990, Efficient ray tracing of volume data; skipping by distances: Zuiderveld et al. 1992]
 
 struct V {
   F x, y, z;
@@ -111,7 +111,9 @@ inline void add_sample(const CastJob& job, V p, V d_mm, M here, Light& light) {
   if (!any(less(all(1e-4f), opacity))) return;
   F red = entry_of(job.table, four), green = entry_of(job.table + 1, four), blue = entry_of(job.table + 2, four);
   if (job.tints) {
-    const auto nearest = [](F v, int size) { return lesser_of(whole(greater_of(v, all(0.0f)) + all(0.5f)), all(size - 1)); };
+    const auto nearest = [](F v, int size) {
+      return lesser_of(whole(greater_of(v, all(0.0f)) + all(0.5f)), all(size - 1));
+    };
     const I voxel = nearest(p.x, job.size[0]) +
                     all(job.size[0]) * (nearest(p.y, job.size[1]) + all(job.size[1]) * nearest(p.z, job.size[2]));
     const I tint = byte_at(job.tints, voxel);
@@ -140,13 +142,15 @@ inline F way_out(V p, V d, V inverse, I cx, I cy, I cz, I empty) {
     const F bound = all(float(kCellEdge)) * pick(up, real(ahead), real(behind));
     return (bound - at) * inverted;
   };
-  return lesser_of(exit(p.x, d.x, inverse.x, cx), lesser_of(exit(p.y, d.y, inverse.y, cy), exit(p.z, d.z, inverse.z, cz)));
+  return lesser_of(exit(p.x, d.x, inverse.x, cx),
+                   lesser_of(exit(p.y, d.y, inverse.y, cy), exit(p.z, d.z, inverse.z, cz)));
 }
 
 /// A number 0 .. 1 for a pixel: rays that all begin at the same depth show rings.
 inline F scatter(I x, I y) {
-  I h = x * all(0x2545F491) + y * all(0x5bd1e995);
-  h = h * all(0x27d4eb2d);
+  I h = x * all(0x2545F491) + y * all(0x5bd1e995) + all(0x1b873593);
+  for (int round = 0; round < 3; ++round)
+    h = h * h + h * all(0x27d4eb2d) + bits_of(h, 15, 0x1ffff);  // squares leave no pattern
   return real(bits_of(h, 8, 0xffff)) * all(1.0f / 65536.0f);
 }
 

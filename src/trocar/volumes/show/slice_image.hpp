@@ -28,7 +28,8 @@ SlicePlane sagittal(const Grid& grid, Vec3d through);
 /// Across an axis of the voxels, pixel by pixel where they are square.
 SlicePlane across_axis(const Grid& grid, int axis, int slice);
 /// Any plane.
-/// @param up  shown upwards; must not be along the normal
+/// @param normal  towards who looks
+/// @param up      shown upwards; must not be along the normal
 SlicePlane oblique(const Grid& grid, Vec3d through, Vec3d normal, Vec3d up);
 
 struct SliceLook {
