@@ -148,7 +148,8 @@ TEST(Splines, AMeshFromAFileBecomesASplineBodyAndItsResidualIsTold) {
   Document document = with_ball(place, "[20, 30, 18]");
   std::vector<geometry::Section> sections;
   std::vector<core::Fault> faults;
-  for (const scene::Section& s : document.description(faults)->solids[0].sections)
+  const auto described = document.description(faults);
+  for (const scene::Section& s : described->solids[0].sections)
     sections.push_back({s.centre, s.across, s.deep, s.squareness});
   const std::string stl = geometry::to_stl(geometry::tessellate(geometry::loft(sections), 0.003), 1e-3);
   std::ofstream(place / "mesh.stl", std::ios::binary) << stl;

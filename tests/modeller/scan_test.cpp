@@ -103,7 +103,7 @@ TEST(Scan, ALiverAndASpleenComeOutOfACT) {
     EXPECT_NEAR(made["mL"].get<double>() / made["mL_of_segment"].get<double>(), 1, 0.02) << organ;
   }
   step(R"({"do": "check", "seconds": 0})");
-  const double wanted[] = {session.said()[6]["mL"].get<double>(), session.said()[8]["mL"].get<double>()};
+  const double wanted[] = {session.said()[5]["mL"].get<double>(), session.said()[7]["mL"].get<double>()};
   int number = 0;
   for (const Json& body : session.said().back()["check"]) {
     EXPECT_NEAR(body["volume_mL"].get<double>() / wanted[number++], 1, 0.02) << body["name"];
