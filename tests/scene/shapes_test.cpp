@@ -405,6 +405,70 @@ TEST(ControlPoints, WeighWhatTheBodyDoesAboutItsCentreAndHangStill) {
   EXPECT_LT(drift(c.model), 1e-5);
 }
 
+/// A spindle along z, smooth at its poles, 80 mm long.
+NurbsShape spindle(int columns, int rows) {
+  NurbsShape s;
+  s.columns = columns, s.rows = rows;
+  for (int j = 0; j < rows; ++j) {
+    const bool pole = j == 0 || j == rows - 1;
+    const double t = double(j == 1 ? 0 : j == rows - 2 ? rows - 1 : j) / (rows - 1);  // in the poles' planes
+    const double r = pole ? 0 : 0.018 * portable::sin(kPi * std::clamp(t, 0.12, 0.88));
+    for (int i = 0; i < columns; ++i) {
+      const double a = 2 * kPi * i / columns;
+      s.net.push_back({r * portable::cos(a), r * portable::sin(a), -0.04 + 0.08 * t});
+    }
+  }
+  return s;
+}
+
+/// How far the upper part of a spindle that is held below, up to one of its rings, goes under a force on it [m].
+double deflection(Masses masses, Vec3d force) {
+  Description d = small::description();
+  d.solids.clear(), d.strands.clear(), d.membranes.clear(), d.vessels.clear(), d.fluids.reset();
+  d.gravity = {};
+  for (Tissue& t : d.tissues) t.p1 = t.p2 = 0;
+  Solid s;
+  s.name = s.look = "body";
+  s.tissue = "flesh";
+  s.shape.nurbs = spindle(12, 12);
+  s.masses = masses;
+  s.cell = 0.004, s.skin_edge = 0.004, s.fine_edge = 0.003;
+  s.anchors.push_back({{0, 0, -0.54}, 0.522, 0, {}});
+  d.solids.push_back(s);
+  const sim::Model model = compile(d);
+  const sim::SolidModel& body = model.solids.at(0);
+  std::vector<int> upper;
+  for (int v = 0; v < body.skin.size(); ++v)
+    if (body.skin.rest[std::size_t(v)].z > 0.02f) upper.push_back(v);
+  tissue::NetworkState state = tissue::rest_state(body.network);
+  tissue::NetworkWork work = tissue::make_work(body.network);
+  interactions::NetworkLoads loads;
+  loads.reserve(20'000);
+  for (int i = 0; i < 2000; ++i) {
+    loads.clear();
+    interactions::SkinLoad load;
+    load.f0 = force / double(upper.size());
+    load.d = 1.0 / double(upper.size());  // so that it comes to rest
+    for (const int v : upper)
+      interactions::add_skin_load(tissue::view_of(body.network, state), body.skin, v, load, {}, loads, 1e-9f);
+    loads.sort();
+    tissue::advance(body.network, loads.sorted, loads.reaction, state, work);
+  }
+  double sum = 0;
+  for (const int v : upper)
+    sum += dot(normalised(force), tissue::skin_point(tissue::view_of(body.network, state), body.skin, v) -
+                                      vec_cast<double>(body.skin.rest[std::size_t(v)]));
+  return sum / double(upper.size());
+}
+
+TEST(ControlPoints, GiveWayAsALatticeOfTheSameBodyDoes) {
+  for (const Vec3d& force : {Vec3d{0.02, 0, 0}, Vec3d{0, 0, 0.2}}) {
+    const double cells = deflection(Masses::inside, force), points = deflection(Masses::control_points, force);
+    EXPECT_NEAR(points / cells, 1, 0.1);
+    EXPECT_GT(cells, 1e-4);
+  }
+}
+
 TEST(ControlPoints, AnswerAtOnceAsWell) {
   Table t;
   CompileReport report;
