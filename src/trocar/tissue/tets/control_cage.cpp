@@ -20,6 +20,10 @@ struct Wedge {
   bool turned;  ///< that order runs against the section's sense
 };
 
+/// How far the copies of the rings next to the poles lie towards the next ring, as a share of the way there: where a
+/// surface has a tangent plane at a pole, that ring is in it.
+constexpr double kFromEnds = 0.35;
+
 class CageMaker {
  public:
   CageMaker(const nurbs::Surface& surface, double inner)
@@ -41,6 +45,7 @@ class CageMaker {
     for (int ring = 0; ring + 1 < m_rings; ++ring)
       for (const Wedge& w : m_wedges) add_between(w, ring);
     for (const Wedge& w : m_wedges) add_end(w, m_rings - 1, m_cage.nodes.count - 1);
+    require_few_folds();
     return std::move(m_cage);
   }
 
@@ -48,6 +53,8 @@ class CageMaker {
   int m_columns, m_rings;
   ControlCage m_cage;
   std::vector<Wedge> m_wedges;
+  double m_deepest = 0;  // volume of the largest folded cell
+  int m_deepest_ring = 0;
 
   // Lines along the body: the axis, then the copies' columns, then those of the control points.
   int lines() const { return 1 + 2 * m_columns; }
@@ -60,14 +67,23 @@ class CageMaker {
   }
 
   void add_inside(double inner) {
+    std::vector<std::vector<Vec3d>> inside;  // of each ring the middle, then the copies
     for (int ring = 0; ring < m_rings; ++ring) {
-      const std::vector<Vec3d> at(m_cage.points.begin() + node(ring, outer_line(0)),
-                                  m_cage.points.begin() + node(ring, outer_line(0)) + m_columns);
+      const auto first = m_cage.points.begin() + node(ring, outer_line(0));
       Vec3d middle;
-      for (const Vec3d& p : at) middle += p / double(m_columns);
-      m_cage.points.push_back(middle);
-      for (const Vec3d& p : at) m_cage.points.push_back(middle + inner * (p - middle));
+      std::for_each(first, first + m_columns, [&](Vec3d p) { middle += p / double(m_columns); });
+      inside.push_back({middle});
+      std::for_each(first, first + m_columns, [&](Vec3d p) { inside.back().push_back(middle + inner * (p - middle)); });
     }
+    const std::vector<std::vector<Vec3d>> level = inside;
+    for (std::size_t k = 0; k < level[0].size(); ++k) {
+      const auto inwards = [&](int end, int next) {
+        const Vec3d p = level[std::size_t(end)][k];
+        inside[std::size_t(end)][k] = p + kFromEnds * (level[std::size_t(next)][k] - p);
+      };
+      inwards(0, 1), inwards(m_rings - 1, m_rings - 2);
+    }
+    for (const std::vector<Vec3d>& ring : inside) m_cage.points.insert(m_cage.points.end(), ring.begin(), ring.end());
   }
 
   void list_wedges() {
@@ -92,13 +108,22 @@ class CageMaker {
     const double volume = geometry::volume6(p[std::size_t(cell[0])], p[std::size_t(cell[1])], p[std::size_t(cell[2])],
                                             p[std::size_t(cell[3])]) /
                           6;
-    if (!(volume > 0))
-      throw std::invalid_argument(
-          "control cage: rings that go around the middle of their points and do not cross "
-          "expected, got one that does not at row " +
-          std::to_string(ring + 1));
-    m_cage.volume += volume;
+    if (volume == 0) return;
+    const bool folded = volume < 0;
+    if (folded) std::swap(cell[2], cell[3]);
+    if (folded && -volume > m_deepest) m_deepest = -volume, m_deepest_ring = ring;
+    m_cage.volume += std::fabs(volume);
+    m_cage.folded_volume += folded ? -volume : 0.0;
     m_cage.cells.push_back(cell);
+    m_cage.folded.push_back(folded);
+  }
+  void require_few_folds() const {
+    constexpr double kMostFolded = 0.2;  // of the volume
+    if (m_cage.folded_volume > kMostFolded * m_cage.volume)
+      throw std::invalid_argument(
+          "control cage: rings that go around the middle of their points and do not cross expected, got other ones, "
+          "such as that of row " +
+          std::to_string(m_deepest_ring + 1));
   }
 
   /// A prism from a ring to the next. Which diagonals its sides have follows from the order of lines alone, so that
@@ -148,11 +173,11 @@ Moments wanted_moments(double youngs_modulus, double volume) {
   return out;
 }
 
-constexpr double kLeastFactor = 0.1;  // no spring goes slack
+constexpr double kLeastFactor = 0.3;  // no spring goes slack
 constexpr int kBalanceRounds = 20;
 
 /// Stiffnesses k (1 + a.lambda), the change that is least in sum of squares over k, so that their moments a are the
-/// wanted ones; what would fall below a tenth stays there.
+/// wanted ones; what would fall below 0.3 of it stays there.
 class Balance {
  public:
   Balance(NetworkDescription& network, const Moments& wanted) : m_network(network), m_wanted(wanted) {
@@ -210,6 +235,20 @@ class Balance {
 
 constexpr double kLeastMass = 0.1;  // of what the cells give a node
 
+constexpr double kStiffShare = 0.2;  // of the mass, that nodes get for their stiffness
+
+/// A part of the mass goes to where springs are stiff and short, as at the poles: they would set the time step alone.
+/// More than a fifth weighs down the small cells there, until they buckle.
+void share_by_stiffness(NetworkDescription& network) {
+  double whole = 0, all = 0;
+  std::vector<double> k(network.mass.size(), 0.0);
+  for (const SpringDescription& s : network.springs)
+    for (const int end : {s.a, s.b}) k[std::size_t(end)] += s.k, all += s.k;
+  for (const double m : network.mass) whole += m;
+  for (std::size_t i = 0; i < k.size(); ++i)
+    network.mass[i] = (1 - kStiffShare) * network.mass[i] + kStiffShare * whole * k[i] / all;
+}
+
 /// The masses, times a + b.(x - c).
 void tilt(std::vector<double>& mass, const std::vector<Vec3d>& x, double wanted, Vec3d centre) {
   double sum = 0;
@@ -236,9 +275,14 @@ TetNetwork cage_network(const ControlCage& cage, const TetMaterial& material, do
   TetMaterial in_cage = material;
   in_cage.youngs_modulus *= volume / cage.volume;
   TetNetwork out = tet_network(cage.points, cage.cells, in_cage);
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < cage.cells.size(); ++t)
+    if (!cage.folded[t]) out.network.tets[kept++] = cage.cells[t];
+  out.network.tets.resize(kept);
   out.network.opening_time *= std::sqrt(volume / cage.volume);  // of the tissue's own waves
   const double springs = bulk_share(material.youngs_modulus, material.poisson).spring_modulus;
   Balance(out.network, wanted_moments(springs, volume)).run();
+  share_by_stiffness(out.network);
   tilt(out.network.mass, cage.points, material.density * volume, centre);
   return out;
 }
