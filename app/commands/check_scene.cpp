@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
-#include <trocar/scene/compile/standing.hpp>
+#include <trocar/scene/checks/standing.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/scene/compile/compile.hpp>

@@ -6,7 +6,7 @@
 #include <trocar/attempt/paths.hpp>
 #include <trocar/attempt/solver_beside.hpp>
 #include <trocar/attempt/sources.hpp>
-#include <trocar/scene/compile/standing.hpp>
+#include <trocar/scene/checks/standing.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/pictures/analysis_choice.hpp>

@@ -33,7 +33,8 @@ void FilePanel::go_to(const fs::path& folder) {
     std::error_code ignored;
     if (at->is_directory(ignored))
       m_folders.push_back(at->path());
-    else if (m_endings.empty() || std::find(m_endings.begin(), m_endings.end(), at->path().extension()) != m_endings.end())
+    else if (m_endings.empty() ||
+             std::find(m_endings.begin(), m_endings.end(), at->path().extension()) != m_endings.end())
       m_files.push_back(at->path());
   }
   std::sort(m_folders.begin(), m_folders.end());

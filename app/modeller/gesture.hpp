@@ -1,5 +1,5 @@
-// Moving, turning and scaling by hand: a key begins it, the pointer leads, an axis may be chosen and a number typed, Enter or a
-// click keeps it, Esc or the right button takes it back. As in other editors of shapes.
+// Moving, turning and scaling by hand: a key begins it, the pointer leads, an axis may be chosen and a number typed,
+// Enter or a click keeps it, Esc or the right button takes it back. As in other editors of shapes.
 #pragma once
 
 #include <optional>

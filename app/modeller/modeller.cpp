@@ -124,7 +124,8 @@ void Modeller::leave() {
 
 void Modeller::lay_out() {
   const float scale = m_window.scale(), width = float(m_window.width()), height = float(m_window.height());
-  const float left = std::floor(std::min(kLeft * scale, 0.3f * width)), right = std::floor(std::min(kRight * scale, 0.4f * width));
+  const float left = std::floor(std::min(kLeft * scale, 0.3f * width)),
+              right = std::floor(std::min(kRight * scale, 0.4f * width));
   const float bottom = std::floor(kBottom * scale);
   m_left = {0, m_bar, left, height - m_bar - bottom};
   m_right = {width - right, m_bar, right, height - m_bar - bottom};
@@ -222,8 +223,7 @@ void Modeller::picture() {
       if (wanted == FileFor::write_labels) m_scan.write_labels(chosen);
       if (wanted == FileFor::new_scene || wanted == FileFor::new_organ) {
         if (chosen.extension() != ".json") chosen += ".json";
-        modeller::Document begun =
-            modeller::begun(chosen, wanted == FileFor::new_organ, chosen.stem().string());
+        modeller::Document begun = modeller::begun(chosen, wanted == FileFor::new_organ, chosen.stem().string());
         begun.save();
         open(chosen);
       }
@@ -250,7 +250,9 @@ void Modeller::log_widgets() {
   Json places = Json::object();
   for (const ui::Widget& w : widgets) places[w.id] = {w.x, w.y};
   const Area& a = m_views[std::size_t(m_active)].area;
-  m_log.event("screen", {{"name", !m_document ? "start" : scan_shown() ? "scan" : "modeller"},
+  m_log.event("screen", {{"name", !m_document    ? "start"
+                                  : scan_shown() ? "scan"
+                                                 : "modeller"},
                          {"view", {a.x, a.y, a.width, a.height}},
                          {"selected", m_selected},
                          {"points", points},

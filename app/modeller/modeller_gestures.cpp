@@ -87,7 +87,8 @@ std::optional<scene::JsonValue> Modeller::step_of_gesture(std::string& amount) c
   const std::optional<modeller::Spot> middle = v.spot(g.about);
   if (!middle) return std::nullopt;
   if (g.kind == Gesture::Kind::rotate) {
-    const double from = std::atan2(g.from_y - middle->y, g.from_x - middle->x), to = std::atan2(y - middle->y, x - middle->x);
+    const double from = std::atan2(g.from_y - middle->y, g.from_x - middle->x),
+                 to = std::atan2(y - middle->y, x - middle->x);
     double by = std::remainder(from - to, 2 * portable::pi) / kDegree * fine;
     Vec3d axis = v.eye() - g.about;  // towards the viewer, so that it turns as the pointer does
     axis = axis / length(axis);
@@ -105,7 +106,8 @@ std::optional<scene::JsonValue> Modeller::step_of_gesture(std::string& amount) c
     put(s, "by_deg", modeller::number(by));
     return s;
   }
-  const double from = std::hypot(g.from_x - middle->x, g.from_y - middle->y), to = std::hypot(x - middle->x, y - middle->y);
+  const double from = std::hypot(g.from_x - middle->x, g.from_y - middle->y),
+               to = std::hypot(x - middle->x, y - middle->y);
   double by = std::clamp(1 + fine * (to / std::max(from, 5.0) - 1), 0.05, 20.0);
   if (const std::optional<double> n = g.number()) by = std::clamp(*n, 0.01, 100.0);
   by = snapped(by, 0.1, snap);

@@ -96,13 +96,11 @@ void Modeller::draw_menu_bar() {
     ImGui::EndMenu();
   }
   if (menu("Add")) {
-    const std::pair<const char*, const char*> things[] = {{"Ball or ellipsoid ...", "ellipsoid"},
-                                                          {"Body of revolution ...", "revolved"},
-                                                          {"Body along a line ...", "loft"},
-                                                          {"Tube or cord ...", "cord"},
-                                                          {"Tree of vessels ...", "vessel_tree"},
-                                                          {"Branch of a vessel ...", "branch"},
-                                                          {"Hold the chosen one ...", "hold"}};
+    const std::pair<const char*, const char*> things[] = {
+        {"Ball or ellipsoid ...", "ellipsoid"}, {"Body of revolution ...", "revolved"},
+        {"Body along a line ...", "loft"},      {"Tube or cord ...", "cord"},
+        {"Tree of vessels ...", "vessel_tree"}, {"Branch of a vessel ...", "branch"},
+        {"Hold the chosen one ...", "hold"}};
     for (const auto& [label, operation] : things)
       if (item(label)) m_adding = operation, m_asked.clear();
     ImGui::EndMenu();
@@ -170,7 +168,8 @@ void Modeller::draw_status() {
   begin_panel("status", m_bottom);
   const std::size_t unsaved = m_document->unsaved().size();
   std::string line = m_message;
-  if (line.empty()) line = "click: choose   right drag: turn   G R S: move, rotate, scale   T: test drive   F1: all keys";
+  if (line.empty())
+    line = "click: choose   right drag: turn   G R S: move, rotate, scale   T: test drive   F1: all keys";
   ui::text(ui::shortened(line, m_bottom.width - 20));
   std::string state = m_document->root().filename().string();
   if (unsaved > 0) state += " (not saved)";
@@ -335,7 +334,8 @@ void Modeller::draw_adding() {
     std::string& value = m_asked[key.name];
     if (value.empty() && m_asked.count(key.name + "?") == 0) {  // what it usually is, once
       m_asked[key.name + "?"] = "1";
-      if (key.name == "name") value = free_name(m_adding == "cord" ? "cord" : m_adding == "branch" ? "vessel" : "organ");
+      if (key.name == "name")
+        value = free_name(m_adding == "cord" ? "cord" : m_adding == "branch" ? "vessel" : "organ");
       if (key.name == "tissue") value = "uterus";
       if (key.name == "centre_mm") value = "0, -150, -110";
       if (key.name == "half_mm") value = "15, 25, 15";

@@ -14,8 +14,8 @@
 #include <trocar/modeller/drive/places.hpp>
 #include <trocar/modeller/drive/test_drive.hpp>
 #include <trocar/modeller/operations/operation.hpp>
-#include <trocar/render/gl/gl_context.hpp>
 #include <trocar/render/frame/governor.hpp>
+#include <trocar/render/gl/gl_context.hpp>
 
 #include "modeller/builder.hpp"
 #include "modeller/file_panel.hpp"
@@ -131,15 +131,15 @@ class Modeller {
   std::string m_selected;
 
   Builder m_builder;
-  std::unique_ptr<BuiltDocument> m_built;       ///< the newest, good or not
-  std::unique_ptr<BuiltDocument> m_shown;       ///< the newest good one: what is drawn
-  std::unique_ptr<view::SceneView> m_view;      ///< of m_shown's model
-  std::optional<sim::State> m_state;            ///< as drawn
-  std::vector<modeller::BodyPlace> m_places;    ///< of m_state
-  std::uint64_t m_picture = 0;                  ///< another number: views are drawn anew
+  std::unique_ptr<BuiltDocument> m_built;     ///< the newest, good or not
+  std::unique_ptr<BuiltDocument> m_shown;     ///< the newest good one: what is drawn
+  std::unique_ptr<view::SceneView> m_view;    ///< of m_shown's model
+  std::optional<sim::State> m_state;          ///< as drawn
+  std::vector<modeller::BodyPlace> m_places;  ///< of m_state
+  std::uint64_t m_picture = 0;                ///< another number: views are drawn anew
   std::unique_ptr<modeller::TestDrive> m_drive;
-  bool m_taking = false;                        ///< the pointer holds the grasper's goal
-  double m_drive_debt = 0;                      ///< simulated time that is owed [s]
+  bool m_taking = false;    ///< the pointer holds the grasper's goal
+  double m_drive_debt = 0;  ///< simulated time that is owed [s]
 
   std::array<Viewport, 4> m_views;
   bool m_four = false;
@@ -159,7 +159,16 @@ class Modeller {
   bool m_scan_shown = false;  ///< else the document
 
   FilePanel m_files;
-  enum class FileFor { none, open, save_as, new_scene, new_organ, scan, labels, write_labels } m_file_for = FileFor::none;
+  enum class FileFor {
+    none,
+    open,
+    save_as,
+    new_scene,
+    new_organ,
+    scan,
+    labels,
+    write_labels
+  } m_file_for = FileFor::none;
   enum class Question { none, unsaved, recover } m_question = Question::none;
   enum class After { none, quit, open, start } m_after = After::none;
   fs::path m_to_open;
@@ -168,12 +177,12 @@ class Modeller {
   bool m_help = false, m_quit = false, m_history = false;
   std::string m_adding;  ///< name of the operation whose parameters are asked for
   std::map<std::string, std::string> m_asked;
-  std::map<std::string, std::string> m_texts;             ///< fields that are being edited, by their key's path
+  std::map<std::string, std::string> m_texts;              ///< fields that are being edited, by their key's path
   std::map<std::string, std::array<double, 3>> m_numbers;  ///< the same
   std::string m_message;
   std::chrono::steady_clock::time_point m_kept{};
   Area m_left, m_right, m_middle, m_bottom;
-  float m_bar = 0;  ///< height of the menu bar [px]
+  float m_bar = 0;      ///< height of the menu bar [px]
   bool m_held = false;  ///< the test drive's grasper, as logged
   std::vector<ui::Widget> m_widgets;
   Json m_logged_points;

@@ -156,7 +156,8 @@ void Modeller::draw_read_outs(const modeller::Thing& thing) {
     ui::text(fmt::format("{} nodes, {} springs, {} sub-steps of {:.3f} ms", r.nodes, r.springs, r.substeps,
                          r.substeps > 0 ? 1.0 / r.substeps : 1.0));
     if (r.limit_ms > 0) ui::text(fmt::format("stable up to {:.3f} ms", r.limit_ms), ui::kGrey);
-    ui::text(fmt::format("about {:.0f} us of a tick's 1000", r.predicted_us), r.predicted_us > 600 ? ui::kOrange : ui::kWhite);
+    ui::text(fmt::format("about {:.0f} us of a tick's 1000", r.predicted_us),
+             r.predicted_us > 600 ? ui::kOrange : ui::kWhite);
     if (r.off_mm < 0) continue;
     ui::mark(r.off_mm > 0.5 ? ui::Mark::warning : ui::Mark::done);
     ui::text(r.off_mm > 0.5 ? fmt::format("sinks by {:.1f} mm in half a second: hold it more, or stiffen it", r.off_mm)

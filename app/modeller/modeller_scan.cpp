@@ -28,7 +28,8 @@ void Modeller::draw_scan_menu() {
   if (entry("Open label map ...", nullptr, m_scan.shows()))
     ask(FileFor::labels, "A label map for this scan", "Read", folder, {});
   if (entry("Save label map ...", nullptr, m_scan.shows()))
-    ask(FileFor::write_labels, "Where the label map is kept: .nrrd, .nii, .nii.gz", "Save", folder / "labels.seg.nrrd", {});
+    ask(FileFor::write_labels, "Where the label map is kept: .nrrd, .nii, .nii.gz", "Save", folder / "labels.seg.nrrd",
+        {});
   ImGui::Separator();
   if (entry(m_scan_shown ? "Show the document" : "Show the scan", "Tab", m_scan.shows())) m_scan_shown = !m_scan_shown;
   if (entry("Close scan", nullptr, m_scan.shows())) m_scan.close(), m_scan_shown = false;

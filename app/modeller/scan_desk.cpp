@@ -104,8 +104,9 @@ void ScanDesk::take_what_was_read() {
     m_to = high;
   }
   m_caster = std::make_unique<volumes::VolumeCaster>(v, m_pool);
+  m_counted = ~0ull;
   m_caster->set_transfer(is_ct ? volumes::transfer_preset(volumes::TransferPreset(m_preset))
-                                : volumes::grey_ramp(m_centre - m_width / 2, m_centre + m_width / 2));
+                               : volumes::grey_ramp(m_centre - m_width / 2, m_centre + m_width / 2));
   m_orbit.target = volumes::scene_from_patient(m_cross);
   m_orbit.distance = 1.6e-3 * length(box.high - box.low);
   m_orbit.yaw = 0.3;
@@ -151,12 +152,13 @@ void ScanDesk::edit(const char* name, Make&& make) {
   const std::uint16_t of = label();
   const double before = volumes::millilitres(m_scan->labels(), of);
   m_scan->change(name, make(of));
-  m_message = fmt::format("{}: {} {:.2f} mL, was {:.2f}", name, m_segment, volumes::millilitres(m_scan->labels(), of), before);
+  m_message =
+      fmt::format("{}: {} {:.2f} mL, was {:.2f}", name, m_segment, volumes::millilitres(m_scan->labels(), of), before);
 }
 
 bool ScanDesk::obey_key(int key, int mods) {
   if (mods & GLFW_MOD_CONTROL) {
-    if (key == GLFW_KEY_Z) mods & GLFW_MOD_SHIFT ? redo() : undo();
+    if (key == GLFW_KEY_Z) mods& GLFW_MOD_SHIFT ? redo() : undo();
     return key == GLFW_KEY_Z;
   }
   if (key >= GLFW_KEY_1 && key <= GLFW_KEY_6) {
@@ -199,9 +201,7 @@ void ScanDesk::press(const Vec3d& at, const volumes::SlicePlane& plane, bool fre
   }
   if (!fresh) return;
   if (m_tool == ScanTool::grow)
-    edit("grow", [&](std::uint16_t of) {
-      return volumes::grown(v, labels, std::span(&voxel, 1), {m_from, m_to}, of);
-    });
+    edit("grow", [&](std::uint16_t of) { return volumes::grown(v, labels, std::span(&voxel, 1), {m_from, m_to}, of); });
   if (m_tool == ScanTool::islands)
     edit("keep this island", [&](std::uint16_t of) { return volumes::chosen_kept(v, labels, of, voxel); });
   if (m_tool == ScanTool::threshold) {  // the value there is in the middle
@@ -229,7 +229,8 @@ void ScanDesk::draw_slice(Pane& pane, const Area& area, int which) {
         for (int x = 0; x < picture.width; ++x) {
           const double value = m_scan->volume().at(grid.to_index(pane.plane.at(x, y)));
           std::uint8_t* p = picture.rgba.data() + 4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x));
-          if (value >= m_from && value <= m_to) p[0] = std::uint8_t((p[0] + 255) / 2), p[1] = std::uint8_t((p[1] + 160) / 2);
+          if (value >= m_from && value <= m_to)
+            p[0] = std::uint8_t((p[0] + 255) / 2), p[1] = std::uint8_t((p[1] + 160) / 2);
         }
     pane.take(picture);
     pane.drawn = wanted;
@@ -252,7 +253,8 @@ void ScanDesk::draw_slice(Pane& pane, const Area& area, int which) {
   if (io.WantCaptureMouse || !area.holds(io.MousePos.x, io.MousePos.y)) return;
   const Vec3d at = pane.plane.at((io.MousePos.x - x0) / scale, (io.MousePos.y - y0) / scale);
   if (m_tool == ScanTool::paint || m_tool == ScanTool::erase)
-    list.AddCircle(io.MousePos, float(m_brush / length(pane.plane.right)) * scale, IM_COL32(242, 168, 26, 255), 48, 1.4f);
+    list.AddCircle(io.MousePos, float(m_brush / length(pane.plane.right)) * scale, IM_COL32(242, 168, 26, 255), 48,
+                   1.4f);
   if (io.MouseWheel != 0) {
     if (io.KeyShift)
       m_brush = std::clamp(m_brush * std::exp(0.15 * io.MouseWheel), 0.5, 100.0);
@@ -300,8 +302,10 @@ void ScanDesk::draw_block(const Area& area) {
   }
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, IM_COL32(18, 20, 24, 255));
-  list.AddImage(ImTextureID(std::intptr_t(pane.texture)), {area.x, area.y}, {area.x + area.width, area.y + area.height});
-  list.AddText({area.x + 8, area.y + 6}, IM_COL32(210, 214, 220, 255), fmt::format("block, {:.0f} ms", m_block_ms).c_str());
+  list.AddImage(ImTextureID(std::intptr_t(pane.texture)), {area.x, area.y},
+                {area.x + area.width, area.y + area.height});
+  list.AddText({area.x + 8, area.y + 6}, IM_COL32(210, 214, 220, 255),
+               fmt::format("block, {:.0f} ms", m_block_ms).c_str());
   list.AddRect({area.x, area.y}, {area.x + area.width, area.y + area.height}, IM_COL32(60, 64, 70, 255));
 }
 
@@ -334,15 +338,23 @@ void ScanDesk::draw_panel(const Area& panel) {
   }
   if (ui::checkbox("segments shown", m_labels_shown)) ++m_look, m_cast_labels = ~0ull;
   ui::heading("segments");
+  if (m_counted != m_scan->version()) {
+    m_voxels = volumes::voxels_per_label(m_scan->labels());
+    m_counted = m_scan->version();
+  }
+  const float rows = std::min(7.0f, 0.5f + float(m_scan->labels().segments.size()));
+  ImGui::BeginChild("segments", {0, rows * ImGui::GetTextLineHeightWithSpacing()});
   for (const volumes::Segment& s : m_scan->labels().segments) {
     ImGui::ColorButton(("##colour" + s.name).c_str(), ImVec4(s.colour[0], s.colour[1], s.colour[2], 1),
                        ImGuiColorEditFlags_NoTooltip, {14, 14});
     ImGui::SameLine();
-    if (ImGui::Selectable(fmt::format("{}  {:.1f} mL##{}", s.name, volumes::millilitres(m_scan->labels(), s.label), s.label).c_str(),
-                          s.name == m_segment))
+    if (ImGui::Selectable(
+            fmt::format("{}  {:.1f} mL##{}", s.name, v.grid.voxel_ml() * double(m_voxels[s.label]), s.label).c_str(),
+            s.name == m_segment))
       m_segment = s.name;
     ui::note_widget("segment " + s.name);
   }
+  ImGui::EndChild();
   char name[64];
   std::snprintf(name, sizeof name, "%s", m_segment.c_str());
   if (ImGui::InputText("segment", name, sizeof name)) m_segment = name;

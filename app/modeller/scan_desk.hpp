@@ -76,8 +76,10 @@ class ScanDesk {
   Vec3d m_cross;  ///< [mm, L P S]
   double m_centre = 40, m_width = 400, m_from = 0, m_to = 200, m_brush = 8, m_margin = 2;
   ScanTool m_tool = ScanTool::look;
-  std::vector<Vec3d> m_stroke;  ///< [mm, L P S] painted with the button that is held
-  std::uint64_t m_look = 0;     ///< another number: slices look otherwise
+  std::vector<Vec3d> m_stroke;        ///< [mm, L P S] painted with the button that is held
+  std::vector<std::size_t> m_voxels;  ///< of each label, in this version of them
+  std::uint64_t m_counted = ~0ull;
+  std::uint64_t m_look = 0;  ///< another number: slices look otherwise
 
   core::ThreadPool m_pool;
   std::unique_ptr<volumes::VolumeCaster> m_caster;

@@ -72,7 +72,8 @@ void change_anything(Document& document, core::Random& random) {
     fault_of(document, "insert_point", "{\"of\": \"" + of + "\", \"before\": 1}");
     return;
   }
-  fault_of(document, "rename", "{\"of\": \"" + of + "\", \"to\": \"other_" + std::to_string(random.next() % 1000) + "\"}");
+  fault_of(document, "rename",
+           "{\"of\": \"" + of + "\", \"to\": \"other_" + std::to_string(random.next() % 1000) + "\"}");
 }
 
 TEST(Document, UndoingAllChangesGivesEveryByteBackAndRedoingThemTheSameAgain) {
@@ -141,7 +142,8 @@ TEST(Document, WhereTheFolderIsReadOnlyTheReasonIsToldAndNothingIsLost) {
 TEST(Document, SavedElsewhereItStillFindsWhatItNames) {
   const Workplace place;
   Document document = begun(place / "a" / "scene.json", false, "mine");
-  apply(document, "ellipsoid", R"({"name": "ball", "tissue": "uterus", "centre_mm": [0, -150, -110], "half_mm": [10, 15, 10]})");
+  apply(document, "ellipsoid",
+        R"({"name": "ball", "tissue": "uterus", "centre_mm": [0, -150, -110], "half_mm": [10, 15, 10]})");
   document.save();
   document.save_as(place / "b" / "c" / "scene.json");
   const Document again = Document::open(place / "b" / "c" / "scene.json");

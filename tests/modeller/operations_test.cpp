@@ -19,8 +19,9 @@ namespace {
 
 Document with_ball(const Workplace& place, const std::string& half = "[15, 25, 12]") {
   Document document = begun(place / "scene.json", false, "mine");
-  apply(document, "ellipsoid",
-        R"({"name": "ball", "tissue": "uterus", "centre_mm": [10, -150, -110], "cell_mm": 4, "half_mm": )" + half + "}");
+  apply(
+      document, "ellipsoid",
+      R"({"name": "ball", "tissue": "uterus", "centre_mm": [10, -150, -110], "cell_mm": 4, "half_mm": )" + half + "}");
   apply(document, "hold", R"({"of": "ball", "centre_mm": [10, -150, -110], "radius_mm": 9})");
   return document;
 }
@@ -97,8 +98,7 @@ TEST(Operations, ASectionPutBetweenTwoOthersLiesBetweenThem) {
   Document document = with_ball(place);
   const double v = volume_of(document, "ball");
   apply(document, "insert_point", R"({"of": "ball", "key": "sections", "before": 2})");
-  const std::vector<PlacedPoint> points =
-      points_in(value_of(document, thing_named(document, "ball")), "/sections");
+  const std::vector<PlacedPoint> points = points_in(value_of(document, thing_named(document, "ball")), "/sections");
   ASSERT_EQ(points.size(), 6u);
   EXPECT_LT(length(points[2].at - (points[1].at + points[3].at) / 2.0), 1e-3);
   EXPECT_NEAR(volume_of(document, "ball") / v, 1, 0.05);
@@ -133,8 +133,7 @@ TEST(Splines, ALoftBecomesANurbsOfTheSameShapeAndKeepsItUnderKnotsAndHigherDegre
   const geometry::nurbs::Surface first = spline_of(document, "ball");
   apply(document, "insert_knot", R"({"of": "ball", "way": "along", "at": 0.41})");
   apply(document, "insert_knot", R"({"of": "ball", "way": "around", "at": 0.13})");
-  EXPECT_EQ(spline_of(document, "ball").points.size(),
-            (first.u.points() + 1u) * (first.v.points() + 1u));
+  EXPECT_EQ(spline_of(document, "ball").points.size(), (first.u.points() + 1u) * (first.v.points() + 1u));
   EXPECT_LT(farthest_apart(spline_of(document, "ball"), first), 1e-9);
   apply(document, "remove_knot", R"({"of": "ball", "way": "along", "at": 0.41, "tolerance_mm": 0.001})");
   EXPECT_LT(farthest_apart(spline_of(document, "ball"), first), 2e-6);
@@ -155,8 +154,8 @@ TEST(Splines, AMeshFromAFileBecomesASplineBodyAndItsResidualIsTold) {
   std::ofstream(place / "mesh.stl", std::ios::binary) << stl;
   const std::string said = modeller::apply(
       *find_operation("fit_spline"),
-      json(R"({"file": "mesh.stl", "name": "fitted", "tissue": "uterus", "cell_mm": 5, "around": 12, "along": 14})"), "step",
-      document);
+      json(R"({"file": "mesh.stl", "name": "fitted", "tissue": "uterus", "cell_mm": 5, "around": 12, "along": 14})"),
+      "step", document);
   EXPECT_NE(said.find("mm rms"), std::string::npos) << said;
   EXPECT_NEAR(volume_of(document, "fitted") / volume_of(document, "ball"), 1, 0.02) << said;
   EXPECT_NE(fault_of(document, "fit_spline",
@@ -210,7 +209,8 @@ TEST(Operations, WhatCannotBeDoneIsToldWithItsPlaceAndChangesNothing) {
 TEST(Build, WhatNothingHoldsIsShownAndNoted) {
   const Workplace place;
   Document document = begun(place / "scene.json", false, "mine");
-  apply(document, "ellipsoid", R"({"name": "ball", "tissue": "uterus", "centre_mm": [0, -150, -110], "half_mm": [15, 20, 12]})");
+  apply(document, "ellipsoid",
+        R"({"name": "ball", "tissue": "uterus", "centre_mm": [0, -150, -110], "half_mm": [15, 20, 12]})");
   const Built built = build(document);
   EXPECT_TRUE(built.good());
   ASSERT_EQ(built.notes.size(), 1u);

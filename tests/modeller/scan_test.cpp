@@ -97,8 +97,8 @@ TEST(Scan, ALiverAndASpleenComeOutOfACT) {
   for (const char* organ : {"liver", "spleen"}) {
     step(std::string("{\"do\": \"islands\", \"segment\": \"") + organ + "\"}");
     step(std::string("{\"do\": \"organ_from\", \"segment\": \"") + organ + "\", \"name\": \"" + organ +
-         "\", \"tissue\": \"liver\", \"cuttable\": true, \"centre_mm\": [" +
-         (organ[0] == 'l' ? "-40" : "75") + ", -160, -120]}");
+         "\", \"tissue\": \"liver\", \"cuttable\": true, \"centre_mm\": [" + (organ[0] == 'l' ? "-40" : "75") +
+         ", -160, -120]}");
     const Json& made = session.said().back();
     EXPECT_NEAR(made["mL"].get<double>() / made["mL_of_segment"].get<double>(), 1, 0.02) << organ;
   }

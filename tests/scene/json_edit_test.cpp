@@ -1,9 +1,10 @@
-// Texts are edited without losing what their authors wrote: every shipped file is changed in many places, and read again.
-#include <gtest/gtest.h>
-
+// Texts are edited without losing what their authors wrote: every shipped file is changed in many places, and read
+// again.
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+
+#include <gtest/gtest.h>
 
 #include <trocar/core/files.hpp>
 #include <trocar/core/random.hpp>

@@ -1,5 +1,6 @@
-// What a modeller has open: a scene or an organ with all files that it names, as texts. Every change is one of texts, so
-// that comments and layout of what somebody wrote by hand stay, an unedited save changes nothing, and undoing is exact.
+// What a modeller has open: a scene or an organ with all files that it names, as texts. Every change is one of texts,
+// so that comments and layout of what somebody wrote by hand stay, an unedited save changes nothing, and undoing is
+// exact.
 //
 //   Document document = Document::open("scenes/cutting/scene.json");
 //   document.change("soften the liver", {{file, json_set(document.text(file), "/solids/0/cell_mm", json_number(5))}});
@@ -54,13 +55,13 @@ class Document {
   bool undo();  ///< false: there is nothing to undo
   bool redo();
   const std::vector<Change>& history() const { return m_history; }
-  std::size_t done() const { return m_done; }       ///< changes of the history that are in force
+  std::size_t done() const { return m_done; }          ///< changes of the history that are in force
   std::uint64_t version() const { return m_version; }  ///< another one after every change
 
   bool is_saved(const fs::path& file) const;
   std::vector<fs::path> unsaved() const;
-  /// Writes what has changed, each file at once. Nothing is written where a file is another one on the disk by now than it
-  /// was when it was read, unless `over`.
+  /// Writes what has changed, each file at once. Nothing is written where a file is another one on the disk by now than
+  /// it was when it was read, unless `over`.
   /// @throws core::BadInput with what is wrong, nothing lost
   void save(bool over = false);
   /// The root under another name from now on. @throws core::BadInput

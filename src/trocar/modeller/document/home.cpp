@@ -64,8 +64,8 @@ fs::path at_home(const Document& document, scene::MemoryFiles& memory) {
   const scene::FileKind kind = scene::kind_of_file(document.root(), &memory);
   if (kind == scene::FileKind::scene) return document.root();
   if (kind != scene::FileKind::organ)
-    throw core::BadInput({{{document.root().generic_string(), 1, 1},
-                           "expected a scene or an organ, got a file of another kind"}});
+    throw core::BadInput(
+        {{{document.root().generic_string(), 1, 1}, "expected a scene or an organ, got a file of another kind"}});
   const fs::path folder = document.root().parent_path();
   const fs::path place = folder / ".modelling-place.json";
   JsonValue text = scene::json_object();

@@ -30,12 +30,20 @@ void things_in(const JsonValue& value, const std::string& path, const fs::path& 
 }  // namespace
 
 const std::vector<KindOfThing>& kinds_of_things() {
-  static const std::vector<KindOfThing> kinds{
-      {"solid", "solids", true},        {"strand", "strands", true},   {"wall", "walls", true},
-      {"sheet", "sheets", true},        {"membrane", "membranes", true}, {"pouch", "pouches", true},
-      {"vessel", "vessels", false},     {"port", "ports", false},      {"mark", "marks", false},
-      {"rigid", "rigids", false},       {"fat", "fat", false},         {"bag", "bags", false},
-      {"instrument", "instruments", false}, {"tissue", "tissues", false}};
+  static const std::vector<KindOfThing> kinds{{"solid", "solids", true},
+                                              {"strand", "strands", true},
+                                              {"wall", "walls", true},
+                                              {"sheet", "sheets", true},
+                                              {"membrane", "membranes", true},
+                                              {"pouch", "pouches", true},
+                                              {"vessel", "vessels", false},
+                                              {"port", "ports", false},
+                                              {"mark", "marks", false},
+                                              {"rigid", "rigids", false},
+                                              {"fat", "fat", false},
+                                              {"bag", "bags", false},
+                                              {"instrument", "instruments", false},
+                                              {"tissue", "tissues", false}};
   return kinds;
 }
 
@@ -55,7 +63,8 @@ Thing thing_named(const Document& document, std::string_view name) {
   const std::string_view plain = colon == name.npos ? name : name.substr(colon + 1);
   const std::vector<Thing> all = outline(document);
   for (const Thing& thing : all)
-    if (thing.name == plain && (kind.empty() ? thing.kind != "tissue" && thing.kind != "instrument" : thing.kind == kind))
+    if (thing.name == plain &&
+        (kind.empty() ? thing.kind != "tissue" && thing.kind != "instrument" : thing.kind == kind))
       return thing;
   std::vector<std::string> names;
   for (const Thing& thing : all)

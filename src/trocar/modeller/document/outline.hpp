@@ -1,5 +1,5 @@
-// The things of a document that have names, and where their texts stand: what a list in a window shows, what an operation
-// is about. Made from the texts alone, so that it is there whatever else is wrong with them.
+// The things of a document that have names, and where their texts stand: what a list in a window shows, what an
+// operation is about. Made from the texts alone, so that it is there whatever else is wrong with them.
 #pragma once
 
 #include <string>

@@ -26,7 +26,7 @@ std::optional<Lost> read(const fs::path& file) {
     if (!faults.empty() || !root || !texts) return std::nullopt;
     Lost lost{file, root->value.text, {}};
     for (const JsonValue& item : texts->value.items)
-      if (const scene::JsonMember *path = item.find("file"), *text = item.find("text"); path && text)
+      if (const scene::JsonMember* path = item.find("file"), *text = item.find("text"); path && text)
         lost.texts[path->value.text] = text->value.text;
     return lost;
   } catch (const core::BadInput&) {

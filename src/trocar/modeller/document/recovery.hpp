@@ -1,5 +1,5 @@
-// What is unsaved, where a crash leaves it: a file a document in a folder of the user's, written after changes, gone when
-// all is saved.
+// What is unsaved, where a crash leaves it: a file a document in a folder of the user's, written after changes, gone
+// when all is saved.
 #pragma once
 
 #include <optional>

@@ -2,7 +2,7 @@
 #include <chrono>
 
 #include <trocar/modeller/drive/built.hpp>
-#include <trocar/scene/compile/standing.hpp>
+#include <trocar/scene/checks/standing.hpp>
 
 namespace trocar::modeller {
 namespace {

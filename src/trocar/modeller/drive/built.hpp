@@ -17,7 +17,7 @@ struct Built {
   std::unique_ptr<sim::Model> model;  ///< null where there are faults
   scene::CompileReport report;
   std::vector<std::string> notes;  ///< what was made up so that there is something to look at
-  double seconds = 0;  ///< that it took
+  double seconds = 0;              ///< that it took
 
   bool good() const { return model != nullptr; }
 };

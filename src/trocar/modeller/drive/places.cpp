@@ -21,8 +21,7 @@ std::vector<BodyPlace> places_of(const sim::Model& model, const sim::State& stat
     const interactions::StrandBody& body = model.strand_bodies[i];
     constexpr int kSteps = 60;
     for (int k = 0; k <= kSteps; ++k)
-      out.push_back({BodyId::strand(i),
-                     point_at(body, state.strands[i], place_at(body, body.length() * k / kSteps))});
+      out.push_back({BodyId::strand(i), point_at(body, state.strands[i], place_at(body, body.length() * k / kSteps))});
   }
   return out;
 }

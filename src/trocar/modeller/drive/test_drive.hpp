@@ -1,4 +1,5 @@
-// A document's bodies as they move: the real simulation, and a grasper that goes where it is told, takes hold and pulls.
+// A document's bodies as they move: the real simulation, and a grasper that goes where it is told, takes hold and
+// pulls.
 //
 //   TestDrive drive(*built.model);
 //   drive.take(at);                 // the grasper goes there and closes

@@ -68,9 +68,9 @@ Operation duplicate() {
 
 /// Keys whose texts name things.
 bool refers(std::string_view key) {
-  static constexpr const char* keys[] = {"of",      "on",      "solid",  "strand",  "base_on", "base_organ", "held_on",
-                                         "rides_on", "pool_on", "body",   "around",  "duct",    "holds",      "in",
-                                         "vessel",  "pouch",   "port",   "instrument"};
+  static constexpr const char* keys[] = {"of",      "on",       "solid",   "strand", "base_on", "base_organ",
+                                         "held_on", "rides_on", "pool_on", "body",   "around",  "duct",
+                                         "holds",   "in",       "vessel",  "pouch",  "port",    "instrument"};
   return std::any_of(std::begin(keys), std::end(keys), [&](const char* k) { return key == k; });
 }
 

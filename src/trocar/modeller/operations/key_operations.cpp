@@ -11,7 +11,8 @@ using scene::JsonObject;
 
 scene::Key one_key() { return keys::text("of", "the thing's name, default: the document's own top level"); }
 scene::Key key_key() {
-  return scene::needed(keys::text("key", "its key; one inside another with a stroke between, items by number: sections/2/centre_mm"));
+  return scene::needed(
+      keys::text("key", "its key; one inside another with a stroke between, items by number: sections/2/centre_mm"));
 }
 
 std::pair<fs::path, std::string> place_of(const JsonObject& o, const Draft& draft) {

@@ -59,8 +59,10 @@ struct Operation {
 const std::vector<Operation>& operations();
 const Operation* find_operation(std::string_view name);  ///< null where there is none
 
-/// Does what `parameters` say, as one entry of the history. `file` is named in faults. Nothing has changed where it throws.
+/// Does what `parameters` say, as one entry of the history. `file` is named in faults. Nothing has changed where it
+/// throws.
 /// @return what is worth telling about it; mostly nothing  @throws core::BadInput
-std::string apply(const Operation& operation, const scene::JsonValue& parameters, const std::string& file, Document& document);
+std::string apply(const Operation& operation, const scene::JsonValue& parameters, const std::string& file,
+                  Document& document);
 
 }  // namespace trocar::modeller

@@ -19,8 +19,9 @@ using scene::JsonValue;
 
 scene::Key of_key() { return scene::needed(keys::text("of", "the thing's name")); }
 scene::Key list_key() {
-  return keys::text("key", "the list that holds it (sections, centreline_mm, base_mm, net_mm, path_mm ...), default: "
-                           "the first one that the thing has");
+  return keys::text("key",
+                    "the list that holds it (sections, centreline_mm, base_mm, net_mm, path_mm ...), default: "
+                    "the first one that the thing has");
 }
 
 /// The list's path in the thing; empty, with a fault told, where there is none.
@@ -76,8 +77,9 @@ Operation insert_point() {
   return {{"insert_point",
            "Puts a point, or a section, between two others.",
            {of_key(), list_key(),
-            scene::needed(keys::integer("before", 0, 100000, "number of the one that it goes before; one more than there "
-                                                             "are: behind the last")),
+            scene::needed(keys::integer("before", 0, 100000,
+                                        "number of the one that it goes before; one more than there "
+                                        "are: behind the last")),
             keys::number("share", 0, 1, "of the way from the one before to the next, default 0.5"),
             keys::vec3("at_mm", -2000, 2000, "where a point of a line goes, default: between them")}},
           [](const JsonObject& o, Draft& draft) {
@@ -109,7 +111,8 @@ Operation remove_point() {
           [](const JsonObject& o, Draft& draft) {
             const Thing thing = draft.thing(o.text("of"));
             const std::string path = list_of(o, draft.value(thing.file, thing.path));
-            if (!path.empty()) draft.remove(thing.file, scene::json_path(thing.path + path, std::size_t(o.integer("item"))));
+            if (!path.empty())
+              draft.remove(thing.file, scene::json_path(thing.path + path, std::size_t(o.integer("item"))));
           }};
 }
 
@@ -147,7 +150,8 @@ std::vector<PointList> point_lists(const JsonValue& thing) {
     if (m.key == "anchors" || m.key == "held") out.push_back({path, m.key, PointList::balls});
     if (v.kind == JsonValue::Kind::array && !v.items.empty() && is_point(v.items[0]))
       out.push_back({path, m.key, PointList::line});
-    if (v.kind == JsonValue::Kind::array && !v.items.empty() && !v.items[0].items.empty() && is_point(v.items[0].items[0]))
+    if (v.kind == JsonValue::Kind::array && !v.items.empty() && !v.items[0].items.empty() &&
+        is_point(v.items[0].items[0]))
       out.push_back({path, m.key, PointList::net});
     if (v.kind == JsonValue::Kind::object)  // a shape within: nurbs, tube
       for (PointList inner : point_lists(v)) out.push_back({path + inner.path, inner.key, inner.kind});
@@ -180,7 +184,8 @@ std::vector<PlacedPoint> moved(const std::vector<PlacedPoint>& all, std::size_t 
   };
   std::size_t partner = all.size();
   for (std::size_t i = 0; symmetric && i < all.size(); ++i)
-    if (i != item && (partner == all.size() || length(all[i].at - other) < length(all[partner].at - other))) partner = i;
+    if (i != item && (partner == all.size() || length(all[i].at - other) < length(all[partner].at - other)))
+      partner = i;
   std::vector<PlacedPoint> out;
   for (std::size_t i = 0; i < all.size(); ++i) {
     Vec3d way = i == item ? by : by * weight(length(all[i].at - from));

@@ -56,10 +56,10 @@ std::pair<Vec3d, Vec3d> across(Vec3d axis) {
 }
 
 /// Sections end where half an ellipsoid as deep as the shorter half axis closes them: at h with
-/// h + m sqrt(1 - h^2 / c^2) = c, so h = c (c^2 - m^2) / (c^2 + m^2), c being half the length and m the shorter half axis.
+/// h + m sqrt(1 - h^2 / c^2) = c, so h = c (c^2 - m^2) / (c^2 + m^2), c being half the length and m the shorter half
+/// axis.
 Operation ellipsoid() {
-  return {{"ellipsoid",
-           "A ball or an ellipsoid, lofted along its longest axis.",
+  return {{"ellipsoid", "A ball or an ellipsoid, lofted along its longest axis.",
            with_body_keys({scene::needed(keys::vec3("centre_mm", -2000, 2000, "its middle")),
                            scene::needed(keys::vec3("half_mm", 0.1, 1000, "its half axes along x, y and z"))})},
           [](const JsonObject& o, Draft& draft) {
@@ -83,56 +83,55 @@ Operation ellipsoid() {
 }
 
 Operation revolved() {
-  return {{"revolved",
-           "A body of revolution: circles along an axis.",
-           with_body_keys({scene::needed(keys::vec3("from_mm", -2000, 2000, "where its axis begins")),
-                           scene::needed(keys::vec3("to_mm", -2000, 2000, "where it ends")),
-                           scene::needed(keys::any("radii_mm", "at least two radii, evenly from one end to the other"))})},
-          [](const JsonObject& o, Draft& draft) {
-            const Vec3d from = o.vec3("from_mm"), to = o.vec3("to_mm");
-            const JsonValue& radii = o.value().find("radii_mm")->value;
-            const double along = length(to - from);
-            if (!(along > 0.01)) return o.fault("to_mm", "expected another place than from_mm, got the same");
-            if (radii.items.size() < 2) return o.fault("radii_mm", "expected an array of at least two numbers");
-            const auto [x, y] = across((to - from) / along);
-            std::vector<JsonValue> sections;
-            for (std::size_t i = 0; i < radii.items.size(); ++i) {
-              const double r = radii.items[i].number;
-              if (!(r > 0)) return o.fault(o.at("radii_mm", i), "expected a radius above 0");
-              sections.push_back(
-                  section(from + (to - from) * (double(i) / double(radii.items.size() - 1)), x * r, y * r));
-            }
-            add_loft(o, draft, std::move(sections), along);
-          }};
+  return {
+      {"revolved", "A body of revolution: circles along an axis.",
+       with_body_keys({scene::needed(keys::vec3("from_mm", -2000, 2000, "where its axis begins")),
+                       scene::needed(keys::vec3("to_mm", -2000, 2000, "where it ends")),
+                       scene::needed(keys::any("radii_mm", "at least two radii, evenly from one end to the other"))})},
+      [](const JsonObject& o, Draft& draft) {
+        const Vec3d from = o.vec3("from_mm"), to = o.vec3("to_mm");
+        const JsonValue& radii = o.value().find("radii_mm")->value;
+        const double along = length(to - from);
+        if (!(along > 0.01)) return o.fault("to_mm", "expected another place than from_mm, got the same");
+        if (radii.items.size() < 2) return o.fault("radii_mm", "expected an array of at least two numbers");
+        const auto [x, y] = across((to - from) / along);
+        std::vector<JsonValue> sections;
+        for (std::size_t i = 0; i < radii.items.size(); ++i) {
+          const double r = radii.items[i].number;
+          if (!(r > 0)) return o.fault(o.at("radii_mm", i), "expected a radius above 0");
+          sections.push_back(section(from + (to - from) * (double(i) / double(radii.items.size() - 1)), x * r, y * r));
+        }
+        add_loft(o, draft, std::move(sections), along);
+      }};
 }
 
 Operation along_line() {
-  return {{"loft",
-           "A solid body along a line: a circle at each of its points, the sections turned as little as possible.",
-           with_body_keys({scene::needed(keys::points("line_mm", -2000, 2000, 2, "points of its middle line")),
-                           scene::needed(keys::any("radii_mm", "a radius, or as many as there are points"))})},
-          [](const JsonObject& o, Draft& draft) {
-            const std::vector<Vec3d> line = o.points("line_mm");
-            const JsonValue& radii = o.value().find("radii_mm")->value;
-            const bool one = radii.kind == JsonValue::Kind::number;
-            if (!one && radii.items.size() != line.size())
-              return o.fault("radii_mm", fmt::format("expected one radius or {}, got {}", line.size(), radii.items.size()));
-            double length_all = 0;
-            std::vector<JsonValue> sections;
-            Vec3d x{0, 0, 0};
-            for (std::size_t i = 0; i < line.size(); ++i) {
-              const Vec3d way = line[std::min(i + 1, line.size() - 1)] - line[i == 0 ? 0 : i - 1];
-              if (!(length(way) > 1e-3)) return o.fault(o.at("line_mm", i), "expected points apart, got the same twice");
-              const Vec3d axis = way / length(way);
-              if (i > 0) length_all += length(line[i] - line[i - 1]);
-              x = i == 0 ? across(axis).first : x - axis * dot(x, axis);
-              x = x / length(x);
-              const double r = one ? radii.number : radii.items[i].number;
-              if (!(r > 0)) return o.fault("radii_mm", "expected radii above 0");
-              sections.push_back(section(line[i], x * r, cross(axis, x) * r));
-            }
-            add_loft(o, draft, std::move(sections), length_all);
-          }};
+  return {
+      {"loft", "A solid body along a line: a circle at each of its points, the sections turned as little as possible.",
+       with_body_keys({scene::needed(keys::points("line_mm", -2000, 2000, 2, "points of its middle line")),
+                       scene::needed(keys::any("radii_mm", "a radius, or as many as there are points"))})},
+      [](const JsonObject& o, Draft& draft) {
+        const std::vector<Vec3d> line = o.points("line_mm");
+        const JsonValue& radii = o.value().find("radii_mm")->value;
+        const bool one = radii.kind == JsonValue::Kind::number;
+        if (!one && radii.items.size() != line.size())
+          return o.fault("radii_mm", fmt::format("expected one radius or {}, got {}", line.size(), radii.items.size()));
+        double length_all = 0;
+        std::vector<JsonValue> sections;
+        Vec3d x{0, 0, 0};
+        for (std::size_t i = 0; i < line.size(); ++i) {
+          const Vec3d way = line[std::min(i + 1, line.size() - 1)] - line[i == 0 ? 0 : i - 1];
+          if (!(length(way) > 1e-3)) return o.fault(o.at("line_mm", i), "expected points apart, got the same twice");
+          const Vec3d axis = way / length(way);
+          if (i > 0) length_all += length(line[i] - line[i - 1]);
+          x = i == 0 ? across(axis).first : x - axis * dot(x, axis);
+          x = x / length(x);
+          const double r = one ? radii.number : radii.items[i].number;
+          if (!(r > 0)) return o.fault("radii_mm", "expected radii above 0");
+          sections.push_back(section(line[i], x * r, cross(axis, x) * r));
+        }
+        add_loft(o, draft, std::move(sections), length_all);
+      }};
 }
 
 Operation cord() {

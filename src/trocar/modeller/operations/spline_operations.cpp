@@ -42,13 +42,15 @@ JsonValue written(const scene::NurbsShape& shape) {
     std::vector<JsonValue> row, row_weights;
     for (int c = 0; c < shape.columns; ++c) {
       row.push_back(place(shape.net[std::size_t(r * shape.columns + c)]));
-      if (!shape.weights.empty()) row_weights.push_back(scene::json_number(shape.weights[std::size_t(r * shape.columns + c)]));
+      if (!shape.weights.empty())
+        row_weights.push_back(scene::json_number(shape.weights[std::size_t(r * shape.columns + c)]));
     }
     rows.push_back(scene::json_array(std::move(row)));
     if (!row_weights.empty()) weights.push_back(scene::json_array(std::move(row_weights)));
   }
   JsonValue out = scene::json_object();
-  scene::put(out, "degree", scene::json_array({scene::json_number(shape.degree[0]), scene::json_number(shape.degree[1])}));
+  scene::put(out, "degree",
+             scene::json_array({scene::json_number(shape.degree[0]), scene::json_number(shape.degree[1])}));
   scene::put(out, "net_mm", scene::json_array(std::move(rows)));
   if (!weights.empty()) scene::put(out, "weights", scene::json_array(std::move(weights)));
   if (!shape.knots_u.empty()) scene::put(out, "knots_u", numbers(shape.knots_u));
@@ -95,16 +97,19 @@ void put_spline(Draft& draft, const Thing& thing, const nurbs::Surface& surface)
 
 Operation to_spline() {
   return {{"to_spline",
-           "Describes a lofted body, a tube or a body of revolution by a NURBS, the same shape, so that its control points can be moved.",
+           "Describes a lofted body, a tube or a body of revolution by a NURBS, the same shape, so that its control "
+           "points can be moved.",
            {scene::needed(keys::text("of", "its name"))}},
           [](const JsonObject& o, Draft& draft) {
             const Thing thing = draft.thing(o.text("of"));
             const Described body = described(draft, thing);
             if (const std::optional<nurbs::Surface> spline = scene::spline_of(body.shape))
               return put_spline(draft, thing, *spline);
-            if (body.sections.size() < 2) return o.fault("of", "expected a body with sections, a tube or a profile, got another one");
+            if (body.sections.size() < 2)
+              return o.fault("of", "expected a body with sections, a tube or a profile, got another one");
             std::vector<geometry::Section> sections;
-            for (const scene::Section& s : body.sections) sections.push_back({s.centre, s.across, s.deep, s.squareness});
+            for (const scene::Section& s : body.sections)
+              sections.push_back({s.centre, s.across, s.deep, s.squareness});
             put_spline(draft, thing, nurbs::nurbs_of(geometry::loft(sections)));
           }};
 }
@@ -143,8 +148,11 @@ Operation remove_knot() {
             const double tolerance = o.number("tolerance_mm", 0.01);
             const auto less = nurbs::without_knot(*surface, way_of(o), knot, tolerance * 1e-3);
             if (!less)
-              return o.fault("at", fmt::format("expected a knot without which the shape changes by at most {:g} mm, got {:.3f}, which it needs",
-                                               tolerance, knot));
+              return o.fault(
+                  "at",
+                  fmt::format(
+                      "expected a knot without which the shape changes by at most {:g} mm, got {:.3f}, which it needs",
+                      tolerance, knot));
             put_spline(draft, thing, *less);
           }};
 }
@@ -160,8 +168,8 @@ Operation raise_degree() {
           }};
 }
 
-/// The best of fits with less and with more smoothing: where the first one bulges between the mesh's vertices, which only the
-/// way back from it to the mesh tells, another one does not.
+/// The best of fits with less and with more smoothing: where the first one bulges between the mesh's vertices, which
+/// only the way back from it to the mesh tells, another one does not.
 nurbs::Fit best_fit(const geometry::TriMesh& mesh, nurbs::BodyFitOptions options) {
   const auto badness = [](const nurbs::FitReport& r) { return std::max(r.rms, r.back_rms); };
   nurbs::Fit best = nurbs::fit_body(mesh, options);
@@ -177,51 +185,56 @@ nurbs::Fit best_fit(const geometry::TriMesh& mesh, nurbs::BodyFitOptions options
 }
 
 Operation fit() {
-  return {{"fit_spline",
-           "Fits a NURBS body to a closed mesh from a file: OBJ, STL, PLY, glTF, VTK. What is not closed is mended first.",
-           {scene::needed(keys::text("file", "the mesh, relative to the document")),
-            scene::needed(keys::name("name", "what the body is called")), scene::needed(keys::name("tissue", "its material")),
-            scene::needed(keys::number("cell_mm", 0.1, 100, "edge of its cells")),
-            keys::text("part", "of several parts in the file, default: all"),
-            keys::number("unit_mm", 1e-6, 1e6, "unit of its coordinates, default: what its format or size says"),
-            keys::integer("around", 4, 64, "control points around, default 16"),
-            keys::integer("along", 5, 96, "control points from pole to pole, default 24"),
-            keys::number("most_mm", 0.001, 100, "greatest rms distance that is taken, default 1"),
-            keys::vec3("place_mm", -2000, 2000, "where the file's origin goes, default where it is")}},
-          [](const JsonObject& o, Draft& draft) {
-            const fs::path path = whole_path(draft.document().root().parent_path() / o.text("file"));
-            const geometry::SurfaceFile file = geometry::read_surface_file(path);
-            geometry::TriMesh mesh;
-            for (const geometry::SurfacePart& part : file.parts)
-              if (!o.has("part") || part.name == o.text("part")) geometry::append(mesh, part.mesh);
-            if (mesh.triangles.empty()) return o.fault("file", "expected a file with this part, got none");
-            const double unit = o.has("unit_mm") ? o.number("unit_mm") * 1e-3 : file.metres > 0 ? file.metres : 1e-3;
-            mesh = geometry::mend(mesh).mesh;
-            for (Vec3d& p : mesh.positions) p = p * unit + o.vec3("place_mm") * 1e-3;
-            nurbs::BodyFitOptions options;
-            options.around = o.integer("around", 16);
-            options.along = o.integer("along", 24);
-            const nurbs::Fit made = best_fit(mesh, options);
-            const double off = 1e3 * std::max(made.report.rms, made.report.back_rms);
-            if (off > o.number("most_mm", 1))
-              return o.fault("most_mm", fmt::format("expected a fit within {:g} mm rms both ways, got {:.3f} mm: more control "
-                                                    "points may help",
-                                                    o.number("most_mm", 1), off));
-            JsonValue solid = scene::json_object();
-            scene::put(solid, "name", scene::json_text(o.text("name")));
-            scene::put(solid, "tissue", scene::json_text(o.text("tissue")));
-            scene::put(solid, "nurbs", written(scene::shape_of(made.surface)));
-            scene::put(solid, "cell_mm", number(o.number("cell_mm")));
-            add_thing(draft, "solid", solid, "");
-            draft.say(fmt::format("fitted within {:.3f} mm rms, {:.2f} mm at most, back {:.3f} and {:.2f} mm, volume {:+.2f} %",
-                                  1e3 * made.report.rms, 1e3 * made.report.greatest, 1e3 * made.report.back_rms,
-                                  1e3 * made.report.back_greatest,
-                                  100 * (made.report.volume_of_fit / made.report.volume_of_mesh - 1)));
-          }};
+  return {
+      {"fit_spline",
+       "Fits a NURBS body to a closed mesh from a file: OBJ, STL, PLY, glTF, VTK. What is not closed is mended first.",
+       {scene::needed(keys::text("file", "the mesh, relative to the document")),
+        scene::needed(keys::name("name", "what the body is called")),
+        scene::needed(keys::name("tissue", "its material")),
+        scene::needed(keys::number("cell_mm", 0.1, 100, "edge of its cells")),
+        keys::text("part", "of several parts in the file, default: all"),
+        keys::number("unit_mm", 1e-6, 1e6, "unit of its coordinates, default: what its format or size says"),
+        keys::integer("around", 4, 64, "control points around, default 16"),
+        keys::integer("along", 5, 96, "control points from pole to pole, default 24"),
+        keys::number("most_mm", 0.001, 100, "greatest rms distance that is taken, default 1"),
+        keys::vec3("place_mm", -2000, 2000, "where the file's origin goes, default where it is")}},
+      [](const JsonObject& o, Draft& draft) {
+        const fs::path path = whole_path(draft.document().root().parent_path() / o.text("file"));
+        const geometry::SurfaceFile file = geometry::read_surface_file(path);
+        geometry::TriMesh mesh;
+        for (const geometry::SurfacePart& part : file.parts)
+          if (!o.has("part") || part.name == o.text("part")) geometry::append(mesh, part.mesh);
+        if (mesh.triangles.empty()) return o.fault("file", "expected a file with this part, got none");
+        const double unit = o.has("unit_mm") ? o.number("unit_mm") * 1e-3 : file.metres > 0 ? file.metres : 1e-3;
+        mesh = geometry::mend(mesh).mesh;
+        for (Vec3d& p : mesh.positions) p = p * unit + o.vec3("place_mm") * 1e-3;
+        nurbs::BodyFitOptions options;
+        options.around = o.integer("around", 16);
+        options.along = o.integer("along", 24);
+        const nurbs::Fit made = best_fit(mesh, options);
+        const double off = 1e3 * std::max(made.report.rms, made.report.back_rms);
+        if (off > o.number("most_mm", 1))
+          return o.fault("most_mm",
+                         fmt::format("expected a fit within {:g} mm rms both ways, got {:.3f} mm: more control "
+                                     "points may help",
+                                     o.number("most_mm", 1), off));
+        JsonValue solid = scene::json_object();
+        scene::put(solid, "name", scene::json_text(o.text("name")));
+        scene::put(solid, "tissue", scene::json_text(o.text("tissue")));
+        scene::put(solid, "nurbs", written(scene::shape_of(made.surface)));
+        scene::put(solid, "cell_mm", number(o.number("cell_mm")));
+        add_thing(draft, "solid", solid, "");
+        draft.say(fmt::format(
+            "fitted within {:.3f} mm rms, {:.2f} mm at most, back {:.3f} and {:.2f} mm, volume {:+.2f} %",
+            1e3 * made.report.rms, 1e3 * made.report.greatest, 1e3 * made.report.back_rms,
+            1e3 * made.report.back_greatest, 100 * (made.report.volume_of_fit / made.report.volume_of_mesh - 1)));
+      }};
 }
 
 }  // namespace
 
-std::vector<Operation> spline_operations() { return {to_spline(), insert_knot(), remove_knot(), raise_degree(), fit()}; }
+std::vector<Operation> spline_operations() {
+  return {to_spline(), insert_knot(), remove_knot(), raise_degree(), fit()};
+}
 
 }  // namespace trocar::modeller

@@ -15,7 +15,7 @@ Role role_of(std::string_view key, const scene::JsonValue& value);
 /// What becomes of them [mm].
 struct Movement {
   std::function<Vec3d(Vec3d)> place, vector;
-  double length = 1;    ///< factor
+  double length = 1;     ///< factor
   bool mirrors = false;  ///< right hands become left ones
 };
 /// Calls `put` with the path (from `path` on) and the new value of all that changes.

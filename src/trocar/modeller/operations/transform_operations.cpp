@@ -67,15 +67,12 @@ void apply_to(const JsonObject& o, Draft& draft, const std::function<Movement(Ve
 }
 
 Operation move() {
-  return {{"move",
-           "Moves things.",
-           {things_key(), scene::needed(keys::vec3("by_mm", -2000, 2000, "how far"))}},
-          [](const JsonObject& o, Draft& draft) {
-            const Vec3d by = o.vec3("by_mm");
-            apply_to(o, draft, [&](Vec3d) {
-              return Movement{[=](Vec3d p) { return p + by; }, [](Vec3d v) { return v; }};
-            });
-          }};
+  return {
+      {"move", "Moves things.", {things_key(), scene::needed(keys::vec3("by_mm", -2000, 2000, "how far"))}},
+      [](const JsonObject& o, Draft& draft) {
+        const Vec3d by = o.vec3("by_mm");
+        apply_to(o, draft, [&](Vec3d) { return Movement{[=](Vec3d p) { return p + by; }, [](Vec3d v) { return v; }}; });
+      }};
 }
 
 /// About an axis through the origin by an angle [rad].  [Rodrigues 1840]
@@ -133,8 +130,13 @@ Operation mirror() {
           [](const JsonObject& o, Draft& draft) {
             const double x = o.number("x_mm");
             apply_to(o, draft, [&](Vec3d) {
-              return Movement{[=](Vec3d p) { return Vec3d{2 * x - p.x, p.y, p.z}; },
-                              [](Vec3d v) { return Vec3d{-v.x, v.y, v.z}; }, 1, true};
+              return Movement{[=](Vec3d p) {
+                                return Vec3d{2 * x - p.x, p.y, p.z};
+                              },
+                              [](Vec3d v) {
+                                return Vec3d{-v.x, v.y, v.z};
+                              },
+                              1, true};
             });
           }};
 }

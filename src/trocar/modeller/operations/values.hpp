@@ -14,8 +14,8 @@ scene::JsonValue number(double value);
 scene::JsonValue point(Vec3d value);
 scene::JsonValue points(const std::vector<Vec3d>& values);
 
-bool is_point(const scene::JsonValue& value);        ///< three numbers
-Vec3d point_of(const scene::JsonValue& value);       ///< of one that is
+bool is_point(const scene::JsonValue& value);   ///< three numbers
+Vec3d point_of(const scene::JsonValue& value);  ///< of one that is
 std::vector<Vec3d> points_of(const scene::JsonValue& value);
 
 /// The member's number, else the fallback.

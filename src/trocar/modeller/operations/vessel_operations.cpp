@@ -30,22 +30,23 @@ std::vector<scene::Key> drawn_keys(std::vector<scene::Key> keys) {
 scene::Key file_key() { return scene::needed(keys::text("file", "the file of vessels, relative to the document")); }
 
 Operation new_tree() {
-  return {{"vessel_tree",
-           "Begins a tree of vessels in a file of its own, with its first vessel.",
+  return {{"vessel_tree", "Begins a tree of vessels in a file of its own, with its first vessel.",
            drawn_keys({file_key(), scene::needed(keys::name("name", "of the tree")),
-            keys::choice("kind", {"arteries", "veins"}, "default arteries"),
-            scene::needed(keys::name("vessel", "name of the first vessel")),
-            scene::needed(keys::points("path_mm", -2000, 2000, 2, "its middle line, away from the heart in arteries")),
-            scene::needed(keys::number("radius_mm", 0.01, 50, "of its lumen")),
-            scene::needed(keys::number("flow_mL_min", 0.001, 20000, "what all of the tree carries at rest")),
-            keys::texts("rides_on", "bodies that it goes with where they are near")})},
+                       keys::choice("kind", {"arteries", "veins"}, "default arteries"),
+                       scene::needed(keys::name("vessel", "name of the first vessel")),
+                       scene::needed(
+                           keys::points("path_mm", -2000, 2000, 2, "its middle line, away from the heart in arteries")),
+                       scene::needed(keys::number("radius_mm", 0.01, 50, "of its lumen")),
+                       scene::needed(keys::number("flow_mL_min", 0.001, 20000, "what all of the tree carries at rest")),
+                       keys::texts("rides_on", "bodies that it goes with where they are near")})},
           [](const JsonObject& o, Draft& draft) {
             const fs::path file = beside(draft, o.text("file"));
             if (draft.has(file)) return o.fault("file", "expected the name of a new file, got one that is there");
             const bool veins = o.text("kind") == "veins";
             JsonValue source = scene::json_object();
             scene::put(source, "node", scene::json_text("root"));
-            // what leads here from the heart takes a sixth of the pressure: an opened trunk does not bleed like an aorta
+            // what leads here from the heart takes a sixth of the pressure: an opened trunk does not bleed like an
+            // aorta
             const double flow = o.number("flow_mL_min", 60) / 60;  // [mL/s]
             scene::put(source, "resistance_mmHg_s_mL", number(veins ? 2 / flow : 15 / flow));
             if (veins) {
@@ -96,8 +97,8 @@ std::string text_in(const JsonValue& object, const char* key) {
   return v ? v->text : "";
 }
 
-/// Radii of a tree's vessels by Murray's law: r^3 of what comes is the sum of those of what goes. What leaves a node has
-/// equal shares unless its file says otherwise; ends take up flow in proportion to r^3.  [Murray 1926]
+/// Radii of a tree's vessels by Murray's law: r^3 of what comes is the sum of those of what goes. What leaves a node
+/// has equal shares unless its file says otherwise; ends take up flow in proportion to r^3.  [Murray 1926]
 void lay_out_by_murray(Draft& draft, const fs::path& file, double flow) {
   const JsonValue tree = draft.value(file, "");
   const JsonValue* vessels = member(tree, "vessels");
@@ -143,37 +144,39 @@ double whole_flow(const JsonValue& tree) {
 }
 
 Operation branch() {
-  return {{"branch",
-           "Lets a vessel go on, or branch off: from the end of one that is there along a line. Radii follow by Murray's law, "
-           "r^3 = sum r_i^3, and the flow at the ends with them.",
-           drawn_keys({scene::needed(keys::text("of", "the vessel from whose end it goes")),
-            scene::needed(keys::name("name", "of the new one")),
-            scene::needed(keys::points("path_mm", -2000, 2000, 1, "its points after that end")),
-            keys::texts("rides_on", "bodies that it goes with where they are near, default: as the other")})},
-          [](const JsonObject& o, Draft& draft) {
-            const Thing parent = draft.thing("vessel:" + o.text("of"));
-            const JsonValue from = draft.value(parent.file, parent.path);
-            const JsonValue tree = draft.value(parent.file, "");
-            const double flow = whole_flow(tree);
-            const std::vector<Vec3d> there = points_of(*member(from, "path_mm"));
-            std::vector<Vec3d> path{there.back()};
-            for (const Vec3d& p : sketched(o, draft, o.points("path_mm"))) path.push_back(p);
-            JsonValue vessel = scene::json_object();
-            scene::put(vessel, "name", scene::json_text(o.text("name")));
-            scene::put(vessel, "from", scene::json_text(text_in(from, "to")));
-            scene::put(vessel, "to", scene::json_text(o.text("name") + "_end"));
-            scene::put(vessel, "path_mm", points(path));
-            scene::put(vessel, "radius_mm", number(number_in(from, "radius_mm", 1)));
-            scene::put(vessel, "wave_speed_m_s", number(number_in(from, "wave_speed_m_s", 7)));
-            std::vector<JsonValue> rides;
-            for (const std::string& on : o.texts("rides_on")) rides.push_back(scene::json_text(on));
-            if (!rides.empty())
-              scene::put(vessel, "rides_on", scene::json_array(rides));
-            else if (const JsonValue* on = member(from, "rides_on"))
-              scene::put(vessel, "rides_on", *on);
-            draft.insert(parent.file, "/vessels", member(tree, "vessels")->items.size(), vessel);
-            lay_out_by_murray(draft, parent.file, flow);
-          }};
+  return {
+      {"branch",
+       "Lets a vessel go on, or branch off: from the end of one that is there along a line. Radii follow by Murray's "
+       "law, "
+       "r^3 = sum r_i^3, and the flow at the ends with them.",
+       drawn_keys({scene::needed(keys::text("of", "the vessel from whose end it goes")),
+                   scene::needed(keys::name("name", "of the new one")),
+                   scene::needed(keys::points("path_mm", -2000, 2000, 1, "its points after that end")),
+                   keys::texts("rides_on", "bodies that it goes with where they are near, default: as the other")})},
+      [](const JsonObject& o, Draft& draft) {
+        const Thing parent = draft.thing("vessel:" + o.text("of"));
+        const JsonValue from = draft.value(parent.file, parent.path);
+        const JsonValue tree = draft.value(parent.file, "");
+        const double flow = whole_flow(tree);
+        const std::vector<Vec3d> there = points_of(*member(from, "path_mm"));
+        std::vector<Vec3d> path{there.back()};
+        for (const Vec3d& p : sketched(o, draft, o.points("path_mm"))) path.push_back(p);
+        JsonValue vessel = scene::json_object();
+        scene::put(vessel, "name", scene::json_text(o.text("name")));
+        scene::put(vessel, "from", scene::json_text(text_in(from, "to")));
+        scene::put(vessel, "to", scene::json_text(o.text("name") + "_end"));
+        scene::put(vessel, "path_mm", points(path));
+        scene::put(vessel, "radius_mm", number(number_in(from, "radius_mm", 1)));
+        scene::put(vessel, "wave_speed_m_s", number(number_in(from, "wave_speed_m_s", 7)));
+        std::vector<JsonValue> rides;
+        for (const std::string& on : o.texts("rides_on")) rides.push_back(scene::json_text(on));
+        if (!rides.empty())
+          scene::put(vessel, "rides_on", scene::json_array(rides));
+        else if (const JsonValue* on = member(from, "rides_on"))
+          scene::put(vessel, "rides_on", *on);
+        draft.insert(parent.file, "/vessels", member(tree, "vessels")->items.size(), vessel);
+        lay_out_by_murray(draft, parent.file, flow);
+      }};
 }
 
 }  // namespace

@@ -65,7 +65,8 @@ Handles handles_of(const Document& document, const std::string& name) {
     if (list.kind == PointList::sections)
       for (const scene::JsonValue& s : scene::json_at(value, list.path)->items) {
         const scene::JsonMember *centre = s.find("centre_mm"), *across = s.find("across_mm"), *deep = s.find("deep_mm");
-        if (!centre || !across || !deep || !is_point(centre->value) || !is_point(across->value) || !is_point(deep->value))
+        if (!centre || !across || !deep || !is_point(centre->value) || !is_point(across->value) ||
+            !is_point(deep->value))
           continue;
         const Vec3d c = point_of(centre->value), a = point_of(across->value), d = point_of(deep->value);
         const double power = 2 / std::max(1.0, number_in(s, "squareness", 2));

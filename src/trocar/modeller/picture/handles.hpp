@@ -1,5 +1,5 @@
-// What can be taken on things: their points and the lines between them, where they stand in a picture, and what lies under
-// a pointer. A window draws them over its picture, a script into its own.
+// What can be taken on things: their points and the lines between them, where they stand in a picture, and what lies
+// under a pointer. A window draws them over its picture, a script into its own.
 #pragma once
 
 #include <optional>

@@ -27,7 +27,8 @@ std::vector<std::string> Scan::take_labels(const std::filesystem::path& path, co
     const std::vector<std::size_t> after = volumes::voxels_per_label(file.labels);
     std::size_t lost = 0;
     for (std::size_t i = 1; i < before.size(); ++i) lost += before[i] > 0 && after[i] == 0;
-    notes.push_back("the labels are on another grid than the scan and were laid on its grid by their place in the patient");
+    notes.push_back(
+        "the labels are on another grid than the scan and were laid on its grid by their place in the patient");
     if (lost > 0) notes.push_back(fmt::format("{} labels lie outside of the scan and are gone", lost));
   }
   volumes::name_all(file.labels);
@@ -42,7 +43,8 @@ std::uint16_t Scan::segment(const std::string& name) {
   for (const volumes::Segment& s : m_labels.segments)
     if (s.name == name) return s.label;
   std::uint16_t label = 1;
-  for (const volumes::Segment& s : m_labels.segments) label = std::max<std::uint16_t>(label, std::uint16_t(s.label + 1));
+  for (const volumes::Segment& s : m_labels.segments)
+    label = std::max<std::uint16_t>(label, std::uint16_t(s.label + 1));
   m_labels.segments.push_back({label, name, volumes::colour_of(label)});
   return label;
 }

@@ -1,5 +1,5 @@
-// A patient's scan on the desk: its voxels, the labels that are drawn into them, and what was done to those, which can be
-// undone without end at the cost of what was changed.
+// A patient's scan on the desk: its voxels, the labels that are drawn into them, and what was done to those, which can
+// be undone without end at the cost of what was changed.
 //
 //   Scan scan = Scan::open("patient/series");
 //   scan.change("liver", volumes::thresholded(scan.volume(), scan.labels(), {40, 180}, scan.label_named("liver")));

@@ -24,8 +24,9 @@ volumes::LabelSurface surface_of_segment(const Scan& scan, const OrganWish& wish
   options.most_triangles = wish.most_triangles;
   volumes::LabelSurface made = volumes::label_surface(scan.labels(), scan.segment_there(wish.segment), options);
   if (!made.is_body)
-    refuse_organ(scan.path(), "expected a segment whose surface is a closed body, got one that is not: smooth it, or keep "
-                              "its largest part");
+    refuse_organ(scan.path(),
+                 "expected a segment whose surface is a closed body, got one that is not: smooth it, or keep "
+                 "its largest part");
   if (std::fabs(made.ml / made.ml_of_label - 1) > wish.within)
     refuse_organ(scan.path(),
                  fmt::format("expected a surface of the segment's {:.2f} mL, got {:.2f}", made.ml_of_label, made.ml));

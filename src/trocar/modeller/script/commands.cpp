@@ -86,8 +86,8 @@ Command check() {
                                 {"predicted_us", r.predicted_us}});
               if (r.off_mm >= 0) bodies.back()["off_mm"] = r.off_mm;
               if (o.flag("still") && r.off_mm > 0.5)
-                o.fault(o.at(), fmt::format("expected {} to hang still, got {:.1f} mm off after {:g} s", r.name, r.off_mm,
-                                            o.number("seconds", 1)));
+                o.fault(o.at(), fmt::format("expected {} to hang still, got {:.1f} mm off after {:g} s", r.name,
+                                            r.off_mm, o.number("seconds", 1)));
             }
             for (const std::string& note : session.built().notes) {
               if (o.flag("still")) o.fault(o.at(), note);
@@ -135,44 +135,43 @@ Vec3d on_vessel(const Document& document, const std::string& name, double share)
 }
 
 Command use() {
-  return {{"use",
-           "An instrument goes to a place and closes there, then opens: scissors cut, a clip applier clips.",
-           {scene::needed(keys::text("instrument", "its name")),
-            keys::vec3("at_mm", -2000, 2000, "where its jaws close"),
-            keys::text("vessel", "or on this vessel"),
-            keys::number("share", 0, 1, "how far along it, default 0.5")}},
-          [](const JsonObject& o, Session& session) {
-            if (o.has("at_mm") == o.has("vessel")) return o.fault(o.at(), "expected either \"at_mm\" or \"vessel\"");
-            TestDrive& drive = session.drive();
-            const Vec3d at = o.has("at_mm") ? o.vec3("at_mm") * 1e-3
-                                            : on_vessel(session.document(), o.text("vessel"), o.number("share", 0.5));
-            if (!drive.choose(o.text("instrument")))
-              return o.fault("instrument", "expected an instrument that a hand has or can take, got none of this name");
-            for (int i = 0; i < 20000 && !drive.done(); ++i) drive.tick();
-            const sim::State& state = drive.state();
-            const int strand_clips = state.clip_count, vessel_clips = state.vessel_clip_count;
-            const int strand_cuts = state.cut_count, openings = state.opening_count;
-            drive.take(at);
-            for (int i = 0; i < 20000 && !drive.done(); ++i) drive.tick();
-            drive.let_go();
-            for (int i = 0; i < 5000 && !drive.done(); ++i) drive.tick();
-            Json clipped = Json::array(), cut = Json::array();  // names of vessels and strands
-            const sim::Model& model = session.model();
-            for (int i = strand_clips; i < state.clip_count; ++i)
-              if (const int strand = state.clips[std::size_t(i)].strand; strand >= 0)
-                clipped.push_back(model.strands[std::size_t(strand)].name);
-            for (int i = vessel_clips; i < state.vessel_clip_count; ++i)
-              clipped.push_back(fmt::format("{}, {:.0f} % of its width",
-                                            model.vessels.list[std::size_t(state.vessel_clips[std::size_t(i)].vessel)].name,
-                                            100 * state.vessel_clips[std::size_t(i)].cover));
-            for (int i = strand_cuts; i < state.cut_count; ++i)
-              if (const int strand = state.cuts[std::size_t(i)].strand; strand >= 0)
-                cut.push_back(model.strands[std::size_t(strand)].name);
-            for (int i = openings; i < state.opening_count; ++i)
-              cut.push_back(model.vessels.list[std::size_t(state.openings[std::size_t(i)].vessel)].name);
-            session.said().push_back(
-                with_blood({{"use", o.text("instrument")}, {"clipped", clipped}, {"cut", cut}}, drive));
-          }};
+  return {
+      {"use",
+       "An instrument goes to a place and closes there, then opens: scissors cut, a clip applier clips.",
+       {scene::needed(keys::text("instrument", "its name")), keys::vec3("at_mm", -2000, 2000, "where its jaws close"),
+        keys::text("vessel", "or on this vessel"), keys::number("share", 0, 1, "how far along it, default 0.5")}},
+      [](const JsonObject& o, Session& session) {
+        if (o.has("at_mm") == o.has("vessel")) return o.fault(o.at(), "expected either \"at_mm\" or \"vessel\"");
+        TestDrive& drive = session.drive();
+        const Vec3d at = o.has("at_mm") ? o.vec3("at_mm") * 1e-3
+                                        : on_vessel(session.document(), o.text("vessel"), o.number("share", 0.5));
+        if (!drive.choose(o.text("instrument")))
+          return o.fault("instrument", "expected an instrument that a hand has or can take, got none of this name");
+        for (int i = 0; i < 20000 && !drive.done(); ++i) drive.tick();
+        const sim::State& state = drive.state();
+        const int strand_clips = state.clip_count, vessel_clips = state.vessel_clip_count;
+        const int strand_cuts = state.cut_count, openings = state.opening_count;
+        drive.take(at);
+        for (int i = 0; i < 20000 && !drive.done(); ++i) drive.tick();
+        drive.let_go();
+        for (int i = 0; i < 5000 && !drive.done(); ++i) drive.tick();
+        Json clipped = Json::array(), cut = Json::array();  // names of vessels and strands
+        const sim::Model& model = session.model();
+        for (int i = strand_clips; i < state.clip_count; ++i)
+          if (const int strand = state.clips[std::size_t(i)].strand; strand >= 0)
+            clipped.push_back(model.strands[std::size_t(strand)].name);
+        for (int i = vessel_clips; i < state.vessel_clip_count; ++i)
+          clipped.push_back(fmt::format("{}, {:.0f} % of its width",
+                                        model.vessels.list[std::size_t(state.vessel_clips[std::size_t(i)].vessel)].name,
+                                        100 * state.vessel_clips[std::size_t(i)].cover));
+        for (int i = strand_cuts; i < state.cut_count; ++i)
+          if (const int strand = state.cuts[std::size_t(i)].strand; strand >= 0)
+            cut.push_back(model.strands[std::size_t(strand)].name);
+        for (int i = openings; i < state.opening_count; ++i)
+          cut.push_back(model.vessels.list[std::size_t(state.openings[std::size_t(i)].vessel)].name);
+        session.said().push_back(
+            with_blood({{"use", o.text("instrument")}, {"clipped", clipped}, {"cut", cut}}, drive));
+      }};
 }
 
 Command pull() {
@@ -208,7 +207,8 @@ Command rest() {
             for (int i = 0; i < ticks; ++i) drive.tick();
             const double lost = drive.blood_lost() - before;
             session.said().push_back(with_blood(
-                {{"rest_s", o.number("seconds")}, {"bleeds_mL_min", 1e6 * lost / std::max(1e-3, 1e-3 * ticks) * 60}}, drive));
+                {{"rest_s", o.number("seconds")}, {"bleeds_mL_min", 1e6 * lost / std::max(1e-3, 1e-3 * ticks) * 60}},
+                drive));
           }};
 }
 
@@ -218,18 +218,19 @@ Command stop() {
 }
 
 Command shot() {
-  return {{"shot",
-           "Draws a picture.",
-           {scene::needed(keys::name("name", "of the picture")), keys::text("points", "the thing whose points are shown"),
-            keys::name("of", "the body that fills the picture, default: all"),
-            keys::number("yaw_deg", -360, 360, "from where: 0 from the feet, 90 from the patient's left; default 20"),
-            keys::number("pitch_deg", -88, 88, "above the patient's plane, default 30"),
-            keys::number("distance_mm", 0, 1500, "from the middle, default: so that all is in it"),
-            keys::flag("scope", "through the scene's endoscope; default false")}},
-          [](const JsonObject& o, Session& session) {
-            session.shot(o.text("name"), o.text("points"), o.text("of"), o.number("yaw_deg", 20) * kDegree,
-                         o.number("pitch_deg", 30) * kDegree, o.number("distance_mm") * 1e-3, o.flag("scope"));
-          }};
+  return {
+      {"shot",
+       "Draws a picture.",
+       {scene::needed(keys::name("name", "of the picture")), keys::text("points", "the thing whose points are shown"),
+        keys::name("of", "the body that fills the picture, default: all"),
+        keys::number("yaw_deg", -360, 360, "from where: 0 from the feet, 90 from the patient's left; default 20"),
+        keys::number("pitch_deg", -88, 88, "above the patient's plane, default 30"),
+        keys::number("distance_mm", 0, 1500, "from the middle, default: so that all is in it"),
+        keys::flag("scope", "through the scene's endoscope; default false")}},
+      [](const JsonObject& o, Session& session) {
+        session.shot(o.text("name"), o.text("points"), o.text("of"), o.number("yaw_deg", 20) * kDegree,
+                     o.number("pitch_deg", 30) * kDegree, o.number("distance_mm") * 1e-3, o.flag("scope"));
+      }};
 }
 
 }  // namespace

@@ -24,7 +24,9 @@ namespace {
 namespace keys = scene::keys;
 using scene::JsonObject;
 
-scene::Key segment_key() { return scene::needed(keys::text("segment", "its name; made where a tool draws and there is none")); }
+scene::Key segment_key() {
+  return scene::needed(keys::text("segment", "its name; made where a tool draws and there is none"));
+}
 std::vector<scene::Key> rule_keys(std::vector<scene::Key> list) {
   list.push_back(keys::number("only_from", -100000, 100000, "only voxels of the scan with at least this value"));
   list.push_back(keys::number("only_to", -100000, 100000, "and at most this"));
@@ -34,9 +36,9 @@ std::vector<scene::Key> rule_keys(std::vector<scene::Key> list) {
 
 volumes::EditRules rules_of(const JsonObject& o, const Scan& scan) {
   volumes::EditRules rules;
-  if (o.has("only_from") || o.has("only_to"))
-    rules.values = {{o.number("only_from", -1e6), o.number("only_to", 1e6)}};
-  if (o.has("inside")) rules.inside = o.text("inside") == "none" ? std::uint16_t(0) : scan.segment_there(o.text("inside"));
+  if (o.has("only_from") || o.has("only_to")) rules.values = {{o.number("only_from", -1e6), o.number("only_to", 1e6)}};
+  if (o.has("inside"))
+    rules.inside = o.text("inside") == "none" ? std::uint16_t(0) : scan.segment_there(o.text("inside"));
   return rules;
 }
 
@@ -68,15 +70,14 @@ Command read_scan() {
             session.put(Scan::open(o.text("file"), options));
             const volumes::Volume& v = session.scan().volume();
             const volumes::Statistics all = volumes::statistics(v);
-            session.said().push_back(
-                {{"scan", o.text("file")},
-                 {"format", session.scan().report().format},
-                 {"size", {v.grid.size[0], v.grid.size[1], v.grid.size[2]}},
-                 {"spacing_mm", {v.grid.spacing.x, v.grid.spacing.y, v.grid.spacing.z}},
-                 {"least", all.least},
-                 {"greatest", all.greatest},
-                 {"unit", v.unit},
-                 {"notes", session.scan().report().notes}});
+            session.said().push_back({{"scan", o.text("file")},
+                                      {"format", session.scan().report().format},
+                                      {"size", {v.grid.size[0], v.grid.size[1], v.grid.size[2]}},
+                                      {"spacing_mm", {v.grid.spacing.x, v.grid.spacing.y, v.grid.spacing.z}},
+                                      {"least", all.least},
+                                      {"greatest", all.greatest},
+                                      {"unit", v.unit},
+                                      {"notes", session.scan().report().notes}});
           }};
 }
 
@@ -89,10 +90,9 @@ Command read_label_map() {
 }
 
 Command write_label_map() {
-  return {{"write_labels", "Writes the label map: .nrrd, .nii, .nii.gz.", {scene::needed(keys::text("file", "its file"))}},
-          [](const JsonObject& o, Session& session) {
-            volumes::write_labels(o.text("file"), session.scan().labels());
-          }};
+  return {
+      {"write_labels", "Writes the label map: .nrrd, .nii, .nii.gz.", {scene::needed(keys::text("file", "its file"))}},
+      [](const JsonObject& o, Session& session) { volumes::write_labels(o.text("file"), session.scan().labels()); }};
 }
 
 Command name_segment() {
@@ -105,8 +105,7 @@ Command name_segment() {
 }
 
 Command threshold() {
-  return {{"threshold",
-           "All voxels between two values.",
+  return {{"threshold", "All voxels between two values.",
            rule_keys({segment_key(), scene::needed(keys::number("from", -100000, 100000, "least value")),
                       scene::needed(keys::number("to", -100000, 100000, "greatest value"))})},
           [](const JsonObject& o, Session& session) {
@@ -119,9 +118,9 @@ Command threshold() {
 }
 
 Command grow() {
-  return {{"grow",
-           "From seeds to all that hangs together between two values.",
-           rule_keys({segment_key(), scene::needed(keys::points("seeds_mm", -10000, 10000, 1, "places, as scenes have them")),
+  return {{"grow", "From seeds to all that hangs together between two values.",
+           rule_keys({segment_key(),
+                      scene::needed(keys::points("seeds_mm", -10000, 10000, 1, "places, as scenes have them")),
                       scene::needed(keys::number("from", -100000, 100000, "least value")),
                       scene::needed(keys::number("to", -100000, 100000, "greatest value"))})},
           [](const JsonObject& o, Session& session) {
@@ -136,38 +135,39 @@ Command grow() {
 }
 
 Command grow_all() {
-  return {{"grow_all",
-           "All segments are seeds and grow until they meet at the scan's edges.",
-           rule_keys({keys::number("margin_mm", 0, 500, "how far, default 50"),
-                      keys::number("contrast", 1, 10000, "what difference of values counts as two steps, default 20")})},
-          [](const JsonObject& o, Session& session) {
-            Scan& scan = session.scan();
-            volumes::CompeteOptions options;
-            options.margin_mm = o.number("margin_mm", options.margin_mm);
-            options.contrast = o.number("contrast", options.contrast);
-            edit(session, "grow_all", 0,
-                 volumes::grown_from_labels(scan.volume(), scan.labels(), options, rules_of(o, scan)));
-          }};
+  return {
+      {"grow_all", "All segments are seeds and grow until they meet at the scan's edges.",
+       rule_keys({keys::number("margin_mm", 0, 500, "how far, default 50"),
+                  keys::number("contrast", 1, 10000, "what difference of values counts as two steps, default 20")})},
+      [](const JsonObject& o, Session& session) {
+        Scan& scan = session.scan();
+        volumes::CompeteOptions options;
+        options.margin_mm = o.number("margin_mm", options.margin_mm);
+        options.contrast = o.number("contrast", options.contrast);
+        edit(session, "grow_all", 0,
+             volumes::grown_from_labels(scan.volume(), scan.labels(), options, rules_of(o, scan)));
+      }};
 }
 
 Command paint() {
-  return {{"paint",
-           "A ball along a stroke gets the segment; \"erase\" takes it away.",
-           rule_keys({segment_key(), scene::needed(keys::points("stroke_mm", -10000, 10000, 1, "places, as scenes have them")),
-                      keys::number("radius_mm", 0.1, 200, "of the ball, default 5"), keys::flag("erase", "default false")})},
-          [](const JsonObject& o, Session& session) {
-            Scan& scan = session.scan();
-            const bool erases = o.flag("erase");
-            const std::uint16_t label = scan.segment(o.text("segment"));
-            std::vector<Vec3d> stroke;
-            for (const Vec3d& p : o.points("stroke_mm")) stroke.push_back(volumes::patient_from_scene(p * 1e-3));
-            volumes::EditRules rules = rules_of(o, scan);
-            if (erases && !rules.inside) rules.inside = label;
-            volumes::Brush brush;
-            brush.radius_mm = o.number("radius_mm", 5);
-            edit(session, erases ? "erase" : "paint", label,
-                 volumes::painted(scan.volume(), scan.labels(), stroke, brush, erases ? std::uint16_t(0) : label, rules));
-          }};
+  return {
+      {"paint", "A ball along a stroke gets the segment; \"erase\" takes it away.",
+       rule_keys(
+           {segment_key(), scene::needed(keys::points("stroke_mm", -10000, 10000, 1, "places, as scenes have them")),
+            keys::number("radius_mm", 0.1, 200, "of the ball, default 5"), keys::flag("erase", "default false")})},
+      [](const JsonObject& o, Session& session) {
+        Scan& scan = session.scan();
+        const bool erases = o.flag("erase");
+        const std::uint16_t label = scan.segment(o.text("segment"));
+        std::vector<Vec3d> stroke;
+        for (const Vec3d& p : o.points("stroke_mm")) stroke.push_back(volumes::patient_from_scene(p * 1e-3));
+        volumes::EditRules rules = rules_of(o, scan);
+        if (erases && !rules.inside) rules.inside = label;
+        volumes::Brush brush;
+        brush.radius_mm = o.number("radius_mm", 5);
+        edit(session, erases ? "erase" : "paint", label,
+             volumes::painted(scan.volume(), scan.labels(), stroke, brush, erases ? std::uint16_t(0) : label, rules));
+      }};
 }
 
 Command islands() {
@@ -180,16 +180,17 @@ Command islands() {
             const std::uint16_t label = scan.segment_there(o.text("segment"));
             const double voxel = scan.volume().grid.voxel_ml();
             edit(session, "islands", label,
-                 o.has("at_mm") ? volumes::chosen_kept(scan.volume(), scan.labels(), label, voxel_at(scan, o.vec3("at_mm")))
-                 : o.has("least_mL")
-                     ? volumes::small_removed(scan.volume(), scan.labels(), label,
-                                              std::size_t(std::ceil(o.number("least_mL") / voxel)))
-                     : volumes::largest_kept(scan.volume(), scan.labels(), label));
+                 o.has("at_mm")
+                     ? volumes::chosen_kept(scan.volume(), scan.labels(), label, voxel_at(scan, o.vec3("at_mm")))
+                 : o.has("least_mL") ? volumes::small_removed(scan.volume(), scan.labels(), label,
+                                                              std::size_t(std::ceil(o.number("least_mL") / voxel)))
+                                     : volumes::largest_kept(scan.volume(), scan.labels(), label));
           }};
 }
 
 Command fill_holes() {
-  return {{"fill_holes", "What a segment encloses gets it.", {segment_key()}}, [](const JsonObject& o, Session& session) {
+  return {{"fill_holes", "What a segment encloses gets it.", {segment_key()}},
+          [](const JsonObject& o, Session& session) {
             Scan& scan = session.scan();
             const std::uint16_t label = scan.segment_there(o.text("segment"));
             edit(session, "fill_holes", label, volumes::holes_filled(scan.volume(), scan.labels(), label));
@@ -197,8 +198,7 @@ Command fill_holes() {
 }
 
 Command margin() {
-  return {{"margin",
-           "Grows a segment by so much all around, or shrinks it.",
+  return {{"margin", "Grows a segment by so much all around, or shrinks it.",
            rule_keys({segment_key(), scene::needed(keys::number("by_mm", -100, 100, "how much"))})},
           [](const JsonObject& o, Session& session) {
             Scan& scan = session.scan();
@@ -209,23 +209,22 @@ Command margin() {
 }
 
 Command smooth() {
-  return {{"smooth",
-           "Smoothes a segment and keeps its volume.",
-           rule_keys({segment_key(), keys::number("radius_mm", 0.1, 50, "of what counts as around, default 3"),
-                      keys::flag("median", "thin parts go and convex ones shrink instead; default false")})},
-          [](const JsonObject& o, Session& session) {
-            Scan& scan = session.scan();
-            const std::uint16_t label = scan.segment_there(o.text("segment"));
-            const volumes::Smoothing how = o.flag("median") ? volumes::Smoothing::median : volumes::Smoothing::keeps_volume;
-            edit(session, "smooth", label,
-                 volumes::smoothed(scan.volume(), scan.labels(), label, o.number("radius_mm", 3), how, rules_of(o, scan))
-                     .change);
-          }};
+  return {
+      {"smooth", "Smoothes a segment and keeps its volume.",
+       rule_keys({segment_key(), keys::number("radius_mm", 0.1, 50, "of what counts as around, default 3"),
+                  keys::flag("median", "thin parts go and convex ones shrink instead; default false")})},
+      [](const JsonObject& o, Session& session) {
+        Scan& scan = session.scan();
+        const std::uint16_t label = scan.segment_there(o.text("segment"));
+        const volumes::Smoothing how = o.flag("median") ? volumes::Smoothing::median : volumes::Smoothing::keeps_volume;
+        edit(session, "smooth", label,
+             volumes::smoothed(scan.volume(), scan.labels(), label, o.number("radius_mm", 3), how, rules_of(o, scan))
+                 .change);
+      }};
 }
 
 Command between_slices() {
-  return {{"between_slices",
-           "Fills the gaps between slices in which a segment was drawn.",
+  return {{"between_slices", "Fills the gaps between slices in which a segment was drawn.",
            rule_keys({segment_key(), keys::integer("axis", 0, 2, "across which the slices are, default 2")})},
           [](const JsonObject& o, Session& session) {
             Scan& scan = session.scan();
@@ -239,15 +238,16 @@ Command between_slices() {
 Command combine() {
   return {{"combine",
            "Logic of two segments: the first becomes the other, both, itself without it, or what both are.",
-           {segment_key(), scene::needed(keys::choice("how", {"copy", "add", "subtract", "intersect", "invert", "clear"}, "")),
+           {segment_key(),
+            scene::needed(keys::choice("how", {"copy", "add", "subtract", "intersect", "invert", "clear"}, "")),
             keys::text("with", "the other one; not for invert and clear")}},
           [](const JsonObject& o, Session& session) {
             Scan& scan = session.scan();
             const std::uint16_t label = scan.segment(o.text("segment"));
             static const std::vector<std::pair<std::string, volumes::Logic>> words{
-                {"copy", volumes::Logic::copy},           {"add", volumes::Logic::add},
-                {"subtract", volumes::Logic::subtract},   {"intersect", volumes::Logic::intersect},
-                {"invert", volumes::Logic::invert},       {"clear", volumes::Logic::clear}};
+                {"copy", volumes::Logic::copy},         {"add", volumes::Logic::add},
+                {"subtract", volumes::Logic::subtract}, {"intersect", volumes::Logic::intersect},
+                {"invert", volumes::Logic::invert},     {"clear", volumes::Logic::clear}};
             volumes::Logic how = volumes::Logic::copy;
             for (const auto& [word, meant] : words)
               if (word == o.text("how")) how = meant;
@@ -271,8 +271,8 @@ Command measure() {
                                       {"mean", s.mean},
                                       {"deviation", s.deviation}});
             if (s.mean < o.number("mean_from", -1e9) || s.mean > o.number("mean_to", 1e9))
-              o.fault("segment", fmt::format("expected a mean value from {:g} to {:g}, got {:.1f}", o.number("mean_from"),
-                                             o.number("mean_to"), s.mean));
+              o.fault("segment", fmt::format("expected a mean value from {:g} to {:g}, got {:.1f}",
+                                             o.number("mean_from"), o.number("mean_to"), s.mean));
           }};
 }
 
@@ -297,14 +297,16 @@ Vec3d middle_of_scan(const Scan& scan) {
 Command slice() {
   return {{"slice",
            "Draws a slice of the scan with its segments.",
-           {scene::needed(keys::name("name", "of the picture")), keys::choice("plane", {"axial", "coronal", "sagittal"}, "default axial"),
+           {scene::needed(keys::name("name", "of the picture")),
+            keys::choice("plane", {"axial", "coronal", "sagittal"}, "default axial"),
             keys::vec3("at_mm", -10000, 10000, "a place in it, as scenes have it; default: the middle"),
             keys::number("centre", -100000, 100000, "of the window, default 40"),
             keys::number("width", 1, 200000, "of the window, default 400"), keys::flag("labels", "default true")}},
           [](const JsonObject& o, Session& session) {
             if (!session.draws()) return;
             const Scan& scan = session.scan();
-            const Vec3d at = o.has("at_mm") ? volumes::patient_from_scene(o.vec3("at_mm") * 1e-3) : middle_of_scan(scan);
+            const Vec3d at =
+                o.has("at_mm") ? volumes::patient_from_scene(o.vec3("at_mm") * 1e-3) : middle_of_scan(scan);
             const volumes::Grid& grid = scan.volume().grid;
             const std::string plane = o.text("plane", "axial");
             const volumes::SlicePlane cut = plane == "coronal"    ? volumes::coronal(grid, at)
@@ -314,8 +316,8 @@ Command slice() {
             look.centre = o.number("centre", look.centre);
             look.width = o.number("width", look.width);
             session.keep_picture(o.text("name"),
-                                 image_of(volumes::slice_image(scan.volume(), o.flag("labels", true) ? &scan.labels() : nullptr,
-                                                               cut, look)));
+                                 image_of(volumes::slice_image(
+                                     scan.volume(), o.flag("labels", true) ? &scan.labels() : nullptr, cut, look)));
           }};
 }
 
@@ -326,7 +328,8 @@ Command block() {
             keys::choice("look", {"bone", "skin", "vessels", "soft_tissue"}, "default soft_tissue"),
             keys::number("yaw_deg", -360, 360, "from where: 0 from the feet, 90 from the patient's left; default 20"),
             keys::number("pitch_deg", -88, 88, "above the patient's plane, default 30"),
-            keys::number("fine", 0.1, 4, "samples a voxel, default 1"), keys::flag("labels", "tinted by segments; default true")}},
+            keys::number("fine", 0.1, 4, "samples a voxel, default 1"),
+            keys::flag("labels", "tinted by segments; default true")}},
           [](const JsonObject& o, Session& session) {
             if (!session.draws()) return;
             const Scan& scan = session.scan();
@@ -361,37 +364,39 @@ Command block() {
 }
 
 Command organ() {
-  return {{"organ_from",
-           "Makes a solid of a segment: its smooth surface goes into a file beside the document.",
-           {segment_key(), scene::needed(keys::name("name", "of the organ")), scene::needed(keys::name("tissue", "its material")),
-            keys::number("cell_mm", 0.5, 50, "edge of its cells; default: about 700 of them"),
-            keys::flag("cuttable", "can it be cut? default false"),
-            keys::vec3("centre_mm", -2000, 2000, "where its middle goes; default: where it is in the scan"),
-            keys::name("look", "its surface in the picture"),
-            keys::integer("triangles", 100, 400000, "of the surface at most, default 20000"),
-            keys::number("within", 0, 1, "how much its volume may differ from the segment's, as a share; default 0.02")}},
-          [](const JsonObject& o, Session& session) {
-            OrganWish wish{o.text("segment"), o.text("name"), o.text("tissue"), o.text("look"), o.number("cell_mm"),
-                           o.flag("cuttable"), std::nullopt,  o.integer("triangles", 20000), o.number("within", 0.02)};
-            if (o.has("centre_mm")) wish.centre_mm = o.vec3("centre_mm");
-            const SegmentOrgan made = make_organ(session.document(), session.scan(), wish);
-            const auto list = [](Vec3d v) { return Json{v.x, v.y, v.z}; };
-            session.said().push_back({{"organ", wish.name},
-                                      {"mL_of_segment", made.segment_mL},
-                                      {"mL", made.mL},
-                                      {"triangles", made.triangles},
-                                      {"middle_mm", list(made.middle_mm)},
-                                      {"size_mm", list(made.size_mm)}});
-          }};
+  return {
+      {"organ_from",
+       "Makes a solid of a segment: its smooth surface goes into a file beside the document.",
+       {segment_key(), scene::needed(keys::name("name", "of the organ")),
+        scene::needed(keys::name("tissue", "its material")),
+        keys::number("cell_mm", 0.5, 50, "edge of its cells; default: about 700 of them"),
+        keys::flag("cuttable", "can it be cut? default false"),
+        keys::vec3("centre_mm", -2000, 2000, "where its middle goes; default: where it is in the scan"),
+        keys::name("look", "its surface in the picture"),
+        keys::integer("triangles", 100, 400000, "of the surface at most, default 20000"),
+        keys::number("within", 0, 1, "how much its volume may differ from the segment's, as a share; default 0.02")}},
+      [](const JsonObject& o, Session& session) {
+        OrganWish wish{o.text("segment"),       o.text("name"),     o.text("tissue"), o.text("look"),
+                       o.number("cell_mm"),     o.flag("cuttable"), std::nullopt,     o.integer("triangles", 20000),
+                       o.number("within", 0.02)};
+        if (o.has("centre_mm")) wish.centre_mm = o.vec3("centre_mm");
+        const SegmentOrgan made = make_organ(session.document(), session.scan(), wish);
+        const auto list = [](Vec3d v) { return Json{v.x, v.y, v.z}; };
+        session.said().push_back({{"organ", wish.name},
+                                  {"mL_of_segment", made.segment_mL},
+                                  {"mL", made.mL},
+                                  {"triangles", made.triangles},
+                                  {"middle_mm", list(made.middle_mm)},
+                                  {"size_mm", list(made.size_mm)}});
+      }};
 }
 
 }  // namespace
 
 std::vector<Command> scan_commands() {
-  return {read_scan(), read_label_map(), write_label_map(), name_segment(), threshold(), grow(),
-          grow_all(),  paint(),          islands(),         fill_holes(),   margin(),    smooth(),
-          between_slices(), combine(),   measure(),         undo_tool(),    slice(),     block(),
-          organ()};
+  return {read_scan(), read_label_map(), write_label_map(), name_segment(), threshold(), grow(),           grow_all(),
+          paint(),     islands(),        fill_holes(),      margin(),       smooth(),    between_slices(), combine(),
+          measure(),   undo_tool(),      slice(),           block(),        organ()};
 }
 
 }  // namespace trocar::modeller

@@ -1,10 +1,11 @@
-// A modeller at work without a window: a document, what it compiles to, a test drive, and pictures. A script's steps are
-// its commands; a window does the same things by hand.
+// A modeller at work without a window: a document, what it compiles to, a test drive, and pictures. A script's steps
+// are its commands; a window does the same things by hand.
 //
 //   Session session({.shots = "pictures"});
 //   run_script("uterus.json", session);
 //
-// A step of a script is an operation (operations/operation.hpp) or one of commands(): open, save, undo, build, take, shot ...
+// A step of a script is an operation (operations/operation.hpp) or one of commands(): open, save, undo, build, take,
+// shot ...
 #pragma once
 
 #include <functional>

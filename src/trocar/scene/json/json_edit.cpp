@@ -129,8 +129,8 @@ std::string put_part(std::string text, const JsonValue& container, std::size_t w
     return text.insert(at, key + written(v, indent) + between);
   }
   const Part last = parts.back();
-  const bool own_line = begins_line(text, last.from) &&
-                        (parts.size() > 1 ? begins_line(text, parts[parts.size() - 2].from) : true);
+  const bool own_line =
+      begins_line(text, last.from) && (parts.size() > 1 ? begins_line(text, parts[parts.size() - 2].from) : true);
   const std::string indent = own_line ? indent_at(text, last.from) : indent_at(text, container.from) + "  ";
   const std::string part = key + written(v, indent);
   if (!own_line && part.find('\n') == part.npos) return text.insert(last.to, ", " + part);

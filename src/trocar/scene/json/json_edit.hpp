@@ -1,4 +1,5 @@
-// Changes to JSON text that leave everything else as its author wrote it: comments, layout, the way numbers are written.
+// Changes to JSON text that leave everything else as its author wrote it: comments, layout, the way numbers are
+// written.
 //
 //   std::string text = core::read_file("uterus.json", kMaxJsonBytes);
 //   text = json_set(text, "/solids/0/cell_mm", json_number(4));             // replaced, or added to the object

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <trocar/scene/compile/standing.hpp>
+#include <trocar/scene/checks/standing.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/step.hpp>
