@@ -2,10 +2,12 @@
 #include <cmath>
 
 #include <trocar/geometry/nurbs/surface.hpp>
+#include <trocar/geometry/surface_files/surface_file.hpp>
 #include <trocar/geometry/surface_files/surface_writer.hpp>
 #include <trocar/geometry/surfaces/loft.hpp>
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/modeller/drive/built.hpp>
+#include <trocar/modeller/drive/export_body.hpp>
 #include <trocar/modeller/operations/points.hpp>
 #include <trocar/modeller/operations/transform.hpp>
 #include <trocar/modeller/operations/values.hpp>
@@ -234,6 +236,22 @@ TEST(Build, AnOrganAloneIsShownInTheModellingPlace) {
   const Built built = build(document);
   ASSERT_TRUE(built.good()) << core::to_string(built.faults.front());
   EXPECT_EQ(read_outs(built, 0).size(), 1u);
+}
+
+TEST(Export, ASkinReadsBackWithTheBodysVolumeAndTheNetworkWithItsSprings) {
+  const Workplace place;
+  const Document document = with_ball(place);
+  const Built built = build(document);
+  ASSERT_TRUE(built.good());
+  const ReadOut ball = read_outs(built, 0).front();
+  for (const char* ending : {".obj", ".stl", ".ply", ".vtk"}) {
+    const geometry::SurfaceFile file = geometry::read_surfaces(exported(*built.model, "ball", ending), ending);
+    EXPECT_NEAR(geometry::volume(file.parts[0].mesh) * 1e-3 / ball.volume_mL, 1, 0.02) << ending;
+  }
+  const std::string network = exported(*built.model, "ball", ".msh");
+  EXPECT_NE(network.find("$Nodes\n" + std::to_string(ball.nodes) + "\n"), std::string::npos);
+  EXPECT_THROW(exported(*built.model, "ball", ".step"), core::BadInput);
+  EXPECT_THROW(exported(*built.model, "nothing", ".obj"), core::BadInput);
 }
 
 /// The tutorials are tests: from nothing to an organ that a grasper pulls.

@@ -74,6 +74,38 @@ TEST(Scan, ASegmentOfTwoPartsThatTouchByACornerOrNothingIsToldOrMended) {
   EXPECT_EQ(document.version(), 0u);
 }
 
+TEST(Scan, ABranchingSegmentBecomesATreeOfVesselsWithItsRadii) {
+  const Workplace place;
+  volumes::Volume v;  // a Y of tubes, 3 and 2 mm thick in radius
+  v.grid.size = {60, 40, 60};
+  v.grid.spacing = {1, 1, 1};
+  v.stored.assign(v.grid.count(), 0);
+  const auto tube = [&](Vec3d a, Vec3d b, double radius) {
+    for (std::size_t i = 0; i < v.grid.count(); ++i) {
+      const volumes::Index3 at = v.grid.place(i);
+      const Vec3d p{double(at[0]), double(at[1]), double(at[2])}, way = b - a;
+      const double t = std::clamp(dot(p - a, way) / dot(way, way), 0.0, 1.0);
+      if (length(p - a - way * t) <= radius) v.stored[i] = 200;
+    }
+  };
+  tube({30, 20, 4}, {30, 20, 28}, 3);
+  tube({30, 20, 28}, {12, 20, 52}, 2);
+  tube({30, 20, 28}, {48, 20, 52}, 2);
+  volumes::write_volume(place / "y.nrrd", v);
+  Session session;
+  const auto step = [&](const std::string& text) { run_step(json(text), "script", session); };
+  step("{\"do\": \"scan\", \"file\": \"" + (place / "y.nrrd").generic_string() + "\"}");
+  step(R"({"do": "threshold", "segment": "artery", "from": 100, "to": 300})");
+  step("{\"do\": \"new\", \"file\": \"" + (place / "scene.json").generic_string() + "\"}");
+  step(
+      R"({"do": "vessels_from", "segment": "artery", "file": "artery.json", "name": "artery", "move_mm": [-30, -150, -90]})");
+  EXPECT_EQ(session.said().back()["vessels"].get<int>(), 3);
+  step(R"({"do": "check", "seconds": 0})");
+  const Thing trunk = thing_named(session.document(), "vessel:artery_1");
+  const scene::JsonValue value = value_of(session.document(), trunk);
+  EXPECT_NEAR(value.find("radius_mm")->value.number, 3, 0.7);
+}
+
 fs::path shared_scans() {
   const fs::path folder = "../shared/data/volumes/totalsegmentator";
   return fs::exists(folder) ? folder : fs::path();

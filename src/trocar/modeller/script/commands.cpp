@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/files.hpp>
 #include <trocar/modeller/document/home.hpp>
+#include <trocar/modeller/drive/export_body.hpp>
 #include <trocar/modeller/drive/places.hpp>
 #include <trocar/modeller/operations/values.hpp>
 #include <trocar/modeller/script/command_kinds.hpp>
@@ -233,10 +235,26 @@ Command shot() {
       }};
 }
 
+Command export_body() {
+  return {
+      {"export",
+       "Writes a body as compiled: its skin as .obj, .stl, .ply or .vtk, its network with springs and cells as .msh.",
+       {scene::needed(keys::name("of", "the body")), scene::needed(keys::text("file", "the file; its end says what"))}},
+      [](const JsonObject& o, Session& session) {
+        const fs::path file = o.text("file");
+        const std::string bytes = exported(session.model(), o.text("of"), file.extension().string());
+        std::error_code ignored;
+        if (file.has_parent_path()) fs::create_directories(file.parent_path(), ignored);
+        if (const std::string said = core::write_file(file, bytes.data(), bytes.size()); !said.empty())
+          o.fault("file", fmt::format("expected a file that can be written, got \"{}\"", said));
+      }};
+}
+
 }  // namespace
 
 std::vector<Command> session_commands() {
-  return {open(), begin(), save(), undo(), redo(), check(), take(), use(), pull(), let_go(), rest(), stop(), shot()};
+  return {export_body(), open(), begin(), save(),   undo(), redo(), check(),
+          take(),        use(),  pull(),  let_go(), rest(), stop(), shot()};
 }
 
 const std::vector<Command>& commands() {

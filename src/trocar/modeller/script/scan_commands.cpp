@@ -7,6 +7,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/parallel.hpp>
 #include <trocar/modeller/scan/segment_organ.hpp>
+#include <trocar/modeller/scan/segment_vessels.hpp>
 #include <trocar/modeller/script/command_kinds.hpp>
 #include <trocar/modeller/script/session.hpp>
 #include <trocar/numerics/portable.hpp>
@@ -391,12 +392,35 @@ Command organ() {
       }};
 }
 
+Command vessels() {
+  return {
+      {"vessels_from",
+       "Makes a tree of vessels of a segment: centre lines from branching to branching, radii as the scan shows them.",
+       {segment_key(), scene::needed(keys::text("file", "the file of vessels, relative to the document, new")),
+        scene::needed(keys::name("name", "of the tree, and before its vessels' numbers")),
+        keys::vec3("root_mm", -10000, 10000, "where blood comes from; default: the thicker of the two far ends"),
+        keys::vec3("move_mm", -10000, 10000, "by how much it lies elsewhere than in the scan, default 0"),
+        keys::number("flow_mL_min", 0.01, 20000, "of the whole tree, default 100"),
+        keys::number("least_branch_mm", 1, 200, "shorter ones are bumps of the wall, default 8")}},
+      [](const JsonObject& o, Session& session) {
+        VesselWish wish;
+        wish.segment = o.text("segment");
+        wish.file = o.text("file");
+        wish.name = o.text("name");
+        if (o.has("root_mm")) wish.root_mm = o.vec3("root_mm");
+        if (o.has("move_mm")) wish.move_mm = o.vec3("move_mm");
+        wish.flow_mL_min = o.number("flow_mL_min", wish.flow_mL_min);
+        wish.least_branch_mm = o.number("least_branch_mm", wish.least_branch_mm);
+        session.said().push_back({{"vessels", make_vessels(session.document(), session.scan(), wish)}});
+      }};
+}
+
 }  // namespace
 
 std::vector<Command> scan_commands() {
   return {read_scan(), read_label_map(), write_label_map(), name_segment(), threshold(), grow(),           grow_all(),
           paint(),     islands(),        fill_holes(),      margin(),       smooth(),    between_slices(), combine(),
-          measure(),   undo_tool(),      slice(),           block(),        organ()};
+          measure(),   undo_tool(),      slice(),           block(),        organ(),     vessels()};
 }
 
 }  // namespace trocar::modeller
