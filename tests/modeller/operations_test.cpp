@@ -8,6 +8,7 @@
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/modeller/drive/built.hpp>
 #include <trocar/modeller/drive/export_body.hpp>
+#include <trocar/modeller/operations/body_mesh.hpp>
 #include <trocar/modeller/operations/points.hpp>
 #include <trocar/modeller/operations/transform.hpp>
 #include <trocar/modeller/operations/values.hpp>
@@ -189,6 +190,43 @@ TEST(Operations, RadiiOfADrawnTreeFollowMurraysLawAndItsFlowStays) {
   EXPECT_EQ(ends.items.size(), 2u);
   EXPECT_NEAR(flow, 60, 1e-3);
   EXPECT_TRUE(build(document).good());
+}
+
+TEST(Operations, APouchIsTiedWhereItFacesAnOrganAndPeelsOffNowhereElse) {
+  const Workplace place;
+  Document document = with_ball(place, "[30, 30, 14]");
+  apply(document, "ellipsoid", R"({"name": "sack", "tissue": "gallbladder_wall", "pouch": true, "cell_mm": 3,
+    "centre_mm": [10, -150, -90], "half_mm": [9, 16, 7]})");
+  const std::string said =
+      modeller::apply(*find_operation("bond_facing"),
+                      json(R"({"of": "sack", "on": "ball", "name": "bed", "within_mm": 3})"), "step", document);
+  EXPECT_NE(said.find("tied where"), std::string::npos);
+  std::vector<core::Fault> faults;
+  const auto d = document.description(faults);
+  ASSERT_TRUE(d.has_value()) << core::to_string(faults.front());
+  ASSERT_EQ(d->pouches[0].bonds.size(), 1u);
+  for (const scene::Anchor& ball : d->pouches[0].bonds[0].places)
+    EXPECT_LT(ball.centre.z, -0.091) << "only below is the organ";
+  EXPECT_TRUE(build(document).good());
+  apply(document, "move", R"({"of": ["sack"], "by_mm": [0, 0, 40]})");
+  EXPECT_NE(fault_of(document, "bond_facing", R"({"of": "sack", "on": "ball", "name": "far", "within_mm": 3})")
+                .find("come within"),
+            std::string::npos);
+}
+
+TEST(Operations, AFoldsBaseLiesOnTheOrgan) {
+  const Workplace place;
+  Document document = with_ball(place, "[30, 30, 14]");
+  apply(document, "cord", R"({"name": "cord", "tissue": "tube", "radius_mm": 2,
+    "line_mm": [[-15, -150, -84], [0, -150, -82], [15, -150, -82], [30, -150, -84]]})");
+  apply(document, "fold", R"({"name": "fold", "tissue": "peritoneal_fold", "strand": "cord", "onto": "ball",
+    "from_mm": 8, "to_mm": 36})");
+  const Thing fold = thing_named(document, "fold");
+  const geometry::TriMesh mesh = body_mesh(document, thing_named(document, "solid:ball"));
+  for (const PlacedPoint& p : points_in(value_of(document, fold), "/base_mm"))
+    EXPECT_LT(nearest_foot(mesh, p.at).distance, 1e-3);
+  const Built built = build(document);
+  EXPECT_TRUE(built.good()) << core::to_string(built.faults.front());
 }
 
 TEST(Operations, WhatCannotBeDoneIsToldWithItsPlaceAndChangesNothing) {

@@ -98,7 +98,7 @@ TEST(Scan, ABranchingSegmentBecomesATreeOfVesselsWithItsRadii) {
   step(R"({"do": "threshold", "segment": "artery", "from": 100, "to": 300})");
   step("{\"do\": \"new\", \"file\": \"" + (place / "scene.json").generic_string() + "\"}");
   step(
-      R"({"do": "vessels_from", "segment": "artery", "file": "artery.json", "name": "artery", "move_mm": [-30, -150, -90]})");
+      R"({"do": "vessels_from", "segment": "artery", "file": "artery.json", "name": "artery", "root_mm": [30, 4, -20], "move_mm": [-30, -150, -90]})");
   EXPECT_EQ(session.said().back()["vessels"].get<int>(), 3);
   step(R"({"do": "check", "seconds": 0})");
   const Thing trunk = thing_named(session.document(), "vessel:artery_1");

@@ -12,5 +12,6 @@ std::vector<Operation> point_operations();      ///< of lines, sections, nets: m
 std::vector<Operation> vessel_operations();     ///< trees of vessels
 std::vector<Operation> primitive_operations();  ///< balls, cylinders, tubes
 std::vector<Operation> spline_operations();     ///< NURBS bodies
+std::vector<Operation> link_operations();       ///< folds and bonds between bodies
 
 }  // namespace trocar::modeller
