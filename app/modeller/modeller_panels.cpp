@@ -96,11 +96,18 @@ void Modeller::draw_menu_bar() {
     ImGui::EndMenu();
   }
   if (menu("Add")) {
-    const std::pair<const char*, const char*> things[] = {
-        {"Ball or ellipsoid ...", "ellipsoid"}, {"Body of revolution ...", "revolved"},
-        {"Body along a line ...", "loft"},      {"Tube or cord ...", "cord"},
-        {"Tree of vessels ...", "vessel_tree"}, {"Branch of a vessel ...", "branch"},
-        {"Hold the chosen one ...", "hold"}};
+    const std::pair<const char*, const char*> things[] = {{"Ball or ellipsoid ...", "ellipsoid"},
+                                                          {"Body of revolution ...", "revolved"},
+                                                          {"Body along a line ...", "loft"},
+                                                          {"Tube or cord ...", "cord"},
+                                                          {"Tree of vessels ...", "vessel_tree"},
+                                                          {"Branch of a vessel ...", "branch"},
+                                                          {"Fold from a cord to an organ ...", "fold"},
+                                                          {"Bonds of a pouch ...", "bond_facing"},
+                                                          {"Fit to a mesh from a file ...", "fit_spline"},
+                                                          {"Make a NURBS of the chosen one ...", "to_spline"},
+                                                          {"Knot into the chosen one ...", "insert_knot"},
+                                                          {"Hold the chosen one ...", "hold"}};
     for (const auto& [label, operation] : things)
       if (item(label)) m_adding = operation, m_asked.clear();
     ImGui::EndMenu();
