@@ -29,6 +29,7 @@ constexpr std::size_t kRecent = 10;
 
 fs::path modeller_folder() { return attempt::data_folder() / "modeller"; }
 fs::path unsaved_folder() { return modeller_folder() / "unsaved"; }
+fs::path segments_folder() { return modeller_folder() / "segments"; }
 
 std::vector<fs::path> read_recent() {
   std::vector<fs::path> out;
@@ -53,6 +54,7 @@ Modeller::Modeller(Window& window, const ModellerOptions& options, EventLog& log
   for (std::size_t i = 0; i < m_views.size(); ++i) m_views[i].name = names[i];
   m_lost = modeller::lost_in(unsaved_folder());
   if (!m_lost.empty()) m_question = Question::recover;
+  m_lost_segments = lost_segments(segments_folder());
 }
 
 void Modeller::open(const fs::path& file) {
@@ -107,7 +109,10 @@ void Modeller::leave() {
   }
   if (m_recovery) m_recovery->forget();
   const After after = std::exchange(m_after, After::none);
-  if (after == After::quit) m_quit = true;
+  if (after == After::quit) {
+    ScanDesk::forget(segments_folder());
+    m_quit = true;
+  }
   if (after == After::start) {
     m_view.reset();
     m_shown.reset();
@@ -171,6 +176,7 @@ void Modeller::take_what_is_built() {
 
 /// At most a second after a change it lies where a crash leaves it.
 void Modeller::keep_unsaved() {
+  m_scan.keep(segments_folder());
   const auto now = std::chrono::steady_clock::now();
   if (!m_document || !m_recovery || now - m_kept < std::chrono::seconds(1)) return;
   m_kept = now;

@@ -156,6 +156,7 @@ class Modeller {
   bool m_measuring = false;
 
   ScanDesk m_scan;
+  std::optional<LostSegments> m_lost_segments;
   bool m_scan_shown = false;  ///< else the document
 
   FilePanel m_files;

@@ -30,6 +30,11 @@ void Modeller::draw_scan_menu() {
   if (entry("Save label map ...", nullptr, m_scan.shows()))
     ask(FileFor::write_labels, "Where the label map is kept: .nrrd, .nii, .nii.gz", "Save", folder / "labels.seg.nrrd",
         {});
+  if (m_lost_segments && entry("Segments of the last time", nullptr, !m_scan.reads())) {
+    m_scan.open(m_lost_segments->scan, m_lost_segments->labels);
+    m_scan_shown = true;
+    m_lost_segments.reset();
+  }
   ImGui::Separator();
   if (entry(m_scan_shown ? "Show the document" : "Show the scan", "Tab", m_scan.shows())) m_scan_shown = !m_scan_shown;
   if (entry("Close scan", nullptr, m_scan.shows())) m_scan.close(), m_scan_shown = false;

@@ -12,12 +12,14 @@
 #include <imgui.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/files.hpp>
 #include <trocar/volumes/files/volume_writer.hpp>
 #include <trocar/volumes/segment/brush.hpp>
 #include <trocar/volumes/segment/islands.hpp>
 #include <trocar/volumes/segment/shape_tools.hpp>
 #include <trocar/volumes/segment/threshold.hpp>
 
+#include "modeller/transfer_panel.hpp"
 #include "shell/ui.hpp"
 
 namespace trocar::app {
@@ -61,20 +63,65 @@ ScanDesk::ScanDesk() : m_pool(core::default_thread_count()) {
 ScanDesk::~ScanDesk() {
   m_stop = true;
   if (m_reading.valid()) m_reading.wait();
+  if (m_keeping.valid()) m_keeping.wait();
 }
 
-void ScanDesk::open(const std::filesystem::path& path) {
+void ScanDesk::open(const std::filesystem::path& path, const std::filesystem::path& labels) {
   if (m_reading.valid()) return;
   m_share = 0;
   m_stop = false;
-  m_reading = std::async(std::launch::async, [this, path] {
+  m_reading = std::async(std::launch::async, [this, path, labels] {
     volumes::ReadOptions options;
     options.progress = [this](double share) {
       m_share = share;
       return !m_stop;
     };
-    return std::make_unique<modeller::Scan>(modeller::Scan::open(path, options));
+    auto scan = std::make_unique<modeller::Scan>(modeller::Scan::open(path, options));
+    if (!labels.empty()) scan->take_labels(labels);
+    return scan;
   });
+}
+
+namespace {
+
+constexpr auto kKeepEvery = std::chrono::seconds(8);
+constexpr const char *kKeptLabels = "segments.seg.nrrd", *kKeptNote = "segments.txt";
+
+}  // namespace
+
+void ScanDesk::keep(const std::filesystem::path& folder) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!m_scan || m_scan->version() == m_kept || now - m_kept_at < kKeepEvery) return;
+  if (m_keeping.valid() && m_keeping.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  m_kept = m_scan->version();
+  m_kept_at = now;
+  m_keeping = std::async(std::launch::async, [folder, labels = m_scan->labels(), path = m_scan->path()] {
+    try {
+      std::error_code ignored;
+      std::filesystem::create_directories(folder, ignored);
+      volumes::write_labels(folder / kKeptLabels, labels);
+      const std::string text = std::filesystem::absolute(path, ignored).generic_string();
+      core::write_file(folder / kKeptNote, text.data(), text.size(), 0600);
+    } catch (const core::BadInput&) {  // a full disk: the next time again
+    }
+  });
+}
+
+void ScanDesk::forget(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::filesystem::remove(folder / kKeptNote, ignored);
+  std::filesystem::remove(folder / kKeptLabels, ignored);
+}
+
+std::optional<LostSegments> lost_segments(const std::filesystem::path& folder) {
+  try {
+    constexpr std::uint64_t kLongestPath = 4096;
+    LostSegments lost{core::read_file(folder / kKeptNote, kLongestPath), folder / kKeptLabels};
+    std::error_code error;
+    if (std::filesystem::exists(lost.scan, error) && std::filesystem::exists(lost.labels, error)) return lost;
+  } catch (const core::BadInput&) {
+  }
+  return std::nullopt;
 }
 
 void ScanDesk::take_what_was_read() {
@@ -105,8 +152,13 @@ void ScanDesk::take_what_was_read() {
   }
   m_caster = std::make_unique<volumes::VolumeCaster>(v, m_pool);
   m_counted = ~0ull;
-  m_caster->set_transfer(is_ct ? volumes::transfer_preset(volumes::TransferPreset(m_preset))
-                               : volumes::grey_ramp(m_centre - m_width / 2, m_centre + m_width / 2));
+  m_transfer = is_ct ? volumes::transfer_preset(volumes::TransferPreset(m_preset))
+                     : volumes::grey_ramp(m_centre - m_width / 2, m_centre + m_width / 2);
+  m_caster->set_transfer(m_transfer);
+  m_low = is_ct ? -1000 : values.least;
+  m_high = is_ct ? 1500 : values.greatest;
+  m_chosen_point = -1;
+  m_kept = m_scan->version();
   m_orbit.target = volumes::scene_from_patient(m_cross);
   m_orbit.distance = 1.6e-3 * length(box.high - box.low);
   m_orbit.yaw = 0.3;
@@ -310,7 +362,7 @@ void ScanDesk::draw_block(const Area& area) {
 }
 
 void ScanDesk::tool_button(const char* text, ScanTool tool) {
-  if (ui::button(text, {.width = 100, .primary = m_tool == tool})) m_tool = tool, ++m_look;
+  if (ui::button(text, {.width = 92, .primary = m_tool == tool})) m_tool = tool, ++m_look;
 }
 
 void ScanDesk::draw_panel(const Area& panel) {
@@ -331,10 +383,15 @@ void ScanDesk::draw_panel(const Area& panel) {
     for (int i = 0; i < 4; ++i)
       if (ImGui::Selectable(kLooks[i], i == m_preset)) {
         m_preset = i;
-        m_caster->set_transfer(volumes::transfer_preset(volumes::TransferPreset(i)));
+        m_transfer = volumes::transfer_preset(volumes::TransferPreset(i));
+        m_caster->set_transfer(m_transfer);
         ++m_block_wanted;
       }
     ImGui::EndCombo();
+  }
+  if (draw_transfer(m_transfer, m_low, m_high, m_chosen_point)) {
+    m_caster->set_transfer(m_transfer);
+    ++m_block_wanted;
   }
   if (ui::checkbox("segments shown", m_labels_shown)) ++m_look, m_cast_labels = ~0ull;
   ui::heading("segments");
@@ -380,23 +437,23 @@ void ScanDesk::draw_panel(const Area& panel) {
   if (m_tool == ScanTool::threshold && ui::button("Apply", {.width = 120, .primary = true}))
     edit("threshold", [&](std::uint16_t of) { return volumes::thresholded(v, labels, {m_from, m_to}, of); });
   ui::heading("the segment as a whole");
-  if (ui::button("Largest part", {.width = 150}))
+  if (ui::button("Largest part", {.width = 142}))
     edit("largest part", [&](std::uint16_t of) { return volumes::largest_kept(v, labels, of); });
   ImGui::SameLine();
-  if (ui::button("Fill holes", {.width = 150}))
+  if (ui::button("Fill holes", {.width = 142}))
     edit("fill holes", [&](std::uint16_t of) { return volumes::holes_filled(v, labels, of); });
-  if (ui::button("Smooth", {.width = 150}))
+  if (ui::button("Smooth", {.width = 142}))
     edit("smooth", [&](std::uint16_t of) {
       return volumes::smoothed(v, labels, of, 3, volumes::Smoothing::keeps_volume).change;
     });
   ImGui::SameLine();
-  if (ui::button("Between slices", {.width = 150}))
+  if (ui::button("Between slices", {.width = 142}))
     edit("between slices", [&](std::uint16_t of) { return volumes::filled_between_slices(v, labels, of, 2); });
   ui::slider("margin mm", m_margin, 0.5, 20, "%.1f", true);
-  if (ui::button("Grow by that", {.width = 150}))
+  if (ui::button("Grow by that", {.width = 142}))
     edit("margin", [&](std::uint16_t of) { return volumes::margin_moved(v, labels, of, m_margin); });
   ImGui::SameLine();
-  if (ui::button("Shrink by that", {.width = 150}))
+  if (ui::button("Shrink by that", {.width = 142}))
     edit("margin", [&](std::uint16_t of) { return volumes::margin_moved(v, labels, of, -m_margin); });
   ui::heading("then");
   if (ui::button("Make an organ of it", {.width = 220, .primary = true})) m_wanted_organ = m_segment;

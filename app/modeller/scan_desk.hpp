@@ -7,6 +7,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <future>
 #include <memory>
@@ -26,6 +27,13 @@ namespace trocar::app {
 /// What a press in a slice does.
 enum class ScanTool { look, paint, erase, threshold, grow, islands };
 
+/// Segments that were kept when a modeller ended.
+struct LostSegments {
+  std::filesystem::path scan, labels;
+};
+/// None: nothing was kept in the folder, or it cannot be read.
+std::optional<LostSegments> lost_segments(const std::filesystem::path& folder);
+
 class ScanDesk {
  public:
   ScanDesk();
@@ -34,7 +42,12 @@ class ScanDesk {
   ScanDesk& operator=(const ScanDesk&) = delete;
 
   /// Begins to read; what was there stays until it is there.
-  void open(const std::filesystem::path& path);
+  /// @param labels  a label map that is taken in with it; empty: none
+  void open(const std::filesystem::path& path, const std::filesystem::path& labels = {});
+  /// Writes the segments where a crash leaves them, beside the window, some seconds after they changed.
+  void keep(const std::filesystem::path& folder);
+  /// Nothing is to be offered after the next start.
+  static void forget(const std::filesystem::path& folder);
   void take_labels(const std::filesystem::path& path);
   void write_labels(const std::filesystem::path& path);
   void close();
@@ -84,6 +97,12 @@ class ScanDesk {
   core::ThreadPool m_pool;
   std::unique_ptr<volumes::VolumeCaster> m_caster;
   std::uint64_t m_cast_labels = ~0ull;
+  volumes::TransferFunction m_transfer;
+  double m_low = -1000, m_high = 1500;  ///< values between which it is edited
+  int m_chosen_point = -1;
+  std::future<void> m_keeping;
+  std::uint64_t m_kept = 0;
+  std::chrono::steady_clock::time_point m_kept_at{};
   view::Orbit m_orbit;
   int m_preset = 3;
   bool m_labels_shown = true, m_turning = false;
