@@ -201,7 +201,7 @@ void Modeller::picture() {
       draw_scan();
     } else {
       draw_views();
-      if (!m_files.is_open() && !m_help && m_question == Question::none && m_adding.empty()) point();
+      if (!m_files.is_open() && !m_help && !m_faults && m_question == Question::none && m_adding.empty()) point();
       draw_properties();
       draw_over_views();
     }
@@ -212,6 +212,7 @@ void Modeller::picture() {
     draw_start();
   }
   if (m_help) draw_help();
+  if (m_faults) draw_faults();
   if (!m_adding.empty()) draw_adding();
   draw_questions();
   fs::path chosen;

@@ -187,14 +187,39 @@ void Modeller::draw_status() {
     const core::Fault& f = faults->front();
     ui::text(ui::shortened(fmt::format("{}:{}: {}{}", fs::path(f.at.file).filename().string(), f.at.line, f.message,
                                        faults->size() > 1 ? fmt::format("  (and {} more)", faults->size() - 1) : ""),
-                           m_bottom.width - 60),
+                           m_bottom.width - 160),
              ui::kOrange);
+    ImGui::SameLine(m_bottom.width - 110 * ui::scale());
+    if (ImGui::SmallButton("All of them")) m_faults = true;
+    ui::note_widget("All of them");
   } else if (m_shown && !m_shown->built.notes.empty()) {
     ui::mark(ui::Mark::warning);
     ui::text(m_shown->built.notes.front(), ui::kOrange);
   } else {
     ui::text(state, ui::kGrey);
   }
+  ImGui::End();
+}
+
+/// Every fault with its place; a press chooses the thing that it is in.
+void Modeller::draw_faults() {
+  if (!m_built || m_built->built.faults.empty()) {
+    m_faults = false;
+    return;
+  }
+  ui::begin_middle("faults", 860);
+  ui::title(fmt::format("{} faults", m_built->built.faults.size()));
+  ImGui::BeginChild("faults", {0, 380 * ui::scale()}, true);
+  for (std::size_t i = 0; i < m_built->built.faults.size(); ++i) {
+    const core::Fault& f = m_built->built.faults[i];
+    const std::string text = ui::wrapped(core::to_string(f), 800 * ui::scale());
+    if (!ImGui::Selectable(fmt::format("{}##f{}", text, i).c_str())) continue;
+    for (const modeller::Thing& t : m_things)  // the last one that begins before it
+      if (t.file == modeller::whole_path(f.at.file) && t.line <= f.at.line) select(t.kind + ":" + t.name);
+    m_faults = false;
+  }
+  ImGui::EndChild();
+  if (ui::button("Close", {.width = 120, .primary = true})) m_faults = false;
   ImGui::End();
 }
 

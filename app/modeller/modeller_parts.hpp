@@ -76,6 +76,7 @@ class Modeller {
   void draw_outline();
   void draw_properties();
   void draw_status();
+  void draw_faults();
   void draw_start();
   void draw_help();
   void draw_questions();
@@ -175,7 +176,7 @@ class Modeller {
   fs::path m_to_open;
   std::vector<modeller::Lost> m_lost;
   std::vector<fs::path> m_recent;
-  bool m_help = false, m_quit = false, m_history = false;
+  bool m_help = false, m_quit = false, m_history = false, m_faults = false;
   std::string m_adding;  ///< name of the operation whose parameters are asked for
   std::map<std::string, std::string> m_asked;
   std::map<std::string, std::string> m_texts;              ///< fields that are being edited, by their key's path

@@ -7,6 +7,7 @@
 #include <trocar/modeller/operations/kinds.hpp>
 #include <trocar/modeller/operations/places.hpp>
 #include <trocar/modeller/operations/values.hpp>
+#include <trocar/scene/files/library.hpp>
 #include <trocar/scene/json/json_edit.hpp>
 
 namespace trocar::modeller {
@@ -26,6 +27,19 @@ std::vector<scene::Key> with_body_keys(std::vector<scene::Key> more) {
   return all;
 }
 
+/// The look that is called as the tissue is, a wall's as what it encloses; empty: there is none.
+std::string look_of(std::string tissue) {
+  if (const std::size_t wall = tissue.rfind("_wall"); wall != tissue.npos) tissue.resize(wall);
+  const std::optional<fs::path> scenes = scene::found_scenes_folder();
+  std::error_code error;
+  return scenes && fs::is_regular_file(*scenes / "looks" / (tissue + ".json"), error) ? tissue : std::string();
+}
+
+void put_look(JsonValue& body, const JsonObject& o) {
+  if (const std::string look = look_of(o.text("tissue")); !look.empty())
+    scene::put(body, "look", scene::json_text(look));
+}
+
 JsonValue section(Vec3d centre, Vec3d across, Vec3d deep) {
   JsonValue out = scene::json_object();
   scene::put(out, "centre_mm", point(centre));
@@ -39,6 +53,7 @@ void add_loft(const JsonObject& o, Draft& draft, std::vector<JsonValue> sections
   JsonValue body = scene::json_object();
   scene::put(body, "name", scene::json_text(o.text("name")));
   scene::put(body, "tissue", scene::json_text(o.text("tissue")));
+  put_look(body, o);
   scene::put(body, "sections", scene::json_array(std::move(sections)));
   const double cell = o.number("cell_mm", std::max(0.5, std::round(length) / 10));
   if (pouch) scene::put(body, "thickness_mm", number(2));
@@ -160,6 +175,7 @@ Operation cord() {
             JsonValue strand = scene::json_object();
             scene::put(strand, "name", scene::json_text(o.text("name")));
             scene::put(strand, "tissue", scene::json_text(o.text("tissue")));
+            put_look(strand, o);
             scene::put(strand, "centreline_mm", points(o.points("line_mm")));
             scene::put(strand, "stations", scene::json_array({station}));
             scene::put(strand, "start", end("start_on"));
