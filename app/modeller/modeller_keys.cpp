@@ -51,6 +51,12 @@ void Modeller::obey_key_of_gesture(int key) {
 void Modeller::obey_key(int key, int mods) {
   if (key == GLFW_KEY_TAB && m_scan.shows()) m_scan_shown = !m_scan_shown;
   if (m_scan.shows() && scan_shown() && m_scan.obey_key(key, mods)) return;
+  if (!m_draw_for.empty()) {
+    if (key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER) end_drawing(true);
+    if (key == GLFW_KEY_ESCAPE) end_drawing(false);
+    if (key == GLFW_KEY_BACKSPACE && !m_drawn.empty()) m_drawn.pop_back();
+    return;
+  }
   const bool control = mods & GLFW_MOD_CONTROL, shift = mods & GLFW_MOD_SHIFT, alt = mods & GLFW_MOD_ALT;
   if (!m_document) return;
   if (control) {
@@ -89,6 +95,7 @@ void Modeller::obey_key(int key, int mods) {
   if (key == GLFW_KEY_PERIOD || key == GLFW_KEY_KP_DECIMAL || key == GLFW_KEY_F) frame_selected();
   if (key == GLFW_KEY_M) m_measuring = !m_measuring, m_measured.clear();
   if (m_drive) return;
+  if (key == GLFW_KEY_K) hold_here();
   if (key == GLFW_KEY_G) begin_gesture(Gesture::Kind::move);
   if (key == GLFW_KEY_R) begin_gesture(Gesture::Kind::rotate);
   if (key == GLFW_KEY_S) begin_gesture(Gesture::Kind::scale);

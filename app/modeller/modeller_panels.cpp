@@ -46,6 +46,7 @@ constexpr const char* kHelp[][2] = {
     {"Ctrl, Shift while moving", "in whole steps; ten times finer"},
     {"O, then the wheel while moving", "points near by go along; how far"},
     {"I", "a point more behind the one that was taken"},
+    {"K", "the chosen body is held where the pointer is"},
     {"Shift-D", "a copy, which then moves"},
     {"X or Delete", "take away the point or the thing that is chosen"},
     {"M", "measure: click from place to place"},
@@ -96,19 +97,23 @@ void Modeller::draw_menu_bar() {
     ImGui::EndMenu();
   }
   if (menu("Add")) {
-    const std::pair<const char*, const char*> things[] = {{"Ball or ellipsoid ...", "ellipsoid"},
-                                                          {"Body of revolution ...", "revolved"},
-                                                          {"Body along a line ...", "loft"},
-                                                          {"Tube or cord ...", "cord"},
-                                                          {"Tree of vessels ...", "vessel_tree"},
-                                                          {"Branch of a vessel ...", "branch"},
-                                                          {"Fold from a cord to an organ ...", "fold"},
-                                                          {"Bonds of a pouch ...", "bond_facing"},
-                                                          {"Fit to a mesh from a file ...", "fit_spline"},
-                                                          {"Make a NURBS of the chosen one ...", "to_spline"},
-                                                          {"Knot into the chosen one ...", "insert_knot"},
-                                                          {"Hold the chosen one ...", "hold"}};
-    for (const auto& [label, operation] : things)
+    static constexpr std::pair<const char*, const char*> kDrawn[] = {{"Draw a tube or cord", "cord"},
+                                                                     {"Draw a body along a line", "loft"},
+                                                                     {"Draw a tree of vessels", "vessel_tree"},
+                                                                     {"Draw a branch of the chosen vessel", "branch"}};
+    for (const auto& [label, operation] : kDrawn)
+      if (item(label)) {
+        m_draw_for = operation;
+        m_drawn.clear();
+        tell("click from place to place: on bodies, or in the air; Enter when that is it, Esc for none");
+      }
+    ImGui::Separator();
+    static constexpr std::pair<const char*, const char*> kAsked[] = {
+        {"Ball or ellipsoid ...", "ellipsoid"},          {"Body of revolution ...", "revolved"},
+        {"Fold from a cord to an organ ...", "fold"},    {"Bonds of a pouch ...", "bond_facing"},
+        {"Fit to a mesh from a file ...", "fit_spline"}, {"Make a NURBS of the chosen one ...", "to_spline"},
+        {"Knot into the chosen one ...", "insert_knot"}, {"Hold the chosen one ...", "hold"}};
+    for (const auto& [label, operation] : kAsked)
       if (item(label)) m_adding = operation, m_asked.clear();
     ImGui::EndMenu();
   }
@@ -371,7 +376,13 @@ void Modeller::draw_adding() {
       if (key.name == "tissue") value = "uterus";
       if (key.name == "centre_mm") value = "0, -150, -110";
       if (key.name == "half_mm") value = "15, 25, 15";
-      if (key.name == "radius_mm") value = "10";
+      if (key.name == "radius_mm") value = m_adding == "hold" ? "10" : m_adding == "cord" ? "2" : "1.2";
+      if (key.name == "radii_mm") value = "6";
+      if (key.name == "flow_mL_min") value = "60";
+      if (key.name == "vessel") value = "trunk";
+      if (key.name == "file" && m_adding == "vessel_tree") value = "arteries.json";
+      if (key.name == "way") value = "along";
+      if (key.name == "at") value = "0.5";
       if (key.name == "of" && !m_selected.empty()) value = m_selected.substr(m_selected.find(':') + 1);
     }
     ui::text(key.name + (key.required ? "" : " (may be left out)"), key.required ? ui::kWhite : ui::kGrey);

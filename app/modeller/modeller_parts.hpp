@@ -61,6 +61,9 @@ class Modeller {
   void point_in(Viewport& view);
   Viewport* view_under(float x, float y);
   void pick(const Viewport& view, float x, float y);
+  void draw_point(const Viewport& view, float x, float y);
+  void end_drawing(bool keep);
+  void hold_here();
   void frame_selected();
   void look_from(int which);
 
@@ -155,6 +158,8 @@ class Modeller {
   double m_soft_mm = 20;
   std::vector<Vec3d> m_measured;  ///< [m] places that were clicked
   bool m_measuring = false;
+  std::string m_draw_for;      ///< the operation for which a line is drawn by clicking; empty: none
+  std::vector<Vec3d> m_drawn;  ///< [m] its points so far
 
   ScanDesk m_scan;
   std::optional<LostSegments> m_lost_segments;

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <trocar/modeller/operations/values.hpp>
 #include <trocar/numerics/portable.hpp>
+#include <trocar/scene/json/json_text.hpp>
 #include <trocar/sim/model/bodies.hpp>
 
 #include "modeller/modeller_parts.hpp"
@@ -90,6 +92,14 @@ void Modeller::draw_handles(const Viewport& v) const {
     const std::string text = fmt::format("{:.1f} mm", 1e3 * length(m_measured[i] - m_measured[i - 1]));
     list.AddText({(before->x + s->x) / 2 + 6, (before->y + s->y) / 2 - 18}, IM_COL32(255, 255, 255, 255), text.c_str());
   }
+  for (std::size_t i = 0; i < m_drawn.size(); ++i) {
+    const std::optional<modeller::Spot> s = v.spot(m_drawn[i]);
+    if (!s) continue;
+    list.AddCircleFilled({s->x, s->y}, 4.5f, kPointColour);
+    if (i == 0) continue;
+    if (const std::optional<modeller::Spot> before = v.spot(m_drawn[i - 1]))
+      list.AddLine({before->x, before->y}, {s->x, s->y}, kPointColour, 2);
+  }
   // which way the patient's axes point
   const Vec3d ends[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const ImU32 colours[3] = {IM_COL32(230, 120, 60, 255), IM_COL32(90, 180, 230, 255), IM_COL32(220, 220, 120, 255)};
@@ -165,6 +175,7 @@ void Modeller::point_in(Viewport& v) {
     return;
   }
   if (!io.MouseClicked[0]) return;
+  if (!m_draw_for.empty()) return draw_point(v, x, y);
   if (m_measuring) {
     if (const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kOnBody))
       m_measured.push_back(met->at);
@@ -176,6 +187,48 @@ void Modeller::point_in(Viewport& v) {
     begin_drag(m_handles.points[*handle], x, y);
   else
     pick(v, x, y);
+}
+
+/// A point of a line more: on the body that is met there, else as deep as the one before.
+void Modeller::draw_point(const Viewport& v, float x, float y) {
+  if (ImGui::GetIO().MouseDoubleClicked[0] && m_drawn.size() > 1) return end_drawing(true);
+  const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kOnBody);
+  m_drawn.push_back(met ? met->at : v.on_plane_of(m_drawn.empty() ? v.orbit.target : m_drawn.back(), x, y));
+  tell(fmt::format(
+      "{} points   click: another one   Enter or double click: that is it   Backspace: one less   Esc: none",
+      m_drawn.size()));
+}
+
+/// The line becomes a parameter of its operation, which asks for the others.
+void Modeller::end_drawing(bool keep) {
+  const std::string operation = std::exchange(m_draw_for, {});
+  const std::vector<Vec3d> drawn = std::exchange(m_drawn, {});
+  tell("");
+  if (!keep || drawn.empty()) return;
+  std::string text;
+  for (const Vec3d& p : drawn)
+    text += fmt::format("{}[{:.1f}, {:.1f}, {:.1f}]", text.empty() ? "" : ", ", 1e3 * p.x, 1e3 * p.y, 1e3 * p.z);
+  m_asked.clear();
+  m_adding = operation;
+  const bool vessels = operation == "vessel_tree" || operation == "branch";
+  m_asked[vessels ? "path_mm" : "line_mm"] = "[" + text + "]";
+}
+
+/// Where the pointer meets the chosen body its nodes are held.
+void Modeller::hold_here() {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Viewport* v = view_under(io.MousePos.x, io.MousePos.y);
+  const std::optional<modeller::Thing> thing = selected();
+  if (!v || !thing) return tell("choose a body, then point at where it is held");
+  const std::optional<modeller::BodyPlace> met =
+      modeller::met_by(m_places, v->eye(), v->ray(io.MousePos.x, io.MousePos.y), kOnBody);
+  if (!met || sim::name_of(*m_shown->built.model, met->body) != thing->name) return tell("point at the chosen body");
+  scene::JsonValue s = scene::json_object();
+  put(s, "do", scene::json_text("hold"));
+  put(s, "of", scene::json_text(m_selected));
+  put(s, "centre_mm", modeller::point(met->at * 1e3));
+  put(s, "radius_mm", modeller::number(std::clamp(m_soft_mm / 2, 2.0, 100.0)));
+  if (step(std::move(s))) tell("held there");
 }
 
 void Modeller::pick(const Viewport& v, float x, float y) {

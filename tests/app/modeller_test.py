@@ -132,6 +132,20 @@ def session(program, folder):
     m.happened("saved", 4)
     check(centre_of(file) == dragged, "done again, it says the other")
 
+    # a cord drawn from place to place
+    m.menu("Add", "Draw a tube or cord")
+    for across, down in ((0.25, 0.75), (0.45, 0.8), (0.65, 0.75)):
+        m.over_view(across, down)
+        xdo("click", 1)
+        time.sleep(0.4)
+    m.keys("Return")
+    m.hands.press("Add")
+    m.happened("step", 1, do="cord")
+    m.keys("ctrl+s")
+    m.happened("saved", 5)
+    check("centreline_mm" in file.read_text(encoding="utf-8"), "the cord is in the file")
+    m.hands.press("solid:organ")
+
     # the test drive takes hold of the ball
     m.keys("f")
     m.keys("t")

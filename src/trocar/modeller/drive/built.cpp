@@ -67,6 +67,15 @@ Built build(const Document& document) {
   return out;
 }
 
+double predicted_us(const scene::BodyReport& b) {
+  if (b.kind == "strand") return 0.16 * b.springs;
+  const double ns = b.kind == "solid"                           ? 1.7
+                    : b.kind == "cuttable"                      ? 2.9
+                    : b.kind == "membrane" || b.kind == "pouch" ? 3.5
+                                                                : 0;
+  return 1e-3 * ns * b.springs * std::max(1, b.substeps);
+}
+
 std::vector<ReadOut> read_outs(const Built& built, std::uint64_t standing_ticks) {
   std::vector<ReadOut> out;
   if (!built.good()) return out;
@@ -74,7 +83,7 @@ std::vector<ReadOut> read_outs(const Built& built, std::uint64_t standing_ticks)
   if (standing_ticks > 0) standing = scene::stand(*built.model, standing_ticks, [] { return true; });
   for (const scene::BodyReport& b : built.report.bodies) {
     ReadOut r{b.name, b.kind, b.nodes, b.springs, b.substeps, b.volume * 1e6, b.mass * 1e3, b.dt_limit * 1e3};
-    r.predicted_us = b.springs * std::max(1, b.substeps) * kSpringNs * 1e-3;
+    r.predicted_us = predicted_us(b);
     for (const scene::Standing::Organ& o : standing.organs)
       if (o.name == b.name) r.off_mm = o.off * 1e3;
     out.push_back(r);
