@@ -216,32 +216,35 @@ void Modeller::picture() {
   if (!m_adding.empty()) draw_adding();
   draw_questions();
   fs::path chosen;
-  if (m_files.is_open() && m_files.draw(chosen)) {
-    const FileFor wanted = std::exchange(m_file_for, FileFor::none);
-    try {
-      if (wanted == FileFor::open) {
-        m_to_open = chosen;
-        m_after = After::open;
-        leave();
-      }
-      if (wanted == FileFor::save_as) save_as(chosen);
-      if (wanted == FileFor::scan) m_scan.open(chosen), m_scan_shown = true;
-      if (wanted == FileFor::labels) m_scan.take_labels(chosen);
-      if (wanted == FileFor::write_labels) m_scan.write_labels(chosen);
-      if (wanted == FileFor::new_scene || wanted == FileFor::new_organ) {
-        if (chosen.extension() != ".json") chosen += ".json";
-        modeller::Document begun = modeller::begun(chosen, wanted == FileFor::new_organ, chosen.stem().string());
-        begun.save();
-        open(chosen);
-      }
-    } catch (const core::BadInput& bad) {
-      tell(bad.what());
-    }
-  }
+  if (m_files.is_open() && m_files.draw(chosen)) take_file(chosen);
   keep_unsaved();
   m_window.draw_panels();
   m_window.show();
   log_widgets();
+}
+
+/// For what the file panel was opened.
+void Modeller::take_file(fs::path chosen) {
+  const FileFor wanted = std::exchange(m_file_for, FileFor::none);
+  try {
+    if (wanted == FileFor::open) {
+      m_to_open = chosen;
+      m_after = After::open;
+      leave();
+    }
+    if (wanted == FileFor::save_as) save_as(chosen);
+    if (wanted == FileFor::scan) m_scan.open(chosen), m_scan_shown = true;
+    if (wanted == FileFor::labels) m_scan.take_labels(chosen);
+    if (wanted == FileFor::write_labels) m_scan.write_labels(chosen);
+    if (wanted == FileFor::new_scene || wanted == FileFor::new_organ) {
+      if (chosen.extension() != ".json") chosen += ".json";
+      modeller::Document begun = modeller::begun(chosen, wanted == FileFor::new_organ, chosen.stem().string());
+      begun.save();
+      open(chosen);
+    }
+  } catch (const core::BadInput& bad) {
+    tell(bad.what());
+  }
 }
 
 void Modeller::log_widgets() {

@@ -96,6 +96,9 @@ void Modeller::obey_key(int key, int mods) {
   if (key == GLFW_KEY_M) m_measuring = !m_measuring, m_measured.clear();
   if (m_drive) return;
   if (key == GLFW_KEY_K) hold_here();
+  if (key == GLFW_KEY_H && alt) m_hidden.clear(), ++m_picture;
+  if (key == GLFW_KEY_H && !alt)
+    if (const std::optional<modeller::Thing> chosen = selected()) m_hidden.insert(chosen->name), ++m_picture;
   if (key == GLFW_KEY_G) begin_gesture(Gesture::Kind::move);
   if (key == GLFW_KEY_R) begin_gesture(Gesture::Kind::rotate);
   if (key == GLFW_KEY_S) begin_gesture(Gesture::Kind::scale);

@@ -47,6 +47,7 @@ constexpr const char* kHelp[][2] = {
     {"O, then the wheel while moving", "points near by go along; how far"},
     {"I", "a point more behind the one that was taken"},
     {"K", "the chosen body is held where the pointer is"},
+    {"H, Alt-H", "hide the chosen one; show all again"},
     {"Shift-D", "a copy, which then moves"},
     {"X or Delete", "take away the point or the thing that is chosen"},
     {"M", "measure: click from place to place"},
@@ -127,6 +128,10 @@ void Modeller::draw_menu_bar() {
     if (item("From the side", "3")) look_from(2);
     if (item("From the front", "7")) look_from(3);
     if (item("From before and above", "5")) look_from(0);
+    if (item("Hide the chosen one", "H", false, !m_selected.empty()))
+      if (const std::optional<modeller::Thing> chosen = selected()) m_hidden.insert(chosen->name), ++m_picture;
+    if (item("Show all", "Alt-H", false, !m_hidden.empty())) m_hidden.clear(), ++m_picture;
+    if (item("Instruments", nullptr, m_instruments)) m_instruments = !m_instruments, ++m_picture;
     if (item("Four views", "Ctrl-Alt-Q", m_four)) m_four = !m_four, ++m_picture;
     ImGui::EndMenu();
   }

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,7 @@ class Modeller {
   void lay_out();
   void take_what_is_built();
   void keep_unsaved();
+  void take_file(fs::path chosen);
   bool may_close();
   void leave();
 
@@ -153,7 +155,9 @@ class Modeller {
   std::string m_handles_thing;
   std::optional<modeller::Handle> m_handle;  ///< taken last
   std::optional<Gesture> m_gesture;
-  bool m_previewed = false;  ///< the document's last change is the gesture's so far
+  bool m_previewed = false;        ///< the document's last change is the gesture's so far
+  std::set<std::string> m_hidden;  ///< names of what is not shown
+  bool m_instruments = true;       ///< shown
   bool m_soft = false, m_symmetric = false;
   double m_soft_mm = 20;
   std::vector<Vec3d> m_measured;  ///< [m] places that were clicked

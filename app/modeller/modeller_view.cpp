@@ -34,6 +34,10 @@ void Modeller::draw_view(Viewport& v) {
   const bool moving = m_drive || m_gesture || ImGui::IsAnyMouseDown();
   options.quality = moving ? m_governor.quality() : render::Quality{};
   options.eye_index = int(&v - m_views.data());
+  options.instruments = m_instruments || m_drive;
+  if (!m_hidden.empty())
+    for (const view::ScenePart& part : m_view->parts())
+      options.styles.push_back(m_hidden.count(part.name) ? view::PartStyle::hidden : view::PartStyle::shaded);
   render::Frame frame = m_view->frame(*m_state, options);
   frame.tick = m_picture * kExposureStep;
   v.camera = frame.camera;

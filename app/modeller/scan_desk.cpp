@@ -199,13 +199,25 @@ void ScanDesk::redo() { m_message = m_scan->redo() ? "done again" : "there is no
 std::uint16_t ScanDesk::label() { return m_scan->segment(m_segment); }
 std::string ScanDesk::chosen_segment() const { return m_segment; }
 
+/// Counted anew only where that is not known from the change itself: a scan has many voxels, and a stroke many dabs.
+const std::vector<std::size_t>& ScanDesk::voxels() {
+  if (m_counted != m_scan->version()) m_voxels = volumes::voxels_per_label(m_scan->labels());
+  m_counted = m_scan->version();
+  return m_voxels;
+}
+
 template <class Make>
 void ScanDesk::edit(const char* name, Make&& make) {
   const std::uint16_t of = label();
-  const double before = volumes::millilitres(m_scan->labels(), of);
-  m_scan->change(name, make(of));
-  m_message =
-      fmt::format("{}: {} {:.2f} mL, was {:.2f}", name, m_segment, volumes::millilitres(m_scan->labels(), of), before);
+  const double voxel = m_scan->volume().grid.voxel_ml(), before = voxel * double(voxels()[of]);
+  const volumes::LabelChange change = make(of);
+  m_scan->change(name, change);
+  for (const volumes::LabelRun& run : change.runs) {
+    m_voxels[run.from] -= run.count;
+    m_voxels[run.to] += run.count;
+  }
+  m_counted = m_scan->version();
+  m_message = fmt::format("{}: {} {:.2f} mL, was {:.2f}", name, m_segment, voxel * double(m_voxels[of]), before);
 }
 
 bool ScanDesk::obey_key(int key, int mods) {
@@ -395,10 +407,6 @@ void ScanDesk::draw_panel(const Area& panel) {
   }
   if (ui::checkbox("segments shown", m_labels_shown)) ++m_look, m_cast_labels = ~0ull;
   ui::heading("segments");
-  if (m_counted != m_scan->version()) {
-    m_voxels = volumes::voxels_per_label(m_scan->labels());
-    m_counted = m_scan->version();
-  }
   const float rows = std::min(7.0f, 0.5f + float(m_scan->labels().segments.size()));
   ImGui::BeginChild("segments", {0, rows * ImGui::GetTextLineHeightWithSpacing()});
   for (const volumes::Segment& s : m_scan->labels().segments) {
@@ -406,7 +414,7 @@ void ScanDesk::draw_panel(const Area& panel) {
                        ImGuiColorEditFlags_NoTooltip, {14, 14});
     ImGui::SameLine();
     if (ImGui::Selectable(
-            fmt::format("{}  {:.1f} mL##{}", s.name, v.grid.voxel_ml() * double(m_voxels[s.label]), s.label).c_str(),
+            fmt::format("{}  {:.1f} mL##{}", s.name, v.grid.voxel_ml() * double(voxels()[s.label]), s.label).c_str(),
             s.name == m_segment))
       m_segment = s.name;
     ui::note_widget("segment " + s.name);

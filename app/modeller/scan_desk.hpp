@@ -79,6 +79,7 @@ class ScanDesk {
   template <class Make>
   void edit(const char* name, Make&& make);
   std::uint16_t label();
+  const std::vector<std::size_t>& voxels();  ///< of each label
 
   std::unique_ptr<modeller::Scan> m_scan;
   std::future<std::unique_ptr<modeller::Scan>> m_reading;

@@ -9,6 +9,7 @@
 #include <trocar/modeller/operations/kinds.hpp>
 #include <trocar/modeller/operations/sketch.hpp>
 #include <trocar/modeller/operations/values.hpp>
+#include <trocar/modeller/operations/vessel_text.hpp>
 #include <trocar/scene/json/json_edit.hpp>
 
 namespace trocar::modeller {
@@ -40,51 +41,26 @@ Operation new_tree() {
                        scene::needed(keys::number("flow_mL_min", 0.001, 20000, "what all of the tree carries at rest")),
                        keys::texts("rides_on", "bodies that it goes with where they are near")})},
           [](const JsonObject& o, Draft& draft) {
-            const fs::path file = beside(draft, o.text("file"));
-            if (draft.has(file)) return o.fault("file", "expected the name of a new file, got one that is there");
-            const bool veins = o.text("kind") == "veins";
-            JsonValue source = scene::json_object();
-            scene::put(source, "node", scene::json_text("root"));
-            // what leads here from the heart takes a sixth of the pressure: an opened trunk does not bleed like an
-            // aorta
-            const double flow = o.number("flow_mL_min", 60) / 60;  // [mL/s]
-            scene::put(source, "resistance_mmHg_s_mL", number(veins ? 2 / flow : 15 / flow));
-            if (veins) {
-              scene::put(source, "kind", scene::json_text("steady"));
-              scene::put(source, "pressure_mmHg", number(8));
-              scene::put(source, "venous", scene::json_flag(true));
-            }
-            JsonValue tree = scene::json_object();
-            scene::put(tree, "format", number(1));
-            scene::put(tree, "name", scene::json_text(o.text("name")));
-            if (veins) scene::put(tree, "kind", scene::json_text("veins"));
-            scene::put(tree, "vessels", scene::json_array());
-            scene::put(tree, "ends", scene::json_array());
-            scene::put(tree, "sources", scene::json_array({source}));
-            std::string text = scene::to_text(tree);
+            if (draft.has(beside(draft, o.text("file"))))
+              return o.fault("file", "expected the name of a new file, got one that is there");
+            const std::string to = o.text("vessel") + "_end";
+            VesselText tree;
+            tree.name = o.text("name");
+            tree.veins = o.text("kind") == "veins";
+            tree.flow_mL_min = o.number("flow_mL_min", tree.flow_mL_min);
             JsonValue vessel = scene::json_object();
             scene::put(vessel, "name", scene::json_text(o.text("vessel")));
             scene::put(vessel, "from", scene::json_text("root"));
-            scene::put(vessel, "to", scene::json_text(o.text("vessel") + "_end"));
+            scene::put(vessel, "to", scene::json_text(to));
             scene::put(vessel, "path_mm", points(sketched(o, draft, o.points("path_mm"))));
             scene::put(vessel, "radius_mm", number(o.number("radius_mm")));
-            scene::put(vessel, "wave_speed_m_s", number(veins ? 3 : 7));
+            scene::put(vessel, "wave_speed_m_s", number(tree.veins ? 3 : 7));
             std::vector<JsonValue> rides;
             for (const std::string& on : o.texts("rides_on")) rides.push_back(scene::json_text(on));
             if (!rides.empty()) scene::put(vessel, "rides_on", scene::json_array(rides));
-            text = scene::json_insert(text, "/vessels", 0, vessel);
-            JsonValue end = scene::json_object();
-            scene::put(end, "node", scene::json_text(o.text("vessel") + "_end"));
-            scene::put(end, "flow_mL_min", number(o.number("flow_mL_min")));
-            text = scene::json_insert(text, "/ends", 0, end);
-            draft.put(file, text);
-            const fs::path root = draft.document().root();
-            const JsonValue name = scene::json_text(o.text("file"));
-            const JsonValue there = draft.value(root, "/vessels");
-            if (there.kind == JsonValue::Kind::array)
-              draft.insert(root, "/vessels", there.items.size(), name);
-            else
-              draft.set(root, "/vessels", scene::json_array({name}));
+            tree.vessels.push_back(std::move(vessel));
+            tree.ends.push_back(vessel_end(to, tree.flow_mL_min));
+            put_vessel_file(draft, o.text("file"), written_vessels(tree));
           }};
 }
 
@@ -127,10 +103,7 @@ void lay_out_by_murray(Draft& draft, const fs::path& file, double flow) {
     }
   }
   for (const auto& [node, cube] : leaf_cubes) {
-    JsonValue end = scene::json_object();
-    scene::put(end, "node", scene::json_text(node));
-    scene::put(end, "flow_mL_min", number(flow * cube / leaves));
-    ends.push_back(std::move(end));
+    ends.push_back(vessel_end(node, flow * cube / leaves));
   }
   draft.set_all(file, std::move(values));
   draft.set(file, "/ends", scene::json_array(std::move(ends)));

@@ -34,50 +34,60 @@ void paint_disc(render::Image& image, Spot at, int radius, Colour c) {
 
 }  // namespace
 
+namespace {
+
+/// Rows and columns of a net whose points stand row by row.
+void add_net(const std::vector<PlacedPoint>& points, std::size_t columns, std::vector<HandleLine>& lines) {
+  const std::size_t rows = columns > 0 ? points.size() / columns : 0;
+  const auto at = [&](std::size_t r, std::size_t c) { return points[r * columns + c].at * 1e-3; };
+  for (std::size_t r = 0; r < rows; ++r) {
+    HandleLine row;
+    for (std::size_t c = 0; c < columns; ++c) row.points.push_back(at(r, c));
+    lines.push_back(std::move(row));
+  }
+  for (std::size_t c = 0; c < columns; ++c) {
+    HandleLine column;
+    for (std::size_t r = 0; r < rows; ++r) column.points.push_back(at(r, c));
+    lines.push_back(std::move(column));
+  }
+}
+
+/// The outline of a section, a super-ellipse; none where its text is none.
+void add_ring(const scene::JsonValue& section, std::vector<HandleLine>& lines) {
+  const scene::JsonMember *centre = section.find("centre_mm"), *across = section.find("across_mm"),
+                          *deep = section.find("deep_mm");
+  if (!centre || !across || !deep) return;
+  if (!is_point(centre->value) || !is_point(across->value) || !is_point(deep->value)) return;
+  const Vec3d c = point_of(centre->value), a = point_of(across->value), d = point_of(deep->value);
+  const double power = 2 / std::max(1.0, number_in(section, "squareness", 2));
+  const auto bent = [power](double v) { return std::copysign(std::pow(std::fabs(v), power), v); };
+  constexpr int kSteps = 48;
+  HandleLine ring;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double angle = 2 * M_PI * i / kSteps;
+    ring.points.push_back((c + a * bent(std::cos(angle)) + d * bent(std::sin(angle))) * 1e-3);
+  }
+  lines.push_back(std::move(ring));
+}
+
+}  // namespace
+
 Handles handles_of(const Document& document, const std::string& name) {
   Handles out;
   const Thing thing = thing_named(document, name);
   const scene::JsonValue value = value_of(document, thing);
   for (const PointList& list : point_lists(value)) {
     const std::vector<PlacedPoint> points = points_in(value, list.path);
+    const std::vector<scene::JsonValue>& items = scene::json_at(value, list.path)->items;
     HandleLine line;
     for (std::size_t i = 0; i < points.size(); ++i) {
       out.points.push_back({thing.name, list.path, i, points[i].at * 1e-3});
       line.points.push_back(points[i].at * 1e-3);
     }
-    if (list.kind == PointList::line || list.kind == PointList::sections) out.lines.push_back(line);
-    if (list.kind == PointList::net) {
-      const std::vector<scene::JsonValue>& rows = scene::json_at(value, list.path)->items;
-      std::size_t columns = rows.empty() ? 0 : rows[0].items.size();
-      for (std::size_t r = 0; r < rows.size(); ++r) {
-        HandleLine row, next;
-        for (std::size_t c = 0; c < columns && (r + 1) * columns <= points.size(); ++c)
-          row.points.push_back(points[r * columns + c].at * 1e-3);
-        out.lines.push_back(row);
-      }
-      for (std::size_t c = 0; c < columns; ++c) {
-        HandleLine column;
-        for (std::size_t r = 0; r < rows.size() && r * columns + c < points.size(); ++r)
-          column.points.push_back(points[r * columns + c].at * 1e-3);
-        out.lines.push_back(column);
-      }
-    }
+    if (list.kind == PointList::line || list.kind == PointList::sections) out.lines.push_back(std::move(line));
+    if (list.kind == PointList::net && !items.empty()) add_net(points, items[0].items.size(), out.lines);
     if (list.kind == PointList::sections)
-      for (const scene::JsonValue& s : scene::json_at(value, list.path)->items) {
-        const scene::JsonMember *centre = s.find("centre_mm"), *across = s.find("across_mm"), *deep = s.find("deep_mm");
-        if (!centre || !across || !deep || !is_point(centre->value) || !is_point(across->value) ||
-            !is_point(deep->value))
-          continue;
-        const Vec3d c = point_of(centre->value), a = point_of(across->value), d = point_of(deep->value);
-        const double power = 2 / std::max(1.0, number_in(s, "squareness", 2));
-        HandleLine ring;
-        for (int i = 0; i <= 48; ++i) {
-          const double angle = 2 * M_PI * i / 48, x = std::cos(angle), y = std::sin(angle);
-          const auto bent = [&](double v) { return std::copysign(std::pow(std::fabs(v), power), v); };
-          ring.points.push_back((c + a * bent(x) + d * bent(y)) * 1e-3);
-        }
-        out.lines.push_back(ring);
-      }
+      for (const scene::JsonValue& section : items) add_ring(section, out.lines);
   }
   return out;
 }

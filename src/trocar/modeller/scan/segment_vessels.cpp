@@ -6,6 +6,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/modeller/operations/operation.hpp>
 #include <trocar/modeller/operations/values.hpp>
+#include <trocar/modeller/operations/vessel_text.hpp>
 #include <trocar/modeller/scan/segment_vessels.hpp>
 #include <trocar/scene/json/json_text.hpp>
 #include <trocar/volumes/organ/centre_line.hpp>
@@ -106,27 +107,13 @@ std::size_t make_vessels(Document& document, const Scan& scan, const VesselWish&
     refuse(scan.path(), "expected a segment that is longer than thick, got one without a middle line");
   double cubes = 0;
   for (const auto& [node, radius] : made.ends) cubes += radius * radius * radius;
-  std::vector<JsonValue> ends;
-  for (const auto& [node, radius] : made.ends) {
-    JsonValue end = scene::json_object();
-    scene::put(end, "node", scene::json_text(node));
-    scene::put(end, "flow_mL_min", number(wish.flow_mL_min * radius * radius * radius / cubes));
-    ends.push_back(std::move(end));
-  }
-  JsonValue source = scene::json_object(), text = scene::json_object();
-  scene::put(source, "node", scene::json_text("root"));
-  scene::put(source, "resistance_mmHg_s_mL", number(15 / (wish.flow_mL_min / 60)));
-  scene::put(text, "format", number(1));
-  scene::put(text, "name", scene::json_text(wish.name));
-  scene::put(text, "vessels", scene::json_array(made.vessels));
-  scene::put(text, "ends", scene::json_array(std::move(ends)));
-  scene::put(text, "sources", scene::json_array({source}));
-  draft.put(file, scene::to_text(text));
-  const JsonValue there = draft.value(document.root(), "/vessels");
-  if (there.kind == JsonValue::Kind::array)
-    draft.insert(document.root(), "/vessels", there.items.size(), scene::json_text(wish.file));
-  else
-    draft.set(document.root(), "/vessels", scene::json_array({scene::json_text(wish.file)}));
+  VesselText text;
+  text.name = wish.name;
+  text.flow_mL_min = wish.flow_mL_min;
+  text.vessels = made.vessels;
+  for (const auto& [node, radius] : made.ends)
+    text.ends.push_back(vessel_end(node, wish.flow_mL_min * radius * radius * radius / cubes));
+  put_vessel_file(draft, wish.file, written_vessels(text));
   document.change("vessels from " + wish.segment, draft.texts());
   return made.vessels.size();
 }
