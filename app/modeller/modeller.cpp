@@ -40,6 +40,15 @@ std::vector<fs::path> read_recent() {
   return out;
 }
 
+Window open_modeller_window(pictures::PictureSize size) {
+  try {
+    return Window("Trocar: modeller", size);
+  } catch (const core::EnvironmentLacks& lacks) {
+    throw core::EnvironmentLacks(
+        fmt::format("{}\nThe modeller without a window: trocar model --script FILE", lacks.what()));
+  }
+}
+
 }  // namespace
 
 Modeller::Modeller(Window& window, const ModellerOptions& options, EventLog& log)
@@ -403,7 +412,7 @@ void run_modeller(const ModellerOptions& options) {
   std::vector<core::Fault> ignored;
   const Settings settings = read_settings(settings_file(), ignored);
   if (!options.file.empty()) modeller::Document::open(options.file);  // a wrong name is told before a window opens
-  Window window("Trocar: modeller", options.size);
+  Window window = open_modeller_window(options.size);
   window.set_text_size(settings.text_size);
   EventLog log(EventLog::path_of(options.log));
   attempt::catch_interrupts();

@@ -69,7 +69,7 @@ Thing thing_named(const Document& document, std::string_view name) {
   std::vector<std::string> names;
   for (const Thing& thing : all)
     if (thing.kind != "tissue") names.push_back(thing.name);
-  throw core::BadInput({{{document.root().generic_string(), 0, 0}, scene::unknown_name("thing", name, names)}});
+  throw core::BadInput({{{"", 0, 0}, scene::unknown_name("thing", name, names)}});  // whoever asked says where
 }
 
 JsonValue value_of(const Document& document, const Thing& thing) {
