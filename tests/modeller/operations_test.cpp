@@ -307,6 +307,15 @@ TEST(Script, AUterusComesFromNothingToPulledByAGrasperInFewerThan60Operations) {
   EXPECT_TRUE(fs::exists(place / "my_uterus/scene.json"));
 }
 
+TEST(Script, EveryStepIsInTheManual) {
+  const std::string page = read("docs/modeller.md");
+  ASSERT_FALSE(page.empty());
+  for (const Operation& o : operations())
+    EXPECT_NE(page.find("`" + o.parameters.name + "`"), page.npos) << o.parameters.name;
+  for (const Command& c : commands())
+    EXPECT_NE(page.find("`" + c.parameters.name + "`"), page.npos) << c.parameters.name;
+}
+
 TEST(Script, AStepThatIsNoneIsToldWithTheNearestOne) {
   Session session;
   try {
