@@ -91,6 +91,33 @@ std::vector<Seed> scene_seeds() {
   return seeds;
 }
 
+/// The pad's place and tissue, with another shape.
+scene::Solid shaped(const char* name, scene::ClosedShape shape) {
+  scene::Solid s = small::pad();
+  s.name = name;
+  s.sections.clear();
+  s.shape = std::move(shape);
+  return s;
+}
+
+scene::Solid tube_solid() {
+  scene::TubeShape tube;
+  tube.line = {{0.036, 0, -0.008}, {0.050, 0.002, -0.008}, {0.064, 0, -0.008}};
+  tube.stations = {{0, 0.006, 0}, {0.028, 0.005, 0}};
+  scene::ClosedShape shape;
+  shape.tube = tube;
+  return shaped("pipe", shape);
+}
+
+scene::Solid revolved_solid() {
+  scene::RevolvedShape revolved;
+  revolved.profile = {{0, -0.012}, {0.007, -0.006}, {0.008, 0}, {0.005, 0.008}, {0, 0.012}};
+  revolved.from = {0.050, 0, -0.012};
+  scene::ClosedShape shape;
+  shape.revolved = revolved;
+  return shaped("top", shape);
+}
+
 void scene_compiled(Bytes bytes) {
   scene::Description description;
   if (!read(unpacked(text_of(bytes)), description) || !quick_to_compile(description)) return;
@@ -116,9 +143,12 @@ std::vector<Seed> compile_seeds() {
   cord.strands = {small::cord()};
   pad.solids = {small::pad()};
   pad.walls = whole.walls;
+  scene::Description shapes = empty;
+  shapes.solids = {tube_solid(), revolved_solid()};
   return {{"small", bytes_of(scene::write_scene(whole))},
           {"cord", bytes_of(scene::write_scene(cord))},
-          {"pad", bytes_of(scene::write_scene(pad))}};
+          {"pad", bytes_of(scene::write_scene(pad))},
+          {"shapes", bytes_of(scene::write_scene(shapes))}};
 }
 
 }  // namespace trocar::fuzz
