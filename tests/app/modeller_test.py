@@ -49,6 +49,9 @@ class Modeller:
         self.hands.press(item)
 
     def fill(self, field, text):
+        self.eyes.where(field)
+        time.sleep(0.6)  # a panel that has just appeared finds its size
+        self.eyes.read()
         x, y = self.eyes.where(field)
         xdo("mousemove", x, y)
         time.sleep(0.3)
