@@ -153,11 +153,13 @@ Command use() {
         const sim::State& state = drive.state();
         const int strand_clips = state.clip_count, vessel_clips = state.vessel_clip_count;
         const int strand_cuts = state.cut_count, openings = state.opening_count;
+        std::vector<std::uint64_t> shapes;  // another one of an organ that was cut
+        for (const tissue::CuttableState& organ : state.cuttables) shapes.push_back(organ.version);
         drive.take(at);
         for (int i = 0; i < 20000 && !drive.done(); ++i) drive.tick();
         drive.let_go();
         for (int i = 0; i < 5000 && !drive.done(); ++i) drive.tick();
-        Json clipped = Json::array(), cut = Json::array();  // names of vessels and strands
+        Json clipped = Json::array(), cut = Json::array();  // names of vessels, strands, organs
         const sim::Model& model = session.model();
         for (int i = strand_clips; i < state.clip_count; ++i)
           if (const int strand = state.clips[std::size_t(i)].strand; strand >= 0)
@@ -171,6 +173,8 @@ Command use() {
             cut.push_back(model.strands[std::size_t(strand)].name);
         for (int i = openings; i < state.opening_count; ++i)
           cut.push_back(model.vessels.list[std::size_t(state.openings[std::size_t(i)].vessel)].name);
+        for (std::size_t i = 0; i < shapes.size(); ++i)
+          if (state.cuttables[i].version != shapes[i]) cut.push_back(model.cuttables[i].name);
         session.said().push_back(
             with_blood({{"use", o.text("instrument")}, {"clipped", clipped}, {"cut", cut}}, drive));
       }};
