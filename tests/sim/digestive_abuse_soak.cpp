@@ -105,7 +105,6 @@ TEST_P(DigestiveAbuse, LeavesNumbersFiniteTheAccountExactAndNoBodyInAKnot) {
   const sim::Model& model = shipped(GetParam());
   abuse::Attack attack(model, 11, true);
   int done = 0;
-  bool let_go = true;
   const std::vector<size_t> order = order_of(model);
   for (size_t round = 0; attack.ticks() < ticks(); ++round) {
     const abuse::Round r = attack.round(order[round % order.size()], 5, 2500);
@@ -115,9 +114,7 @@ TEST_P(DigestiveAbuse, LeavesNumbersFiniteTheAccountExactAndNoBodyInAKnot) {
     SCOPED_TRACE(r.organ + " in round " + std::to_string(round));
     ASSERT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
     EXPECT_LT(r.most_energy, kMostEnergy) << "[J]";
-    EXPECT_FALSE(r.held);
-    EXPECT_TRUE(r.let_go || let_go);
-    let_go = r.let_go;
+    EXPECT_FALSE(r.held);  // what was torn off may lie on an instrument: that is told, not refused
     EXPECT_LE(drawn.share, kMostPull) << drawn.worst << ", " << drawn.most;
     ASSERT_EQ(abuse::broken(model, attack.state()), "");
   }
