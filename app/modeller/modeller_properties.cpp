@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <trocar/modeller/drive/body_memory.hpp>
 #include <trocar/modeller/operations/values.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/json/json_edit.hpp>
@@ -156,6 +157,7 @@ void Modeller::draw_read_outs(const modeller::Thing& thing) {
     ui::text(fmt::format("{} nodes, {} springs, {} sub-steps of {:.3f} ms", r.nodes, r.springs, r.substeps,
                          r.substeps > 0 ? 1.0 / r.substeps : 1.0));
     if (r.limit_ms > 0) ui::text(fmt::format("stable up to {:.3f} ms", r.limit_ms), ui::kGrey);
+    ui::text(modeller::memory_in_words(r.bytes) + " in memory", ui::kGrey);
     ui::text(fmt::format("about {:.0f} us of a tick's 1000", r.predicted_us),
              r.predicted_us > 600 ? ui::kOrange : ui::kWhite);
     if (r.off_mm < 0) continue;

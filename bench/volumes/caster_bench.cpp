@@ -1,13 +1,21 @@
 // The ray caster on a block of 256^3: a trunk of soft tissue with noise, a spine and ribs of bone, vessels and lungs,
 // seen from half in front so that it fills the picture's height. Run it alone: volumes_bench --benchmark_filter=Cast
+// With TROCAR_CASTER_FILES=FOLDER what is cast is written there as well, for tools/volume_peers.py: block.nrrd, the
+// looks' points in looks.json, and what was drawn as bone_still.ppm and so on.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
 #include <trocar/core/parallel.hpp>
 #include <trocar/core/random.hpp>
+#include <trocar/volumes/files/volume_writer.hpp>
 #include <trocar/volumes/show/caster.hpp>
 #include <trocar/volumes/show/slice_image.hpp>
 
@@ -48,14 +56,6 @@ const Volume& block() {
 
 const View kView{{0.25, 0.15, 0.5}, {}, {0, 1, 0}, 30, 0, 640, 480};
 
-void cast(benchmark::State& state, TransferPreset preset, const Quality& quality) {
-  core::ThreadPool pool(int(std::max(1u, std::thread::hardware_concurrency())));
-  VolumeCaster caster(block(), pool);
-  caster.set_transfer(transfer_preset(preset));
-  for (auto _ : state) benchmark::DoNotOptimize(caster.render(kView, quality).picture.rgba.data());
-  state.counters["images/s"] = benchmark::Counter(double(state.iterations()), benchmark::Counter::kIsRate);
-}
-
 constexpr TransferPreset kPresets[] = {TransferPreset::bone, TransferPreset::skin, TransferPreset::vessels,
                                        TransferPreset::soft_tissue};
 const char* name_of_preset(TransferPreset p) {
@@ -63,16 +63,60 @@ const char* name_of_preset(TransferPreset p) {
   return kNames[std::size_t(p)];
 }
 
-void BM_CastStill(benchmark::State& state) {
+/// {"bone": [[value, red, green, blue, opacity], ...], ...}
+std::string looks_as_json() {
+  std::string out;
+  for (const TransferPreset preset : kPresets) {
+    std::string points;
+    for (const TransferPoint& p : transfer_preset(preset).points)
+      points += fmt::format("{}[{}, {}, {}, {}, {}]", points.empty() ? "" : ", ", p.value, p.colour[0], p.colour[1],
+                            p.colour[2], p.opacity);
+    out += fmt::format("{}\"{}\": [{}]", out.empty() ? "{" : ",\n ", name_of_preset(preset), points);
+  }
+  return out + "}\n";
+}
+
+std::string as_ppm(const Picture& picture) {
+  std::string out = fmt::format("P6\n{} {}\n255\n", picture.width, picture.height);
+  for (std::size_t i = 0; i < picture.rgba.size(); ++i)
+    if (i % 4 != 3) out += char(picture.rgba[i]);
+  return out;
+}
+
+void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+void write_for_peers(TransferPreset preset, bool moving, const Picture& picture) {
+  const char* folder = std::getenv("TROCAR_CASTER_FILES");
+  if (!folder) return;
+  const std::filesystem::path path = folder;
+  static const bool once = [&] {
+    write_bytes(path / "block.nrrd", to_nrrd(block(), false));
+    write_bytes(path / "looks.json", looks_as_json());
+    return true;
+  }();
+  if (once)
+    write_bytes(path / fmt::format("{}_{}.ppm", name_of_preset(preset), moving ? "moving" : "still"), as_ppm(picture));
+}
+
+void cast(benchmark::State& state, bool moving) {
   const TransferPreset preset = kPresets[state.range(0)];
   state.SetLabel(name_of_preset(preset));
-  cast(state, preset, {});
+  const Quality quality = moving ? moving_quality() : Quality{};
+  core::ThreadPool pool(int(std::max(1u, std::thread::hardware_concurrency())));
+  VolumeCaster caster(block(), pool);
+  caster.set_transfer(transfer_preset(preset));
+  const std::clock_t begin = std::clock();
+  for (auto _ : state) benchmark::DoNotOptimize(caster.render(kView, quality).picture.rgba.data());
+  const double ms = 1e3 * double(std::clock() - begin) / CLOCKS_PER_SEC;
+  state.counters["images/s"] = benchmark::Counter(double(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["all_threads_ms"] = ms / double(state.iterations());  // of the processor
+  write_for_peers(preset, moving, caster.render(kView, quality).picture);
 }
-void BM_CastMoving(benchmark::State& state) {
-  const TransferPreset preset = kPresets[state.range(0)];
-  state.SetLabel(name_of_preset(preset));
-  cast(state, preset, moving_quality());
-}
+
+void BM_CastStill(benchmark::State& state) { cast(state, false); }
+void BM_CastMoving(benchmark::State& state) { cast(state, true); }
 BENCHMARK(BM_CastStill)->DenseRange(0, 3)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(BM_CastMoving)->DenseRange(0, 3)->Unit(benchmark::kMillisecond)->UseRealTime();
 

@@ -12,6 +12,7 @@
 #include <trocar/scene/json/json_edit.hpp>
 #include <trocar/scene/json/json_text.hpp>
 
+#include "../full_disk.hpp"
 #include "workplace.hpp"
 
 namespace trocar::modeller {
@@ -137,6 +138,34 @@ TEST(Document, WhereTheFolderIsReadOnlyTheReasonIsToldAndNothingIsLost) {
   EXPECT_EQ(document.unsaved().size(), 1u);
   document.save();
   EXPECT_TRUE(document.unsaved().empty());
+}
+
+TEST(Document, WhereTheDiskIsFullThatIsToldAndNothingIsLost) {
+  const Workplace place;
+  const fs::path file = copied_scenes(place) / "cutting" / "scene.json";
+  const std::string before = read(file);
+  Document document = Document::open(file);
+  Recovery recovery(place / "unsaved", document.root());
+  apply(document, "set", R"({"key": "title", "value": "mine"})");
+  std::string said, kept;
+  {
+    const test::FullDisk disk(100);
+    try {
+      document.save();
+    } catch (const core::BadInput& bad) {
+      said = bad.what();
+    }
+    kept = recovery.keep(document);
+  }
+  EXPECT_NE(said.find("nothing is lost: save again elsewhere or when that is mended"), std::string::npos) << said;
+  EXPECT_EQ(read(file), before);
+  EXPECT_FALSE(fs::exists(file.string() + ".part"));
+  EXPECT_EQ(document.unsaved().size(), 1u);
+  EXPECT_NE(kept, "");
+  EXPECT_EQ(recovery.keep(document), "") << "tried again though nothing has changed since";
+  EXPECT_EQ(lost_in(place / "unsaved").size(), 1u);
+  document.save();
+  EXPECT_NE(read(file).find("mine"), std::string::npos);
 }
 
 TEST(Document, SavedElsewhereItStillFindsWhatItNames) {

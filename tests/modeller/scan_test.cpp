@@ -1,11 +1,14 @@
 // A patient's scan: read, measured, segmented, and organs made of it that can be grasped and cut.
 #include <cmath>
 
+#include <trocar/modeller/document/home.hpp>
+#include <trocar/modeller/drive/built.hpp>
 #include <trocar/modeller/scan/segment_organ.hpp>
 #include <trocar/modeller/script/session.hpp>
 #include <trocar/volumes/files/volume_writer.hpp>
 #include <trocar/volumes/segment/threshold.hpp>
 
+#include "../full_disk.hpp"
 #include "workplace.hpp"
 
 namespace trocar::modeller {
@@ -72,6 +75,31 @@ TEST(Scan, ASegmentOfTwoPartsThatTouchByACornerOrNothingIsToldOrMended) {
   Document document = Document::fresh(place / "scene.json", "{\"format\": 1, \"name\": \"x\", \"solids\": []}\n");
   EXPECT_THROW(make_organ(document, scan, {"nothing", "a", "liver", "", 0, false, std::nullopt}), core::BadInput);
   EXPECT_EQ(document.version(), 0u);
+}
+
+TEST(Scan, AnOrganForWhichTheDiskHasNoRoomChangesNothing) {
+  const Workplace place;
+  Scan scan = Scan::open(phantom(place, 20));
+  const std::uint16_t ball = scan.segment("ball");
+  scan.change("threshold", volumes::thresholded(scan.volume(), scan.labels(), {100, 300}, ball));
+  Document document = begun(place / "scene.json", false, "mine");
+  const std::uint64_t version = document.version();
+  const OrganWish wish{"ball", "ball", "liver", "", 5, false, Vec3d{0, -150, -110}};
+  std::string said;
+  {
+    const test::FullDisk disk(4096);
+    try {
+      make_organ(document, scan, wish);
+    } catch (const core::BadInput& bad) {
+      said = bad.what();
+    }
+  }
+  EXPECT_NE(said.find("ball.stl: expected a file that can be written"), std::string::npos) << said;
+  EXPECT_EQ(document.version(), version);
+  EXPECT_FALSE(fs::exists(place / "ball.stl"));
+  EXPECT_FALSE(fs::exists(place / "ball.stl.part"));
+  make_organ(document, scan, wish);
+  EXPECT_TRUE(build(document).good());
 }
 
 TEST(Scan, ABranchingSegmentBecomesATreeOfVesselsWithItsRadii) {

@@ -315,6 +315,31 @@ TEST(SurfaceShapes, WhatIsNotClosedIsMendedAndTold) {
             std::vector<std::string>{});
 }
 
+/// Edges with three triangles and with four: a fin that stands on a ball encloses nothing, another ball that touches
+/// the first along an edge is a body.
+TEST(SurfaceShapes, AnSTLThatIsNoManifoldIsMendedAndToldOrRefusedWithWhatIsLeftOpen) {
+  Table t;
+  const geometry::TriMesh ball = ball_mm();
+  geometry::TriMesh finned = ball;
+  const auto [a, b, c] = ball.triangles[20];
+  const Vec3d one = ball.positions[std::size_t(a)], other = ball.positions[std::size_t(b)];
+  finned.positions.push_back(0.7 * (one + other));
+  finned.triangles.push_back({a, b, int(ball.positions.size())});
+  t.folder.write("finned.stl", geometry::to_stl(finned));
+  expect_only(t.faults(t.solid(R"("surface": {"file": "finned.stl"}, "cell_mm": 6)")),
+              "is left open: it encloses nothing");
+  geometry::TriMesh twins = ball;
+  const int n = int(ball.positions.size());
+  for (const Vec3d& p : ball.positions) twins.positions.push_back(one + other - p);  // through the edge's middle
+  for (const auto& [x, y, z] : ball.triangles) twins.triangles.push_back({x + n, z + n, y + n});
+  t.folder.write("twins.stl", geometry::to_stl(twins));
+  CompileReport report;
+  compile(read(t.solid(R"("surface": {"file": "twins.stl"}, "cell_mm": 6)")), &report);
+  ASSERT_FALSE(report.doubts.empty());
+  EXPECT_NE(report.doubts[0].message.find("is not sound; mended: "), std::string::npos) << report.doubts[0].message;
+  EXPECT_NEAR(report.bodies[0].volume / (2e-9 * geometry::volume(ball)), 1, 0.05);
+}
+
 TEST(SurfaceShapes, SliversOfOthersCostNoSubSteps) {
   Table t;
   geometry::TriMesh mesh = ball_mm();

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <trocar/core/error.hpp>
@@ -121,6 +122,40 @@ TEST_F(MadeDicom, TwoTimePointsAreChosenBetween) {
   EXPECT_EQ(second.volume.value(0, 0, 2), 12);
   EXPECT_EQ(second.report.frames, 2);
   EXPECT_THROW(read_volume(m_folder, {.frame = 2}), core::BadInput);
+}
+
+/// Two series in one folder, one of them tilted; then a slice of it is lost, then one ends early.
+TEST_F(MadeDicom, AFolderOfMixedSeriesIsToldApartAndWhatIsLostOrDamagedIsNamed) {
+  const auto name_of = [](int tilted, int k) { return fmt::format("s{}_{}.dcm", tilted, k); };
+  for (int tilted = 0; tilted < 2; ++tilted)
+    for (int k = 0; k < 5 + 2 * tilted; ++k) {
+      DicomFile file;
+      file.series = fmt::format("1.2.{}", 3 + tilted);
+      file.position = fmt::format("0\\{}\\{}", 0.75 * tilted * k, 2 * k);
+      file.pixel = [&](int) { return 1024 + 100 * tilted + k; };
+      write(name_of(tilted, k), file);
+    }
+  const VolumeFile most = read_volume(m_folder), other = read_volume(m_folder / name_of(0, 2));
+  EXPECT_EQ(most.volume.grid.size, (Index3{3, 2 + 6, 7})) << "straightened";
+  EXPECT_EQ(most.report.series.size(), 2u);
+  EXPECT_NE(most.report.notes.front().find("of 2 is read; others: "), std::string::npos) << most.report.notes.front();
+  EXPECT_NE(most.report.notes.back().find("the grid is sheared by 20.6 degrees"), std::string::npos)
+      << most.report.notes.back();
+  EXPECT_EQ(other.volume.grid.size, (Index3{3, 2, 5}));
+  EXPECT_EQ(other.volume.value(1, 1, 4), 4);
+  const auto fault = [&] {
+    try {
+      read_volume(m_folder);
+    } catch (const core::BadInput& bad) {
+      return std::string(bad.what());
+    }
+    return std::string();
+  };
+  fs::resize_file(m_folder / name_of(1, 4), fs::file_size(m_folder / name_of(1, 4)) - 3);
+  EXPECT_NE(fault().find(name_of(1, 4)), std::string::npos) << fault();
+  fs::remove(m_folder / name_of(1, 4));
+  EXPECT_NE(fault().find("without gaps, got 6 positions; missing at 8"), std::string::npos) << fault();
+  EXPECT_EQ(read_volume(m_folder / name_of(0, 2)).volume.stored, other.volume.stored) << "the sound one is still read";
 }
 
 TEST_F(MadeDicom, WhatIsNoGreyScanIsRefusedWithItsReason) {

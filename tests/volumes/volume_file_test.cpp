@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/random.hpp>
 #include <trocar/volumes/files/volume_file.hpp>
 #include <trocar/volumes/files/volume_writer.hpp>
 
+#include "../full_disk.hpp"
 #include "volume_bytes.hpp"
 
 namespace trocar::volumes {
@@ -298,6 +300,35 @@ TEST(VolumeFiles, WhatIsWrittenReadsBackTheSame) {
   }
   EXPECT_THROW(write_labels(folder.path / "b.txt", labels), core::BadInput);
   EXPECT_THROW(write_labels(folder.path / "no" / "b.nii", labels), core::BadInput);
+}
+
+TEST(VolumeFiles, WhereTheDiskIsFullThatIsToldAndTheOldFileIsStillThere) {
+  const TemporaryFolder folder;
+  const Labels old = on_grid_of(read_volume_bytes(kNifti, "a").volume);
+  Labels large;
+  large.grid.size = {40, 40, 40};
+  core::Random random(1);  // so that packing does not help
+  for (std::size_t i = 0; i < large.grid.count(); ++i) large.at.push_back(std::uint16_t(random.next() % 200));
+  for (const std::string name : {"a.nii", "a.nii.gz", "a.seg.nrrd"}) {
+    const fs::path file = folder.path / name;
+    write_labels(file, old);
+    std::string said;
+    {
+      const test::FullDisk disk(4096);
+      try {
+        write_labels(file, large);
+      } catch (const core::BadInput& bad) {
+        said = bad.what();
+      }
+    }
+    EXPECT_NE(said.find(name), std::string::npos) << said;
+    EXPECT_NE(said.find("expected a file that can be written, got \"File too large\""), std::string::npos) << said;
+    EXPECT_EQ(read_labels(file).labels.at, old.at);
+    write_labels(file, large);
+    EXPECT_EQ(read_labels(file).labels.at, large.at);
+  }
+  const auto files = std::distance(fs::directory_iterator(folder.path), fs::directory_iterator());
+  EXPECT_EQ(files, 3) << "nothing half written is left";
 }
 
 TEST(VolumeFiles, WhoIsToldToStopThrowsCancelled) {

@@ -32,6 +32,7 @@ struct ReadOut {
   int nodes = 0, springs = 0, substeps = 0;
   double volume_mL = 0, mass_g = 0, limit_ms = 0, off_mm = -1;  ///< off: farthest from where it is drawn, < 0 unknown
   double predicted_us = 0;                                      ///< of a tick, on a quiet core
+  std::size_t bytes = 0;                                        ///< in memory (body_memory.hpp)
 };
 /// @param standing_ticks  simulated to see whether it hangs still; 0: not asked
 std::vector<ReadOut> read_outs(const Built& built, std::uint64_t standing_ticks);

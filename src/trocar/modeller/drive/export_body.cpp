@@ -1,6 +1,8 @@
 #include <array>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -8,6 +10,7 @@
 #include <trocar/geometry/formats/tet_files.hpp>
 #include <trocar/geometry/surface_files/surface_writer.hpp>
 #include <trocar/modeller/drive/export_body.hpp>
+#include <trocar/modeller/drive/line_tube.hpp>
 #include <trocar/sim/model/bodies.hpp>
 
 namespace trocar::modeller {
@@ -24,43 +27,95 @@ geometry::TriMesh skin_mesh(const tissue::Skin& skin) {
   return mesh;
 }
 
+/// A body for a file: what bounds it, and what it is made of.
 struct Body {
   geometry::TriMesh surface;
-  const tissue::NetworkModel* network = nullptr;
-  const geometry::CuttableTets* cells = nullptr;  ///< of what can be cut: its springs are their edges
+  std::vector<Vec3d> nodes;  ///< [m]
+  std::vector<std::array<int, 2>> springs;
+  std::vector<std::array<int, 3>> faces;  ///< of what is but a surface
+  std::vector<std::array<int, 4>> cells;
+  const geometry::CuttableTets* drawn = nullptr;  ///< of what can be cut: its springs are their edges
 };
 
-Body body_named(const sim::Model& model, const std::string& name) {
-  for (const sim::SolidModel& solid : model.solids)
-    if (solid.name == name) return {skin_mesh(solid.fine), &solid.network};
-  for (std::size_t i = 0; i < model.cuttables.size(); ++i)
-    if (model.cuttables[i].name == name)
-      return {skin_mesh(model.skin(int(model.solids.size() + i))), nullptr, &model.cuttables[i].body.drawn};
-  for (const auto& membrane : model.membranes)
-    if (membrane.name == name) {
-      geometry::TriMesh mesh;
-      mesh.positions = membrane.sheet.network.rest;
-      mesh.triangles = membrane.sheet.triangles;
-      return {std::move(mesh), &membrane.sheet.network};
-    }
-  refuse_export(fmt::format("expected an organ, a fold or a pouch to export, got \"{}\"", name));
+Body body_of_network(geometry::TriMesh surface, const tissue::NetworkModel& n) {
+  Body body{std::move(surface), n.rest, {}, {}, {}};
+  for (std::size_t i = 0; i + 1 < n.spring_nodes.size(); i += 2)
+    body.springs.push_back({int(n.spring_nodes[i]), int(n.spring_nodes[i + 1])});
+  for (const auto& tet : n.tets) {
+    const auto node = [&](std::size_t corner) { return int(n.node_of_row[std::size_t(tet.row[corner])]); };
+    body.cells.push_back({node(0), node(1), node(2), node(3)});
+  }
+  return body;
 }
 
-/// Gmsh's format 2.2: nodes, springs as lines of two nodes, cells as tetrahedra.
-std::string network_text(const tissue::NetworkModel& n) {
-  std::string out = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + std::to_string(n.rest.size()) + "\n";
-  for (std::size_t i = 0; i < n.rest.size(); ++i)
-    out += fmt::format("{} {} {} {}\n", i + 1, n.rest[i].x / kMillimetre, n.rest[i].y / kMillimetre,
-                       n.rest[i].z / kMillimetre);
-  const std::size_t springs = n.spring_nodes.size() / 2;
-  out += "$EndNodes\n$Elements\n" + std::to_string(springs + n.tets.size()) + "\n";
-  for (std::size_t i = 0; i < springs; ++i)
-    out += fmt::format("{} 1 2 1 1 {} {}\n", i + 1, n.spring_nodes[2 * i] + 1, n.spring_nodes[2 * i + 1] + 1);
-  for (std::size_t i = 0; i < n.tets.size(); ++i) {
-    out += fmt::format("{} 4 2 2 2", springs + i + 1);
-    for (const int row : n.tets[i].row) out += fmt::format(" {}", n.node_of_row[std::size_t(row)] + 1);
-    out += '\n';
-  }
+/// A strand or a vessel: a tube of its outer radius, its middle line as springs from node to node.
+Body body_of_line(std::vector<Vec3d> nodes, std::span<const double> radius) {
+  Body body{tube_around(nodes, radius), std::move(nodes), {}, {}, {}};
+  for (int i = 0; i + 1 < int(body.nodes.size()); ++i) body.springs.push_back({i, i + 1});
+  return body;
+}
+
+Body body_of_vessel(const sim::Vessel& vessel) {
+  std::vector<Vec3d> line;
+  std::vector<double> radius;
+  for (const interactions::VesselPoint& p : vessel.path.points) line.push_back(p.drawn), radius.push_back(p.radius);
+  return body_of_line(std::move(line), radius);
+}
+
+Body body_of(const sim::Model& model, sim::SolidRef r) {
+  return body_of_network(skin_mesh(sim::model_of(model, r).fine), sim::model_of(model, r).network);
+}
+Body body_of(const sim::Model& model, sim::CuttableRef r) {
+  Body body{skin_mesh(model.skin(int(r.number))), {}, {}, {}, {}};
+  body.drawn = &sim::model_of(model, r).body.drawn;
+  return body;
+}
+Body body_of(const sim::Model& model, sim::StrandRef r) {
+  return body_of_line(model.strand_bodies[r.index].model.rest, sim::model_of(model, r).outer);
+}
+Body body_of(const sim::Model& model, sim::MembraneRef r) {
+  const tissue::MembraneModel& sheet = sim::model_of(model, r).sheet;
+  geometry::TriMesh mesh;
+  mesh.positions = sheet.network.rest;
+  mesh.triangles = sheet.triangles;
+  return body_of_network(std::move(mesh), sheet.network);
+}
+
+Body body_named(const sim::Model& model, const std::string& name) {
+  std::optional<Body> found;
+  sim::visit_bodies(model, [&](auto ref) {
+    if (!found && sim::model_of(model, ref).name == name) found = body_of(model, ref);
+  });
+  if (found) return std::move(*found);
+  for (const sim::Vessel& vessel : model.vessels.list)
+    if (vessel.name == name) return body_of_vessel(vessel);
+  for (const sim::WallModel& wall : model.walls)
+    if (wall.name == name) {
+      geometry::TriMesh mesh = skin_mesh(wall.skin);
+      return {mesh, mesh.positions, {}, mesh.triangles, {}};
+    }
+  refuse_export(
+      fmt::format("expected an organ, a strand, a fold, a pouch, a vessel or a wall to export, got \"{}\"", name));
+}
+
+/// Gmsh's format 2.2: nodes, springs as lines of two nodes, faces as triangles, cells as tetrahedra.
+std::string network_text(const Body& body) {
+  std::string out = fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n", body.nodes.size());
+  for (std::size_t i = 0; i < body.nodes.size(); ++i)
+    out += fmt::format("{} {} {} {}\n", i + 1, body.nodes[i].x / kMillimetre, body.nodes[i].y / kMillimetre,
+                       body.nodes[i].z / kMillimetre);
+  out += fmt::format("$EndNodes\n$Elements\n{}\n", body.springs.size() + body.faces.size() + body.cells.size());
+  std::size_t number = 0;
+  const auto write = [&](const auto& elements, const char* type_and_tags) {
+    for (const auto& element : elements) {
+      out += fmt::format("{} {}", ++number, type_and_tags);
+      for (const int node : element) out += fmt::format(" {}", node + 1);
+      out += '\n';
+    }
+  };
+  write(body.springs, "1 2 1 1");
+  write(body.faces, "2 2 3 3");
+  write(body.cells, "4 2 2 2");
   return out + "$EndElements\n";
 }
 
@@ -79,8 +134,8 @@ std::string exported(const sim::Model& model, const std::string& name, const std
   if (ending == ".stl") return geometry::to_stl(body.surface, kMillimetre);
   if (ending == ".ply") return geometry::to_ply(body.surface, kMillimetre);
   if (ending == ".vtk") return geometry::to_polydata(body.surface, kMillimetre);
-  if (ending == ".msh" && body.network) return network_text(*body.network);
-  if (ending == ".msh") return geometry::to_gmsh(cells_of_body(*body.cells), kMillimetre);
+  if (ending == ".msh" && !body.drawn) return network_text(body);
+  if (ending == ".msh") return geometry::to_gmsh(cells_of_body(*body.drawn), kMillimetre);
   refuse_export(fmt::format("expected a file that ends in .obj, .stl, .ply, .vtk or .msh, got \"{}\"", ending));
 }
 

@@ -1,5 +1,6 @@
 // Bodies as compiled, for other programs: the skin as OBJ, STL, PLY or VTK, the network with its springs and cells as
-// .msh.
+// .msh. Of strands and vessels the skin is a closed tube of their outer radius and the network their middle line; of a
+// wall, which has none, it is its triangles.
 #pragma once
 
 #include <string>

@@ -85,7 +85,8 @@ Command check() {
                                 {"substeps", r.substeps},
                                 {"volume_mL", r.volume_mL},
                                 {"mass_g", r.mass_g},
-                                {"predicted_us", r.predicted_us}});
+                                {"predicted_us", r.predicted_us},
+                                {"memory_kB", std::round(1e-3 * double(r.bytes))}});
               if (r.off_mm >= 0) bodies.back()["off_mm"] = r.off_mm;
               if (o.flag("still") && r.off_mm > 0.5)
                 o.fault(o.at(), fmt::format("expected {} to hang still, got {:.1f} mm off after {:g} s", r.name,
@@ -242,7 +243,8 @@ Command shot() {
 Command export_body() {
   return {
       {"export",
-       "Writes a body as compiled: its skin as .obj, .stl, .ply or .vtk, its network with springs and cells as .msh.",
+       "Writes a body, a vessel or a wall as compiled: its skin as .obj, .stl, .ply or .vtk, its network with springs "
+       "and cells as .msh.",
        {scene::needed(keys::name("of", "the body")), scene::needed(keys::text("file", "the file; its end says what"))}},
       [](const JsonObject& o, Session& session) {
         const fs::path file = o.text("file");

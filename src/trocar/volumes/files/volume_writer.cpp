@@ -1,9 +1,9 @@
 #include <cmath>
 #include <cstring>
-#include <fstream>
 
 #include <fmt/format.h>
 
+#include <trocar/core/files.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/volumes/files/header_fields.hpp>
 #include <trocar/volumes/files/inflate.hpp>
@@ -88,15 +88,8 @@ void require_small(const Grid& grid) {
 }
 
 void put_in_place(const fs::path& path, const std::string& bytes) {
-  const fs::path fresh = path.string() + ".new";
-  {
-    std::ofstream out(fresh, std::ios::binary);
-    out.write(bytes.data(), std::streamsize(bytes.size()));
-    if (!out.flush()) refuse(path.generic_string(), "expected room for the file, got an error while writing");
-  }
-  std::error_code error;
-  fs::rename(fresh, path, error);
-  if (error) refuse(path.generic_string(), "expected a file that can be replaced, got " + error.message());
+  if (const std::string said = core::write_file(path, bytes.data(), bytes.size()); !said.empty())
+    refuse(path.generic_string(), fmt::format("expected a file that can be written, got \"{}\"", said));
 }
 
 template <class Image>

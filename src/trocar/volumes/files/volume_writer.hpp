@@ -23,7 +23,8 @@ std::string to_nrrd(const Labels& labels, bool packed = true);
 std::string to_nifti(const Volume& volume);
 std::string to_nifti(const Labels& labels);
 
-/// By the name's end: .nii, .nii.gz, .nrrd. Written beside and put in place as a whole.
+/// By the name's end: .nii, .nii.gz, .nrrd. Written beside, flushed and put in place as a whole: on a full disk the old
+/// file stays.
 /// @throws core::BadInput  for another end, and where the file cannot be written
 void write_volume(const std::filesystem::path& path, const Volume& volume);
 void write_labels(const std::filesystem::path& path, const Labels& labels);
