@@ -47,6 +47,8 @@ std::string values_of(const Key& key) {
       return "three numbers, " + range_of(key);
     case Type::points:
       return fmt::format("array of {}points, {}", many, range_of(key));
+    case Type::lines:
+      return fmt::format("array of lines of {}points, {}", many, range_of(key));
     case Type::grid:
       return fmt::format("array of {}rows of {}points, {}", many, many, range_of(key));
     case Type::numbers:

@@ -64,6 +64,7 @@ void expect_one(const std::vector<std::string>& faults, const std::string& part)
 TEST(TetSolid, ShapesOfEveryKindAreRead) {
   Organ o;
   EXPECT_TRUE(o.faults(std::string(kSections) + R"(, "cell_mm": 3)").empty());
+  EXPECT_TRUE(o.faults(std::string(kSections) + R"(, "cell_mm": 3, "fibre": [1, 0, 0])").empty());
   EXPECT_TRUE(o.faults(std::string(kSections) + R"(, "cell_mm": 3, "cuttable": true, "fibre": [1, 0, 0])").empty());
   EXPECT_TRUE(o.faults(R"("mesh": {"file": "two.msh"}, "fibre": [0, 0, 1], "fibre_ratio": 2)").empty());
   EXPECT_TRUE(o.faults(R"("voxels": {"file": "ball.nrrd", "label": 3}, "cell_mm": 4)").empty());
@@ -76,7 +77,6 @@ TEST(TetSolid, OneShapeAndWhatBelongsToIt) {
   expect_one(o.faults(std::string(kSections) + R"(, "cell_mm": 3, "voxels": {"file": "ball.nrrd", "label": 3})"),
              "expected one shape, got a second one");
   expect_one(o.faults(R"("mesh": {"file": "two.msh"}, "cell_mm": 3)"), "no cell_mm beside a mesh");
-  expect_one(o.faults(std::string(kSections) + R"(, "cell_mm": 3, "fibre": [1, 0, 0])"), "fibres in tetrahedra only");
   expect_one(o.faults(R"("mesh": {"file": "two.msh"}, "fibre": [0, 0, 0])"), "expected a direction");
   expect_one(o.faults(R"("mesh": {"file": "two.msh"}, "fine_edge_mm": 2)"), "skin edges for a lattice only");
 }

@@ -117,6 +117,26 @@ TEST(Writer, AWrittenPouchReadsBackWithItsContents) {
   EXPECT_EQ(a.contents.density, b.contents.density);
 }
 
+TEST(Writer, PaintedStiffnessAndStrokesReadBack) {
+  const Folder folder;
+  Description d = read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder/scene.json");
+  d.pouches[0].regions = {{{0.001, 0.0025, -0.1}, 0.012, 0.3, {}}};
+  Solid& liver = d.solids[0];
+  liver.regions = {{{0.01, 0, 0}, 0.03, 4, {}}, {{0.02, 0, 0}, 0.01, 1, {}}};
+  liver.fibre_strokes = {{{0, 0, 0}, {0.01, 0, 0}}, {{0, 0.01, 0}, {0.01, 0.011, 0}, {0.02, 0.013, 0}}};
+  liver.fibre_ratio = 1.5;
+  const Description again = read_scene(folder.write("scene.json", write_scene(d)));
+  EXPECT_EQ(write_scene(again), write_scene(d));
+  EXPECT_EQ(again.solids[0].fibre_strokes, liver.fibre_strokes);
+  const auto same_dabs = [](const std::vector<StiffnessRegion>& a, const std::vector<StiffnessRegion>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& p, const auto& q) {
+      return p.centre == q.centre && p.radius == q.radius && p.stiffness == q.stiffness;
+    });
+  };
+  EXPECT_TRUE(same_dabs(again.solids[0].regions, liver.regions));
+  EXPECT_TRUE(same_dabs(again.pouches[0].regions, d.pouches[0].regions));
+}
+
 TEST(Writer, TheComparisonSeesOneChangedBit) {
   const Description d = read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json");
   Description other = d;

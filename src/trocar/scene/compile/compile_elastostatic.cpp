@@ -6,6 +6,7 @@
 #include <trocar/core/log.hpp>
 #include <trocar/scene/compile/compile_elastostatic.hpp>
 #include <trocar/scene/compile/compliance_cache.hpp>
+#include <trocar/scene/description/fibres.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/tissue/elastostatic/condense.hpp>
 #include <trocar/tissue/elastostatic/drawn_springs.hpp>
@@ -92,10 +93,31 @@ std::vector<int> kept_nodes(const sim::Model& model, int organ, const OrganAsDra
   return nodes;
 }
 
+/// Of any length in files.
+Vec3d unit_fibre(const Solid& solid) { return length(solid.fibre) > 0 ? normalised(solid.fibre) : Vec3d{}; }
+
+/// Each with the stiffness and the fibres of its middle.
+void add_local_tetrahedra(const Solid& solid, const Tissue& tissue, const OrganAsDrawn& d,
+                          tissue::StiffnessBuilder& builder) {
+  const double ratio = std::max(1.0, solid.fibre_ratio);
+  std::vector<Vec3d> middles;
+  for (const std::array<int, 4>& c : d.cells) {
+    Vec3d sum;
+    for (const int node : c) sum += d.points[std::size_t(node)] / double(c.size());
+    middles.push_back(sum);
+  }
+  const std::vector<Vec3d> fibres = fibres_in(solid, middles);
+  for (std::size_t i = 0; i < d.cells.size(); ++i)
+    builder.add_tetrahedra({&d.cells[i], 1}, tissue.young * stiffness_at(solid.regions, middles[i]), tissue.poisson,
+                           fibres.empty() ? unit_fibre(solid) : fibres[i], ratio);
+}
+
 tissue::Stiffness stiffness_of(const Solid& solid, const Tissue& tissue, const OrganAsDrawn& d) {
   tissue::StiffnessBuilder builder(d.points, d.held);
-  if (solid.elasticity == Elasticity::tetrahedra) {
-    builder.add_tetrahedra(d.cells, tissue.young, tissue.poisson, solid.fibre, std::max(1.0, solid.fibre_ratio));
+  if (solid.elasticity == Elasticity::tetrahedra && solid.differs_by_place()) {
+    add_local_tetrahedra(solid, tissue, d, builder);
+  } else if (solid.elasticity == Elasticity::tetrahedra) {
+    builder.add_tetrahedra(d.cells, tissue.young, tissue.poisson, unit_fibre(solid), std::max(1.0, solid.fibre_ratio));
   } else {
     builder.add_springs(d.springs);
     if (d.kappa > 0) builder.add_volume(d.cells, d.kappa);

@@ -55,6 +55,23 @@ std::vector<tissue::Anchor> anchor_nodes(const Solid& solid, const std::vector<V
   return hung;
 }
 
+tissue::StiffnessField painted(const std::vector<StiffnessRegion>& regions) {
+  if (regions.empty()) return {};
+  return [&regions](Vec3d place) { return stiffness_at(regions, place); };
+}
+
+void check_regions(const std::vector<StiffnessRegion>& regions, const std::string& body,
+                   const tissue::NetworkDescription& network, std::vector<core::Fault>& faults) {
+  for (const StiffnessRegion& r : regions) {
+    const bool any = std::any_of(network.springs.begin(), network.springs.end(), [&](const auto& s) {
+      return weight_at(r, 0.5 * (network.positions[size_t(s.a)] + network.positions[size_t(s.b)])) > 0;
+    });
+    if (!any)
+      faults.push_back({r.at, "expected a region that reaches '" + body + "', got none of its springs within " +
+                                  std::to_string(r.radius * 1e3) + " mm"});
+  }
+}
+
 double damping_time(const tissue::NetworkDescription& undamped, double wanted) {
   tissue::NetworkDescription springs = undamped;
   springs.kappa = 0;  // its impulses take long to find, and do not matter here
@@ -93,6 +110,8 @@ std::optional<sim::SolidModel> hung(const Solid& solid, const Tissue& tissue, Ve
                                     CompileReport* report) {
   network.gravity = gravity;
   network.global_damping = 1.0;
+  check_regions(solid.regions, solid.name, network, faults);
+  tissue::stiffen(network, painted(solid.regions));
   const double damping = damping_time(network, tissue.damping_ms * 1e-3);
   for (tissue::SpringDescription& s : network.springs) s.damping = damping * s.k;
   sim::SolidModel out;

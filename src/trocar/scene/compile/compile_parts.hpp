@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <trocar/scene/compile/compile.hpp>
+#include <trocar/tissue/network/stiffness_field.hpp>
 #include <trocar/tissue/tets/tet_springs.hpp>
 
 namespace trocar::scene {
@@ -16,6 +17,12 @@ std::vector<int> along_curve(const std::vector<Vec3d>& points);
 /// space by the springs returned, whose stiffnesses add up to the anchor's.
 std::vector<tissue::Anchor> anchor_nodes(const Solid& solid, const std::vector<Vec3d>& positions,
                                          std::vector<std::uint8_t>& fixed, std::vector<core::Fault>& faults);
+
+/// What was painted on a body as a field; empty where nothing was. It must not outlive the regions.
+tissue::StiffnessField painted(const std::vector<StiffnessRegion>& regions);
+/// A fault for each region within which no spring of the body has its middle.
+void check_regions(const std::vector<StiffnessRegion>& regions, const std::string& body,
+                   const tissue::NetworkDescription& network, std::vector<core::Fault>& faults);
 
 /// The tissue's law for tetrahedra, without fibres and undamped.
 tissue::TetMaterial tet_material(const Tissue& tissue) noexcept;

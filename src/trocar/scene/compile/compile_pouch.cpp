@@ -176,8 +176,11 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, const Description& 
   d.thickness = pouch.thickness;
   d.youngs_modulus = tissue.young;
   d.law = {tissue.p1, tissue.p2, tissue.strain_cap};
+  d.stiffness = painted(pouch.regions);
   d.density = tissue.density;
-  d.damping_time = damping_time(tissue::network_of(d), tissue.damping_ms * 1e-3);
+  const tissue::NetworkDescription springs = tissue::network_of(d);
+  check_regions(pouch.regions, pouch.name, springs, faults);
+  d.damping_time = damping_time(springs, tissue.damping_ms * 1e-3);
   d.bending_damping_time = kPouchBendingDamping;
   d.global_damping = kFoldDrag;
   d.gravity = scene.gravity;

@@ -8,6 +8,7 @@
 #include <trocar/scene/compile/compile_control.hpp>
 #include <trocar/scene/compile/compile_parts.hpp>
 #include <trocar/scene/compile/compile_solid.hpp>
+#include <trocar/scene/description/fibres.hpp>
 #include <trocar/tissue/network/lattice_springs.hpp>
 
 namespace trocar::scene {
@@ -25,6 +26,16 @@ tissue::Skin embedded_skin(const EvenSurface& shape, const geometry::Lattice& la
       skin.weights[i].weight[k] = float(places.weights[i][k]);
     }
   return skin;
+}
+
+std::vector<Vec3d> middles_of(const geometry::Lattice& lattice) {
+  std::vector<Vec3d> middles;
+  for (const auto& cell : lattice.cells) {
+    Vec3d sum;
+    for (const int node : cell) sum += lattice.nodes[size_t(node)];
+    middles.push_back(sum / double(cell.size()));
+  }
+  return middles;
 }
 
 /// Cells at the border weigh at least min_fill, some slivers were left away: the body as a whole weighs what its shape
@@ -55,7 +66,10 @@ void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
   material.p2 = tissue.p2;
   material.cap = tissue.strain_cap;
   material.min_fill = 0.15;
-  tissue::LatticeNetwork net = tissue::lattice_network(lattice.nodes, lattice.cells, lattice.cell_fill, material);
+  material.fibre = solid.fibre;
+  material.fibre_ratio = solid.fibre_ratio;
+  tissue::LatticeNetwork net = tissue::lattice_network(lattice.nodes, lattice.cells, lattice.cell_fill, material,
+                                                       fibres_in(solid, middles_of(lattice)));
   weigh(net.network, tissue.density * geometry::volume(fine.mesh));
   if (tissue.poisson > 0.25) net.network.kappa = share.kappa;
   std::optional<sim::SolidModel> out =

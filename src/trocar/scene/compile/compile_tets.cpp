@@ -7,6 +7,7 @@
 #include <trocar/scene/compile/body_surface.hpp>
 #include <trocar/scene/compile/compile_parts.hpp>
 #include <trocar/scene/compile/compile_tets.hpp>
+#include <trocar/scene/description/fibres.hpp>
 #include <trocar/tissue/tets/face_skin.hpp>
 #include <trocar/tissue/tets/tet_springs.hpp>
 
@@ -94,10 +95,21 @@ tissue::Skin node_skin(const geometry::TetMesh& mesh, const tissue::NetworkModel
   return skin;
 }
 
+std::vector<Vec3d> middles_of(const geometry::TetMesh& mesh) {
+  std::vector<Vec3d> middles;
+  for (const auto& c : mesh.cells) {
+    Vec3d sum;
+    for (const int node : c) sum += mesh.points[size_t(node)];
+    middles.push_back(sum / double(c.size()));
+  }
+  return middles;
+}
+
 /// What both kinds of body are made from.
 struct Draft {
   geometry::TetMesh mesh;
   tissue::TetMaterial material;
+  std::vector<Vec3d> fibres;  // per cell, or empty
   tissue::TetNetwork undamped;
   std::vector<tissue::Anchor> anchors;
   double cell = 0, failure_strain = 0;
@@ -110,8 +122,11 @@ Draft draft_of(const Solid& solid, const Tissue& tissue, Vec3d gravity, std::vec
   d.cell = solid.cell > 0 ? solid.cell : mean_edge(d.mesh);
   d.failure_strain = tissue.failure_strain;
   d.material = material_of(solid, tissue);
-  d.undamped = tissue::tet_network(d.mesh.points, d.mesh.cells, d.material);
+  d.fibres = fibres_in(solid, middles_of(d.mesh));
+  d.undamped = tissue::tet_network(d.mesh.points, d.mesh.cells, d.material, d.fibres);
   tissue::NetworkDescription& n = d.undamped.network;
+  check_regions(solid.regions, solid.name, n, faults);
+  tissue::stiffen(n, painted(solid.regions));
   n.gravity = gravity;
   n.global_damping = 1.0;
   d.material.damping_time = damping_time(n, tissue.damping_ms * 1e-3);
@@ -165,6 +180,8 @@ void add_cuttable(const Solid& solid, Draft& d, sim::Model& model, std::vector<c
   c.points = d.mesh.points;
   c.cells = d.mesh.cells;
   c.material = d.material;
+  c.fibres = d.fibres;
+  c.stiffness = painted(solid.regions);
   c.fixed = d.undamped.network.fixed;
   c.anchors = d.anchors;
   c.gravity = d.undamped.network.gravity;

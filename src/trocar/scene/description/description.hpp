@@ -15,6 +15,7 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/numerics/vec3.hpp>
 #include <trocar/scene/description/body_shape.hpp>
+#include <trocar/scene/description/stiffness_region.hpp>
 #include <trocar/scene/description/vessel_tree.hpp>
 #include <trocar/scene/objects/object_scenes.hpp>
 
@@ -90,6 +91,9 @@ enum class BeyondLinear { warn, hand_over };
 /// Where the masses of an organ are: in what fills it, or at the control points of its NURBS surface and below them.
 enum class Masses { inside, control_points };
 
+/// A line drawn along an organ's fibres, point by point [m].
+using Stroke = std::vector<Vec3d>;
+
 /// A volumetric organ: a spline loft, another closed shape, or tetrahedra from a file. A shape is filled with an
 /// elastic lattice of cubic cells, or with tetrahedra where it can be cut.
 struct Solid {
@@ -99,11 +103,14 @@ struct Solid {
   ClosedShape shape;
   Masses masses = Masses::inside;
   bool cuttable = false;
-  Vec3d fibre{0, 0, 0};    ///< direction, any length; zero: isotropic. Tetrahedra only
-  double fibre_ratio = 1;  ///< E along the fibres over E across
-  double cell = 0;         ///< lattice edge [m]; 0 for a mesh
-  double skin_edge = 0;    ///< contact skin's edge length [m]
-  double fine_edge = 0;    ///< drawn skin's edge length [m]
+  Vec3d fibre{0, 0, 0};               ///< one direction, any length; zero: none, or what follows says it (fibres.hpp)
+  std::vector<Stroke> fibre_strokes;  ///< drawn along the fibres
+  bool fibres_along = false;          ///< they run along the body's own middle line
+  double fibre_ratio = 1;             ///< E along the fibres over E across
+  std::vector<StiffnessRegion> regions;
+  double cell = 0;       ///< lattice edge [m]; 0 for a mesh
+  double skin_edge = 0;  ///< contact skin's edge length [m]
+  double fine_edge = 0;  ///< drawn skin's edge length [m]
   std::vector<Anchor> anchors;
   Solver solver = Solver::dynamic_network;
   Elasticity elasticity = Elasticity::springs;
@@ -113,6 +120,8 @@ struct Solid {
 
   bool at_control_points() const { return masses == Masses::control_points; }
   bool answers_at_once() const { return solver == Solver::elastostatic; }
+  /// Do fibres turn, or stiffness change, from place to place?
+  bool differs_by_place() const { return !fibre_strokes.empty() || fibres_along || !regions.empty(); }
 };
 
 struct StrandStation {
@@ -223,6 +232,7 @@ struct Pouch {
   ClosedShape shape;
   double thickness = 0;    ///< [m]
   double spacing = 0.004;  ///< of its nodes [m]
+  std::vector<StiffnessRegion> regions;
   std::vector<Anchor> held;
   std::vector<std::string> held_on;  ///< solids and strands
   double held_reach = 0.004;         ///< [m]

@@ -123,6 +123,10 @@ void bend(ClosedShape& shape, const Warp& warp) {
   for (TubeShape::Station& s : shape.tube->stations) s.s = map(s.s);
 }
 
+void bend(std::vector<StiffnessRegion>& regions, const Warp& warp) {
+  for (StiffnessRegion& r : regions) r.centre = warp(r.centre);
+}
+
 void bend(Solid& solid, const Warp& warp) {
   bend(solid.shape, warp);
   for (Section& s : solid.sections) {
@@ -133,6 +137,9 @@ void bend(Solid& solid, const Warp& warp) {
   if (solid.tets)
     for (Vec3d& p : solid.tets->mesh.points) p = warp(p);
   for (Anchor& a : solid.anchors) a.centre = warp(a.centre);
+  bend(solid.regions, warp);
+  for (Stroke& stroke : solid.fibre_strokes)
+    for (Vec3d& p : stroke) p = warp(p);
 }
 
 void bend(Pouch& pouch, const Warp& warp) {
@@ -143,6 +150,7 @@ void bend(Pouch& pouch, const Warp& warp) {
     s.centre = warp(s.centre);
   }
   for (Anchor& a : pouch.held) a.centre = warp(a.centre);
+  bend(pouch.regions, warp);
   for (BondSetting& bonds : pouch.bonds)
     for (Anchor& place : bonds.places) place.centre = warp(place.centre);
 }

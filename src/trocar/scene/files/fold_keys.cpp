@@ -291,6 +291,8 @@ const Table<Pouch>& pouch() {
           {needed(R::number("thickness_mm", units::mm, &Pouch::thickness, 0.05, 20, "of the wall")),
            R::number("spacing_mm", units::mm, &Pouch::spacing, 0.3, 50, "distance of its nodes, default {}")
                .placed(&Pouch::spacing_at),
+           R::objects("regions", stiffness_region, &Pouch::regions, 0,
+                      "where its wall is stiffer or softer than its tissue, dab by dab"),
            R::objects("held", held_place, &Pouch::held, 0, "places where the wall is held"),
            R::refs("held_on", Reference::To::solid_or_strand, &Pouch::held_on,
                    "solids and strands that hold it where they are near; elsewhere it stays in place"),

@@ -31,6 +31,7 @@ const Table<VariationSetting>& variation();
 const Table<VariationSetting::Variant>& variant_keys();
 const Table<MarkSetting>& mark();
 
+const Table<StiffnessRegion>& stiffness_region();  ///< of a solid, of a pouch
 const Table<Section>& section();
 /// One after the other they lie apart: the `each` of a body with sections.
 template <class Body>

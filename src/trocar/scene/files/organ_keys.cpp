@@ -5,6 +5,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include <trocar/scene/description/fibres.hpp>
 #include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
 
@@ -94,6 +95,39 @@ bool is_lattice(const JsonObject& o, const Solid& s) {
   return !o.names("mesh") && !o.names("voxels") && !s.cuttable && !s.at_control_points();
 }
 
+/// Strokes that a direction can be read off.
+void check_strokes(const JsonObject& o, const Solid& s) {
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < s.fibre_strokes.size(); ++i) {
+    const Stroke& stroke = s.fibre_strokes[i];
+    points += stroke.size();
+    for (std::size_t k = 1; k < stroke.size(); ++k)
+      if (!(length(stroke[k] - stroke[k - 1]) >= 1e-5))
+        return o.fault(o.at("fibres_mm", i),
+                       "expected points at least 0.01 mm from the one before, got the same place twice");
+  }
+  if (points > kMostStrokePoints)
+    o.fault("fibres_mm",
+            fmt::format("expected at most {} points of all strokes together, got {}", kMostStrokePoints, points));
+}
+
+/// Which way its fibres run is said once.
+void check_fibres(const JsonObject& o, const Solid& s) {
+  for (const char* key : {"fibre", "fibres_mm", "fibres_along", "fibre_ratio"})
+    if (o.names(key) && s.at_control_points())
+      o.fault(key, "expected no fibres where masses are control points, got some");
+  const char* said = nullptr;
+  for (const char* key : {"fibre", "fibres_mm", "fibres_along"}) {
+    if (!o.names(key)) continue;
+    if (said) o.fault(key, fmt::format("expected one of fibre, fibres_mm and fibres_along, got it beside {}", said));
+    said = key;
+  }
+  if (o.names("fibre") && !(length(s.fibre) > 1e-6)) o.fault("fibre", "expected a direction, got none");
+  if (s.fibres_along && !s.shape.tube && !o.names("tube") && !o.names("sections"))
+    o.fault("fibres_along", "expected a body with a middle line (sections or a tube), got another shape");
+  check_strokes(o, s);
+}
+
 /// What belongs to a solid's shape.
 void check_shape(const JsonObject& o, const Solid& s) {
   check_one_shape(o, {"sections", "mesh", "voxels", "surface", "nurbs", "tube", "revolved"});
@@ -103,10 +137,7 @@ void check_shape(const JsonObject& o, const Solid& s) {
     o.fault("cell_mm", o.names("mesh") ? "expected no cell_mm beside a mesh, whose cells are as they are, got one"
                                        : "expected no cell_mm where masses are control points, got one");
   const bool lattice = is_lattice(o, s);
-  for (const char* key : {"fibre", "fibre_ratio"})
-    if (o.names(key) && (lattice || s.at_control_points()))
-      o.fault(key, "expected fibres in tetrahedra only (mesh, voxels or cuttable), got some in a lattice");
-  if (o.names("fibre") && !(length(s.fibre) > 1e-6)) o.fault("fibre", "expected a direction, got none");
+  check_fibres(o, s);
   for (const char* key : {"elasticity", "beyond_deg", "beyond"})
     if (o.names(key) && !s.answers_at_once())
       o.fault(key, "expected \"solver\": \"static\" beside it, got an organ that is solved step by step");
@@ -224,6 +255,19 @@ std::vector<Row<Description>> organ_rows() {
 
 }  // namespace
 
+const Table<StiffnessRegion>& stiffness_region() {
+  using R = Rows<StiffnessRegion>;
+  static const Table<StiffnessRegion> table{
+      "stiffness region",
+      "A dab that makes tissue stiffer or softer: whole within half of its radius, fading out to it. A later one "
+      "paints "
+      "over those before; 1 wipes them out.",
+      {needed(R::vec3("centre_mm", units::mm, &StiffnessRegion::centre, -kFar, kFar, "centre of the ball")),
+       needed(R::number("radius_mm", units::mm, &StiffnessRegion::radius, 0.1, 500, "nothing beyond it")),
+       needed(R::number("stiffness", units::one, &StiffnessRegion::stiffness, 0.1, 10, "times the tissue's"))}};
+  return table;
+}
+
 const Table<Section>& section() {
   using R = Rows<Section>;
   static const Table<Section> table{
@@ -249,7 +293,8 @@ const Table<Solid>& solid() {
       "where they are cuttable.",
       with_shapes(
           {needed(R::name("name", &Solid::name, "what scenes and exercises call it")),
-           needed(R::ref("tissue", Reference::To::tissue, &Solid::tissue, "its material")), look_row<Solid>(),
+           needed(R::ref("tissue", Reference::To::tissue, &Solid::tissue, "its material")),
+           look_row<Solid>(),
            R::objects("sections", section, &Solid::sections, 2, "from one end to the other",
                       [](const JsonObject& o, Solid& s, Context&) { check_last_section(o, s); }),
            R::own(keys::object(
@@ -275,10 +320,15 @@ const Table<Solid>& solid() {
                "inside: in the cells that fill it; control_points: at the control points of its nurbs and below them, "
                "so that its surface stays that NURBS; default {}"),
            R::flag("cuttable", &Solid::cuttable, "can it be cut anywhere, so that pieces come off? default {}"),
-           R::vec3("fibre", units::one, &Solid::fibre, -1, 1,
-                   "direction of its fibres, default: none; not for a lattice"),
+           R::vec3("fibre", units::one, &Solid::fibre, -1, 1, "direction of its fibres everywhere, default: none"),
+           R::lines("fibres_mm", units::mm, &Solid::fibre_strokes, -kFar, kFar, 2,
+                    "strokes along its fibres, instead of one direction: near a stroke they run as it does"),
+           R::flag("fibres_along", &Solid::fibres_along,
+                   "do its fibres run along its middle line, of its sections or its tube? default {}"),
            R::number("fibre_ratio", units::one, &Solid::fibre_ratio, 0.2, 5,
                      "stiffness along the fibres over across, default {}"),
+           R::objects("regions", stiffness_region, &Solid::regions, 0,
+                      "where it is stiffer or softer than its tissue, dab by dab"),
            R::number("skin_edge_mm", units::mm, &Solid::skin_edge, 0.2, 100,
                      "edge of the touched skin's triangles, default: cell_mm")
                .only(of_lattice),

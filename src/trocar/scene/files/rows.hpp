@@ -279,6 +279,24 @@ struct Rows {
           return listed(points, [unit](Vec3d p) { return written_by(unit, p); });
         });
   }
+  /// Lines of points, which need not have as many each.
+  template <class M>
+  static R lines(const std::string& name, Unit unit, M member, double low, double high, std::size_t at_least,
+                 const std::string& meaning) {
+    return plain(
+        keys::lines(name, low, high, at_least, meaning), member,
+        [=](const JsonObject& o) {
+          std::vector<std::vector<Vec3d>> lines = o.lines(name);
+          for (std::vector<Vec3d>& line : lines)
+            for (Vec3d& p : line) p = read_by(unit, p);
+          return lines;
+        },
+        [=](const std::vector<std::vector<Vec3d>>& lines) {
+          return listed(lines, [unit](const std::vector<Vec3d>& line) {
+            return listed(line, [unit](Vec3d p) { return written_by(unit, p); });
+          });
+        });
+  }
   /// An object; an optional member is there where the file names it, of another what is at its default is not written.
   template <class Item, class M>
   static R object(const std::string& name, const Table<Item>& (*table)(), M member, const std::string& meaning) {

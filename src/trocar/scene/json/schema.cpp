@@ -114,6 +114,8 @@ class Writer {
         return point(key);
       case Type::points:
         return array(point(key), key.min_count, key.max_count);
+      case Type::lines:
+        return array(array(point(key), key.min_count, key.max_count), 1, key.max_count);
       case Type::grid:
         return array(array(point(key), key.min_count, key.max_count), key.min_count, key.max_count);
       case Type::numbers:

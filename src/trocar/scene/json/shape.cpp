@@ -83,6 +83,8 @@ class Check {
         return vec3(value);
       case Type::points:
         return list(value, [this](const JsonValue& v) { return vec3(v); });
+      case Type::lines:
+        return lines(value);
       case Type::grid:
         return rows(value, "points", [this](const JsonValue& v) { return vec3(v); });
       case Type::numbers:
@@ -158,15 +160,25 @@ class Check {
   }
   template <class Item>
   bool list(const JsonValue& value, Item&& item) const {
+    return list(value, m_key.min_count, item);
+  }
+  template <class Item>
+  bool list(const JsonValue& value, std::size_t at_least, Item&& item) const {
     if (value.kind != Kind::array) return wrong(value, "an array");
     bool good = true;
     for (const JsonValue& v : value.items) good = item(v) && good;
-    if (value.items.size() >= m_key.min_count && value.items.size() <= m_key.max_count) return good;
-    const bool few = value.items.size() < m_key.min_count;
+    if (value.items.size() >= at_least && value.items.size() <= m_key.max_count) return good;
+    const bool few = value.items.size() < at_least;
     tell(m_faults, {{m_file, value.line, value.column},
                     fmt::format("expected at {} {} items for \"{}\", got {}", few ? "least" : "most",
-                                few ? m_key.min_count : m_key.max_count, m_key.name, value.items.size())});
+                                few ? at_least : m_key.max_count, m_key.name, value.items.size())});
     return false;
+  }
+  bool lines(const JsonValue& value) const {
+    return list(value, 1, [this](const JsonValue& line) {
+      if (line.kind != Kind::array) return wrong(line, "a line of points");
+      return list(line, [this](const JsonValue& v) { return vec3(v); });
+    });
   }
   /// All of one length.
   template <class Item>
@@ -218,6 +230,11 @@ Key vec3(std::string name, double low, double high, std::string meaning) {
 }
 Key points(std::string name, double low, double high, std::size_t min_count, std::string meaning) {
   Key key = ranged(std::move(name), Type::points, low, high, std::move(meaning));
+  key.min_count = min_count;
+  return key;
+}
+Key lines(std::string name, double low, double high, std::size_t min_count, std::string meaning) {
+  Key key = ranged(std::move(name), Type::lines, low, high, std::move(meaning));
   key.min_count = min_count;
   return key;
 }
@@ -331,6 +348,16 @@ std::vector<Vec3d> JsonObject::points(std::string_view key) const {
   std::vector<Vec3d> all;
   if (const JsonValue* v = good(key))
     for (const JsonValue& item : v->items) all.push_back(to_vec3(item));
+  return all;
+}
+std::vector<std::vector<Vec3d>> JsonObject::lines(std::string_view key) const {
+  std::vector<std::vector<Vec3d>> all;
+  const JsonValue* v = good(key);
+  if (!v) return all;
+  for (const JsonValue& line : v->items) {
+    all.emplace_back();
+    for (const JsonValue& point : line.items) all.back().push_back(to_vec3(point));
+  }
   return all;
 }
 PointGrid JsonObject::grid(std::string_view key) const {

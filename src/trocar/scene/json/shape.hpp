@@ -39,6 +39,7 @@ struct Key {
     texts,     ///< array of strings
     vec3,      ///< three numbers, each in [low, high]
     points,    ///< array of vec3
+    lines,     ///< array of lines, each an array of at least `min_count` vec3
     grid,      ///< array of rows, each an array of vec3, all of the same length
     numbers,   ///< array of numbers in [low, high]
     table,     ///< array of rows, each an array of numbers in [low, high], all of the same length
@@ -76,6 +77,7 @@ Key texts(std::string name, std::string meaning);
 Key choice(std::string name, std::vector<std::string> choices, std::string meaning);
 Key vec3(std::string name, double low, double high, std::string meaning);
 Key points(std::string name, double low, double high, std::size_t min_count, std::string meaning);
+Key lines(std::string name, double low, double high, std::size_t min_count, std::string meaning);
 Key grid(std::string name, double low, double high, std::size_t min_count, std::string meaning);
 Key numbers(std::string name, double low, double high, std::size_t min_count, std::string meaning);
 Key table(std::string name, double low, double high, std::size_t min_count, std::string meaning);
@@ -116,6 +118,7 @@ class JsonObject {
   std::vector<std::string> texts(std::string_view key) const;
   Vec3d vec3(std::string_view key, Vec3d fallback = {}) const;
   std::vector<Vec3d> points(std::string_view key) const;
+  std::vector<std::vector<Vec3d>> lines(std::string_view key) const;
   PointGrid grid(std::string_view key) const;
   std::vector<double> numbers(std::string_view key) const;
   NumberTable table(std::string_view key) const;

@@ -39,6 +39,7 @@
 #include <trocar/tissue/base/law.hpp>
 #include <trocar/tissue/membrane/enclosure.hpp>
 #include <trocar/tissue/network/network.hpp>
+#include <trocar/tissue/network/stiffness_field.hpp>
 
 namespace trocar::tissue {
 
@@ -53,6 +54,7 @@ struct MembraneDescription {
   std::vector<std::uint8_t> held;   ///< per node: 1 = position given every tick; empty = none
   double thickness = 0;             ///< t [m]
   double youngs_modulus = 0;        ///< E [Pa]
+  StiffnessField stiffness;         ///< times E, where that is not the same everywhere
   SpringLaw law;                    ///< shape factors of [KCM99 eq.5]
   double density = 0;               ///< [kg/m^3]
   double damping_time = 0;          ///< damping = this x stiffness, stretch [s]; a floor keeps bending steps in check

@@ -214,6 +214,7 @@ NetworkDescription network_of(const MembraneDescription& m) {
     e.p1 = m.law.p1, e.p2 = m.law.p2, e.cap = m.law.cap;
     d.springs.push_back(e);
   }
+  stiffen(d, m.stiffness);
   return d;
 }
 
@@ -338,6 +339,14 @@ std::vector<int> bent_cells(const MembraneDescription& m, const BendStencil& e) 
   return out;
 }
 
+/// As much stiffer as the tissue is at the middle of its nodes.
+void stiffen_bend(const MembraneDescription& m, BendStencil& s) {
+  if (!m.stiffness) return;
+  Vec3d middle;
+  for (std::int32_t k = 0; k < s.count; ++k) middle += m.positions[std::size_t(s.node[std::size_t(k)])];
+  s.k = float(double(s.k) * m.stiffness(middle / double(s.count)));
+}
+
 /// Bending of what moves, and which triangles each of its squares belongs to.
 void fill_bends(const MembraneDescription& d, MembraneModel& m) {
   std::vector<BendStencil> all;
@@ -357,6 +366,7 @@ void fill_bends(const MembraneDescription& d, MembraneModel& m) {
     bool moves = false;
     for (std::int32_t k = 0; k < all[b].count; ++k) moves = moves || !is_held(all[b].node[std::size_t(k)]);
     if (!moves) continue;
+    stiffen_bend(d, all[b]);
     m.bends.push_back(all[b]);
     m.bend_triangle.insert(m.bend_triangle.end(), bent[b].begin(), bent[b].end());
     m.bend_first.push_back(int(m.bend_triangle.size()));

@@ -5,6 +5,7 @@
 
 #include <trocar/geometry/tets/tet_volume.hpp>
 #include <trocar/tissue/network/lattice_springs.hpp>
+#include <trocar/tissue/network/spring_medium.hpp>
 
 namespace trocar::tissue {
 namespace {
@@ -27,14 +28,42 @@ double cell_volume(std::span<const Vec3d> x, const std::array<int, 8>& c) {
   return six / 6;
 }
 
+/// How much stiffer than without fibres a cell's springs are, by their direction.
+class FibreFactors {
+ public:
+  FibreFactors(const LatticeMaterial& m, std::span<const Vec3d> fibres) : m_everywhere(m.fibre), m_fibres(fibres) {
+    if (m.fibre_ratio == 1 || (fibres.empty() && !(length(m.fibre) > 0))) return;
+    m_any = true;
+    m_medium = spring_medium(1, {1, 0, 0}, m.fibre_ratio);
+    m_share = m_medium.s / spring_medium(1).s;
+  }
+  /// @param along  of the spring, any length
+  double of(std::size_t cell, Vec3d along) const {
+    const Vec3d f = m_fibres.empty() ? m_everywhere : m_fibres[cell];
+    if (!m_any || !(length(f) > 0)) return 1;
+    SpringMedium medium = m_medium;
+    medium.f = normalised(f);
+    return m_share * medium.density(normalised(along));
+  }
+
+ private:
+  Vec3d m_everywhere;
+  std::span<const Vec3d> m_fibres;
+  SpringMedium m_medium;
+  double m_share = 1;
+  bool m_any = false;
+};
+
 /// k = 0.4 E V / l^2, which is 0.4 E l on a cube (l = its edge, also for the diagonals, whose square is twice l^2),
-/// shared among the cells that meet at the spring.
+/// shared among the cells that meet at the spring; times what fibres make of it.
+/// @param factor  of a spring along a vector
+template <class Factor>
 void add_cell_springs(std::span<const Vec3d> x, const std::array<int, 8>& c, double stiffness, double volume,
-                      std::vector<Share>& shares) {
+                      Factor&& factor, std::vector<Share>& shares) {
   const auto add = [&](const int(&pair)[2], double share) {
     const int a = std::min(c[pair[0]], c[pair[1]]), b = std::max(c[pair[0]], c[pair[1]]);
     const Vec3d d = x[b] - x[a];
-    shares.push_back({a, b, share * 0.4 * stiffness * volume / dot(d, d)});
+    shares.push_back({a, b, share * 0.4 * stiffness * volume / dot(d, d) * factor(d)});
   };
   for (const auto& e : kEdges) add(e, 0.25);
   for (const auto& e : kDiagonals) add(e, 0.5 * 2);  // 2: V / (l_diagonal^2 / 2)
@@ -53,11 +82,15 @@ double opening_time(std::span<const Vec3d> x, std::span<const std::array<int, 8>
 }  // namespace
 
 LatticeNetwork lattice_network(std::span<const Vec3d> corners, std::span<const std::array<int, 8>> cells,
-                               std::span<const double> fill, const LatticeMaterial& material) {
+                               std::span<const double> fill, const LatticeMaterial& material,
+                               std::span<const Vec3d> fibres) {
   if (!(material.youngs_modulus > 0 && material.density > 0))
     throw std::invalid_argument("lattice: expected youngs_modulus > 0 and density > 0");
   if (!fill.empty() && fill.size() != cells.size())
     throw std::invalid_argument("lattice: expected one fill per cell, got " + std::to_string(fill.size()));
+  if (!fibres.empty() && fibres.size() != cells.size())
+    throw std::invalid_argument("lattice: expected one fibre per cell, got " + std::to_string(fibres.size()));
+  const FibreFactors factors(material, fibres);
   LatticeNetwork out;
   NetworkDescription& d = out.network;
   d.positions.assign(corners.begin(), corners.end());
@@ -71,7 +104,8 @@ LatticeNetwork lattice_network(std::span<const Vec3d> corners, std::span<const s
     if (!(volume > 0)) throw std::invalid_argument("lattice: cell " + std::to_string(i) + ": expected positive volume");
     const double part = fill.empty() ? 1 : std::min(1.0, std::max(fill[i], material.min_fill));
     for (int corner : c) d.mass[corner] += material.density * volume * part / 8;
-    add_cell_springs(corners, c, material.youngs_modulus * part, volume, shares);
+    add_cell_springs(
+        corners, c, material.youngs_modulus * part, volume, [&](Vec3d along) { return factors.of(i, along); }, shares);
     for (const auto& t : kTets) {
       const std::array<int, 4> tet{c[t[0]], c[t[1]], c[t[2]], c[t[3]]};
       if (!(geometry::volume6(corners[tet[0]], corners[tet[1]], corners[tet[2]], corners[tet[3]]) > 0.05 * volume))

@@ -24,6 +24,7 @@
 #include <trocar/geometry/tets/tet_cut.hpp>
 #include <trocar/tissue/network/network.hpp>
 #include <trocar/tissue/network/prestress.hpp>
+#include <trocar/tissue/network/stiffness_field.hpp>
 #include <trocar/tissue/network/volume_force.hpp>
 #include <trocar/tissue/tets/tet_springs.hpp>
 
@@ -34,6 +35,7 @@ struct CuttableDescription {
   std::vector<geometry::Tet> cells;  ///< positive volume
   TetMaterial material;
   std::vector<Vec3d> fibres;        ///< per cell, or empty
+  StiffnessField stiffness;         ///< where it is not what the material says
   std::vector<std::uint8_t> fixed;  ///< per point, Held bits, or empty
   std::vector<Anchor> anchors;      ///< what hangs it in space; build() writes their rest points
   Vec3d gravity{0, 0, 0};           ///< [m/s^2]

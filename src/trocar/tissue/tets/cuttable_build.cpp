@@ -98,6 +98,7 @@ CuttableModel build(const CuttableDescription& d, double tick) {
   if (d.spare_nodes < 0 || d.spare_nodes > 1'000'000) refuse_cuttable("0 to 1,000,000 spare nodes");
   if (!d.fixed.empty() && d.fixed.size() != d.points.size()) refuse_cuttable("fixed flags for every point, or none");
   TetNetwork t = tet_network(d.points, d.cells, d.material, d.fibres);
+  stiffen(t.network, d.stiffness);
   t.network.gravity = d.gravity;
   t.network.global_damping = d.global_damping;
   if (!d.fixed.empty()) t.network.fixed = d.fixed;
