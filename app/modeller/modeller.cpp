@@ -223,6 +223,7 @@ void Modeller::picture() {
   if (m_help) draw_help();
   if (m_faults) draw_faults();
   if (!m_adding.empty()) draw_adding();
+  draw_brush_panel();
   draw_questions();
   fs::path chosen;
   if (m_files.is_open() && m_files.draw(chosen)) take_file(chosen);

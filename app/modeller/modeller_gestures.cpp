@@ -10,6 +10,7 @@
 #include <trocar/modeller/operations/values.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/json/json_text.hpp>
+#include <trocar/sim/model/bodies.hpp>
 
 #include "modeller/modeller_parts.hpp"
 
@@ -17,11 +18,23 @@ namespace trocar::app {
 namespace {
 
 constexpr double kDegree = portable::pi / 180;
+constexpr double kSnapReach = 0.003;  // [m] of a ray
 constexpr Vec3d kAxes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 double snapped(double value, double to, bool snap) { return snap ? std::round(value / to) * to : value; }
 
 }  // namespace
+
+/// Where the pointer meets a body that is not the one being moved.
+std::optional<Vec3d> Modeller::onto_other_body(const Viewport& v, float x, float y) const {
+  const std::optional<modeller::Thing> own = selected();
+  if (!m_shown || !own) return std::nullopt;
+  std::vector<modeller::BodyPlace> others;
+  for (const modeller::BodyPlace& p : m_places)
+    if (sim::name_of(*m_shown->built.model, p.body) != own->name) others.push_back(p);
+  const std::optional<modeller::BodyPlace> met = modeller::met_by(others, v.eye(), v.ray(x, y), kSnapReach);
+  return met ? std::optional(met->at) : std::nullopt;
+}
 
 void Modeller::begin_gesture(Gesture::Kind kind) {
   const std::optional<modeller::Thing> thing = selected();
@@ -68,6 +81,8 @@ std::optional<scene::JsonValue> Modeller::step_of_gesture(std::string& amount) c
   const scene::JsonValue of = scene::json_array({scene::json_text(g.thing)});
   if (g.kind == Gesture::Kind::move) {
     Vec3d by = (v.on_plane_of(g.about, x, y) - v.on_plane_of(g.about, g.from_x, g.from_y)) * (1e3 * fine);
+    if (const std::optional<Vec3d> there = m_snap ? onto_other_body(v, x, y) : std::nullopt)
+      by = (*there - g.about) * 1e3;
     if (g.axis >= 0) by = kAxes[g.axis] * dot(by, kAxes[g.axis]);
     if (const std::optional<double> n = g.number()) by = kAxes[g.axis < 0 ? 0 : g.axis] * *n;
     by = {snapped(by.x, 1, snap), snapped(by.y, 1, snap), snapped(by.z, 1, snap)};
@@ -123,9 +138,7 @@ std::optional<scene::JsonValue> Modeller::step_of_gesture(std::string& amount) c
 }
 
 /// The document shows what it comes to, as a change that gives way to the next one until it is kept.
-void Modeller::lead_gesture() {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (m_soft && io.MouseWheel != 0) m_soft_mm = std::clamp(m_soft_mm * std::exp(0.15 * io.MouseWheel), 1.0, 500.0);
+void Modeller::preview_gesture() {
   std::string amount;
   const std::optional<scene::JsonValue> wanted = step_of_gesture(amount);
   if (m_previewed) m_document->undo();
@@ -136,6 +149,12 @@ void Modeller::lead_gesture() {
     m_previewed = m_document->done() > before;
   }
   tell(m_gesture->said(amount));
+}
+
+void Modeller::lead_gesture() {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (m_soft && io.MouseWheel != 0) m_soft_mm = std::clamp(m_soft_mm * std::exp(0.15 * io.MouseWheel), 1.0, 500.0);
+  preview_gesture();
   if (m_gesture->dragged ? !io.MouseDown[0] : io.MouseClicked[0]) return end_gesture(true);
   if (io.MouseClicked[1]) end_gesture(false);
 }

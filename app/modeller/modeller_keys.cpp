@@ -38,7 +38,10 @@ void Modeller::listen() {
 void Modeller::obey_key_of_gesture(int key) {
   Gesture& g = *m_gesture;
   if (key == GLFW_KEY_ESCAPE) return end_gesture(false);
-  if (key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER) return end_gesture(true);
+  if (key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER) {
+    preview_gesture();  // digits typed since the last picture count
+    return end_gesture(true);
+  }
   if (key >= GLFW_KEY_X && key <= GLFW_KEY_Z) g.axis = g.axis == key - GLFW_KEY_X ? -1 : key - GLFW_KEY_X;
   if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) g.typed += char('0' + key - GLFW_KEY_0);
   if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9) g.typed += char('0' + key - GLFW_KEY_KP_0);
@@ -49,7 +52,7 @@ void Modeller::obey_key_of_gesture(int key) {
 }
 
 void Modeller::obey_key(int key, int mods) {
-  if (key == GLFW_KEY_TAB && m_scan.shows()) m_scan_shown = !m_scan_shown;
+  if (key == GLFW_KEY_TAB && !(mods & GLFW_MOD_SHIFT) && m_scan.shows()) m_scan_shown = !m_scan_shown;
   if (m_scan.shows() && scan_shown() && m_scan.obey_key(key, mods)) return;
   if (!m_draw_for.empty()) {
     if (key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER) end_drawing(true);
@@ -80,6 +83,8 @@ void Modeller::obey_key(int key, int mods) {
   if (key == GLFW_KEY_ESCAPE) {
     if (m_help)
       m_help = false;
+    else if (m_brush.on)
+      toggle_brush();
     else if (m_drive)
       toggle_drive();
     else if (m_measuring)
@@ -96,6 +101,9 @@ void Modeller::obey_key(int key, int mods) {
   if (key == GLFW_KEY_M) m_measuring = !m_measuring, m_measured.clear();
   if (m_drive) return;
   if (key == GLFW_KEY_K) hold_here();
+  if (key == GLFW_KEY_B) toggle_brush();
+  if (key == GLFW_KEY_TAB && shift)
+    m_snap = !m_snap, tell(m_snap ? "snap: onto the body under the pointer" : "snap is off");
   if (key == GLFW_KEY_H && alt) m_hidden.clear(), ++m_picture;
   if (key == GLFW_KEY_H && !alt)
     if (const std::optional<modeller::Thing> chosen = selected()) m_hidden.insert(chosen->name), ++m_picture;

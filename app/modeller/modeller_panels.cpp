@@ -47,6 +47,8 @@ constexpr const char* kHelp[][2] = {
     {"O, then the wheel while moving", "points near by go along; how far"},
     {"I", "a point more behind the one that was taken"},
     {"K", "the chosen body is held where the pointer is"},
+    {"B", "paint on the chosen body: what holds it, stiffness, bonds; Shift rubs out"},
+    {"Shift-Tab", "snap: what is moved goes onto the body under the pointer"},
     {"H, Alt-H", "hide the chosen one; show all again"},
     {"Shift-D", "a copy, which then moves"},
     {"X or Delete", "take away the point or the thing that is chosen"},
@@ -94,6 +96,8 @@ void Modeller::draw_menu_bar() {
     ImGui::Separator();
     if (item("Soft", "O", m_soft)) m_soft = !m_soft;
     if (item("Both sides", nullptr, m_symmetric)) m_symmetric = !m_symmetric;
+    if (item("Snap to bodies", "Shift-Tab", m_snap)) m_snap = !m_snap;
+    if (item("Paint on the chosen one", "B", m_brush.on)) toggle_brush();
     if (item("Measure", "M", m_measuring)) m_measuring = !m_measuring, m_measured.clear();
     ImGui::EndMenu();
   }
@@ -101,7 +105,8 @@ void Modeller::draw_menu_bar() {
     static constexpr std::pair<const char*, const char*> kDrawn[] = {{"Draw a tube or cord", "cord"},
                                                                      {"Draw a body along a line", "loft"},
                                                                      {"Draw a tree of vessels", "vessel_tree"},
-                                                                     {"Draw a branch of the chosen vessel", "branch"}};
+                                                                     {"Draw a branch of the chosen vessel", "branch"},
+                                                                     {"Draw fibres on the chosen one", "fibres"}};
     for (const auto& [label, operation] : kDrawn)
       if (item(label)) {
         m_draw_for = operation;
@@ -113,9 +118,26 @@ void Modeller::draw_menu_bar() {
         {"Ball or ellipsoid ...", "ellipsoid"},          {"Body of revolution ...", "revolved"},
         {"Fold from a cord to an organ ...", "fold"},    {"Bonds of a pouch ...", "bond_facing"},
         {"Fit to a mesh from a file ...", "fit_spline"}, {"Make a NURBS of the chosen one ...", "to_spline"},
-        {"Knot into the chosen one ...", "insert_knot"}, {"Hold the chosen one ...", "hold"}};
+        {"Knot into the chosen one ...", "insert_knot"}, {"Hold the chosen one ...", "hold"},
+        {"Fibres of the chosen one ...", "fibres"}};
     for (const auto& [label, operation] : kAsked)
       if (item(label)) m_adding = operation, m_asked.clear();
+    ImGui::EndMenu();
+  }
+  if (menu("Scene")) {
+    static constexpr std::pair<const char*, const char*> kPlaced[] = {{"Port here ...", "port"},
+                                                                      {"Instrument with its tip here ...", "tool"},
+                                                                      {"Scope with its tip here ...", "scope"},
+                                                                      {"Mark here ...", "mark"}};
+    for (const auto& [label, operation] : kPlaced)
+      if (item(label)) {
+        m_draw_for = operation;
+        m_drawn.clear();
+        tell("click where: on a body, or in the air; Esc for nowhere");
+      }
+    ImGui::Separator();
+    if (item("How the patient lies ...")) m_adding = "tilt", m_asked.clear();
+    if (item("What another patient has otherwise ...")) m_adding = "vary", m_asked.clear();
     ImGui::EndMenu();
   }
   if (menu("Scan")) {
@@ -378,6 +400,9 @@ void Modeller::draw_adding() {
       m_asked[key.name + "?"] = "1";
       if (key.name == "name")
         value = free_name(m_adding == "cord" ? "cord" : m_adding == "branch" ? "vessel" : "organ");
+      if (m_adding == "port" && key.name == "name") value = free_name("port");
+      if (m_adding == "mark" && key.name == "name") value = free_name("mark");
+      if (m_adding == "fibres" && key.name == "ratio") value = "1.5";
       if (key.name == "tissue") value = "uterus";
       if (key.name == "centre_mm") value = "0, -150, -110";
       if (key.name == "half_mm") value = "15, 25, 15";

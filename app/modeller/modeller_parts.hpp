@@ -28,6 +28,8 @@
 #include "shell/ui.hpp"
 #include "shell/window.hpp"
 
+struct ImDrawList;
+
 namespace trocar::app {
 
 namespace fs = std::filesystem;
@@ -59,22 +61,34 @@ class Modeller {
   void draw_view(Viewport& view);
   void draw_over_views();
   void draw_handles(const Viewport& view) const;
+  void draw_points(const Viewport& view, ImDrawList& list) const;
   void point();
   void point_in(Viewport& view);
   Viewport* view_under(float x, float y);
   void pick(const Viewport& view, float x, float y);
   void draw_point(const Viewport& view, float x, float y);
   void end_drawing(bool keep);
+  static bool is_one_place(const std::string& operation);
   void hold_here();
   void frame_selected();
   void look_from(int which);
 
+  // modeller_brush.cpp
+  void toggle_brush();
+  std::optional<Vec3d> on_chosen(const Viewport& view, float x, float y) const;
+  void brush_in(Viewport& view);
+  void end_stroke();
+  void draw_brush_over(const Viewport& view) const;
+  void draw_brush_panel();
+
   // modeller_gestures.cpp
   void begin_gesture(Gesture::Kind kind);
   void begin_drag(const modeller::Handle& handle, float x, float y);
+  void preview_gesture();
   void lead_gesture();
   void end_gesture(bool keep);
   std::optional<scene::JsonValue> step_of_gesture(std::string& amount) const;
+  std::optional<Vec3d> onto_other_body(const Viewport& view, float x, float y) const;
 
   // modeller_panels.cpp
   void draw_menu_bar();
@@ -159,11 +173,19 @@ class Modeller {
   std::set<std::string> m_hidden;  ///< names of what is not shown
   bool m_instruments = true;       ///< shown
   bool m_soft = false, m_symmetric = false;
+  bool m_snap = false;  ///< what is moved goes onto the body under the pointer
+  struct Brush {
+    bool on = false, erases = false;
+    std::string what = "hold";  ///< as the operation `paint` calls it
+    double radius_mm = 8, stiffness = 2;
+    std::vector<Vec3d> stroke;  ///< [m] so far
+  } m_brush;
   double m_soft_mm = 20;
   std::vector<Vec3d> m_measured;  ///< [m] places that were clicked
   bool m_measuring = false;
   std::string m_draw_for;      ///< the operation for which a line is drawn by clicking; empty: none
   std::vector<Vec3d> m_drawn;  ///< [m] its points so far
+  std::string m_drawn_on;      ///< the body that the last one is on; empty: none
 
   ScanDesk m_scan;
   std::optional<LostSegments> m_lost_segments;

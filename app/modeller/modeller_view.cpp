@@ -17,15 +17,20 @@
 namespace trocar::app {
 namespace {
 
-constexpr float kReach = 12;                  // [px] of a handle
-constexpr float kTurn = 0.008f;               // [rad/px]
-constexpr double kOnBody = 0.003;             // [m] of a ray
-constexpr std::uint64_t kExposureStep = 500;  // [ms] of a camera's time that a picture takes
+constexpr float kHandleReach = 12;           // [px] of a handle
+constexpr float kViewTurn = 0.008f;          // [rad/px]
+constexpr double kOnBody = 0.003;            // [m] of a ray
+constexpr std::uint64_t kPictureStep = 500;  // [ms] of a camera's time that a picture takes
 
 const ImU32 kLineColour = IM_COL32(107, 191, 242, 200), kPointColour = IM_COL32(242, 168, 26, 255),
             kTakenColour = IM_COL32(255, 255, 255, 255), kRimColour = IM_COL32(20, 22, 26, 255);
 
 }  // namespace
+
+/// Operations for which one click says where.
+bool Modeller::is_one_place(const std::string& operation) {
+  return operation == "port" || operation == "mark" || operation == "tool" || operation == "scope";
+}
 
 void Modeller::draw_view(Viewport& v) {
   if (!m_view || v.area.width < 2) return;
@@ -39,7 +44,7 @@ void Modeller::draw_view(Viewport& v) {
     for (const view::ScenePart& part : m_view->parts())
       options.styles.push_back(m_hidden.count(part.name) ? view::PartStyle::hidden : view::PartStyle::shaded);
   render::Frame frame = m_view->frame(*m_state, options);
-  frame.tick = m_picture * kExposureStep;
+  frame.tick = m_picture * kPictureStep;
   v.camera = frame.camera;
   render::draw_frame(*m_backend, frame, v.canvas.target(int(v.area.width), int(v.area.height)));
 }
@@ -66,9 +71,7 @@ void Modeller::draw_views() {
   if (m_selected.empty()) m_handles = {};
 }
 
-void Modeller::draw_handles(const Viewport& v) const {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  list.PushClipRect({v.area.x, v.area.y}, {v.area.x + v.area.width, v.area.y + v.area.height});
+void Modeller::draw_points(const Viewport& v, ImDrawList& list) const {
   for (const modeller::HandleLine& line : m_handles.lines)
     for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
       const std::optional<modeller::Spot> a = v.spot(line.points[i]), b = v.spot(line.points[i + 1]);
@@ -81,6 +84,12 @@ void Modeller::draw_handles(const Viewport& v) const {
     list.AddCircleFilled({s->x, s->y}, taken ? 7.0f : 5.5f, kRimColour);
     list.AddCircleFilled({s->x, s->y}, taken ? 5.5f : 4.0f, taken ? kTakenColour : kPointColour);
   }
+}
+
+void Modeller::draw_handles(const Viewport& v) const {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.PushClipRect({v.area.x, v.area.y}, {v.area.x + v.area.width, v.area.y + v.area.height});
+  if (!m_brush.on) draw_points(v, list);
   if (m_soft && m_handle) {
     const std::optional<modeller::Spot> s = v.spot(m_handle->at);
     if (s) list.AddCircle({s->x, s->y}, float(m_soft_mm * 1e-3 / v.pixel(m_handle->at)), kPointColour, 48, 1.2f);
@@ -115,6 +124,7 @@ void Modeller::draw_handles(const Viewport& v) const {
     list.AddLine({x, y}, {x + dx, y + dy}, colours[i], 2);
     list.AddText({x + 1.25f * dx - 8, y + 1.25f * dy - 8}, colours[i], words[i]);
   }
+  draw_brush_over(v);
   if (m_four) list.AddText({v.area.x + 8, v.area.y + 6}, IM_COL32(200, 205, 210, 255), v.name.c_str());
   list.PopClipRect();
 }
@@ -157,10 +167,10 @@ void Modeller::point_in(Viewport& v) {
     if (pans)
       v.orbit.pan(-io.MouseDelta.x * v.pixel(v.orbit.target), io.MouseDelta.y * v.pixel(v.orbit.target));
     else
-      v.orbit.turn(-io.MouseDelta.x * kTurn, io.MouseDelta.y * kTurn);
+      v.orbit.turn(-io.MouseDelta.x * kViewTurn, io.MouseDelta.y * kViewTurn);
     if (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) ++m_picture;
   }
-  if (io.MouseWheel != 0) v.orbit.zoom(std::exp(-0.12 * io.MouseWheel)), ++m_picture;
+  if (io.MouseWheel != 0 && !(m_brush.on && io.KeyCtrl)) v.orbit.zoom(std::exp(-0.12 * io.MouseWheel)), ++m_picture;
   if (io.MouseReleased[1] || io.MouseReleased[2]) ++m_picture;  // once more, at full quality
   if (m_drive) {
     if (io.MouseClicked[0] && m_drive->hand() >= 0) {
@@ -178,6 +188,7 @@ void Modeller::point_in(Viewport& v) {
     }
     return;
   }
+  if (m_brush.on) return brush_in(v);
   if (!io.MouseClicked[0]) return;
   if (!m_draw_for.empty()) return draw_point(v, x, y);
   if (m_measuring) {
@@ -186,7 +197,7 @@ void Modeller::point_in(Viewport& v) {
     return;
   }
   const std::optional<std::size_t> handle =
-      modeller::handle_at(m_handles, v.camera, int(v.area.width), int(v.area.height), v.local(x, y), kReach);
+      modeller::handle_at(m_handles, v.camera, int(v.area.width), int(v.area.height), v.local(x, y), kHandleReach);
   if (handle)
     begin_drag(m_handles.points[*handle], x, y);
   else
@@ -198,6 +209,8 @@ void Modeller::draw_point(const Viewport& v, float x, float y) {
   if (ImGui::GetIO().MouseDoubleClicked[0] && m_drawn.size() > 1) return end_drawing(true);
   const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kOnBody);
   m_drawn.push_back(met ? met->at : v.on_plane_of(m_drawn.empty() ? v.orbit.target : m_drawn.back(), x, y));
+  m_drawn_on = met ? sim::name_of(*m_shown->built.model, met->body) : "";
+  if (is_one_place(m_draw_for)) return end_drawing(true);
   tell(fmt::format(
       "{} points   click: another one   Enter or double click: that is it   Backspace: one less   Esc: none",
       m_drawn.size()));
@@ -214,6 +227,13 @@ void Modeller::end_drawing(bool keep) {
     text += fmt::format("{}[{:.1f}, {:.1f}, {:.1f}]", text.empty() ? "" : ", ", 1e3 * p.x, 1e3 * p.y, 1e3 * p.z);
   m_asked.clear();
   m_adding = operation;
+  if (is_one_place(operation)) {
+    m_asked[operation == "port"   ? "position_mm"
+            : operation == "mark" ? "place_mm"
+                                  : "tip_mm"] = text.substr(1, text.size() - 2);
+    if (operation == "mark") m_asked["on"] = m_drawn_on;
+    return;
+  }
   const bool vessels = operation == "vessel_tree" || operation == "branch";
   m_asked[vessels ? "path_mm" : "line_mm"] = "[" + text + "]";
 }

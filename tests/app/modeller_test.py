@@ -97,6 +97,59 @@ def begin_with_a_ball(m):
     m.eyes.wait("a good build", lambda: any(e["good"] for e in m.eyes.happened("built")), 60)
 
 
+def drag(m, *places):
+    m.over_view(*places[0])
+    xdo("mousedown", 1)
+    for place in places[1:]:
+        m.over_view(*place)
+    xdo("mouseup", 1)
+    time.sleep(0.4)
+
+
+def shown(name):
+    """A picture of the window, where somebody asked for them: MODELLER_PICTURES=folder."""
+    if folder := os.environ.get("MODELLER_PICTURES"):
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "x11grab", "-i", os.environ["DISPLAY"], "-frames:v", "1",
+                        str(Path(folder) / f"{name}.png")], check=False)
+
+
+def paint(m, file):
+    """Strokes of the brush on the chosen body, which fills the middle of the view; a mark and a port beside it."""
+    m.keys("f", "b")
+    m.hands.press("paint stiffness")
+    drag(m, (0.44, 0.5), (0.48, 0.5), (0.52, 0.5))
+    m.happened("step", 1, do="paint")
+    shown("stiffness")
+    m.keys("ctrl+s")
+    m.happened("saved", 6)
+    check('"regions"' in file.read_text(encoding="utf-8"), "painted stiffness is in the file")
+    m.hands.press("paint hold")
+    drag(m, (0.5, 0.44), (0.5, 0.48))
+    m.happened("step", 2, do="paint")
+    shown("hold")
+    xdo("keydown", "shift")
+    drag(m, (0.5, 0.44), (0.5, 0.48))
+    xdo("keyup", "shift")
+    m.happened("step", 3, do="paint")
+    m.keys("b")
+    m.menu("Scene", "Mark here ...")
+    m.over_view(0.5, 0.5)
+    xdo("click", 1)
+    m.hands.press("Add")
+    m.happened("step", 1, do="mark")
+    m.menu("Scene", "How the patient lies ...")
+    m.fill("ask head_down_deg", "20")
+    m.hands.press("Add")
+    m.happened("step", 1, do="tilt")
+    m.keys("ctrl+s")
+    m.happened("saved", 7)
+    text = file.read_text(encoding="utf-8")
+    check('"on": "organ"' in text and '"gravity_m_s2"' in text, "mark and tilt are in the file")
+    m.eyes.wait("a good build of it", lambda: m.eyes.happened("built")[-1]["good"], 60)
+    shown("mark")
+    m.hands.press("solid:organ")
+
+
 def session(program, folder):
     m = Modeller(program, folder)
     begin_with_a_ball(m)
@@ -148,6 +201,7 @@ def session(program, folder):
     m.happened("saved", 5)
     check("centreline_mm" in file.read_text(encoding="utf-8"), "the cord is in the file")
     m.hands.press("solid:organ")
+    paint(m, file)
 
     # the test drive takes hold of the ball
     m.keys("f")
