@@ -8,6 +8,7 @@
 #include <trocar/core/hash.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/description/fibres.hpp>
+#include <trocar/scene/description/vary.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/tissue/elastostatic/drawn_springs.hpp>
 
@@ -89,6 +90,36 @@ TEST(StiffnessRegions, SoftenWhatAnswersAtOnceWithBothElasticities) {
     d.solids[0].regions = {{{0, 0, 0}, 0.5, 0.5, {}}};
     EXPECT_NEAR(give() / plain, 2, 0.01);
   }
+}
+
+TEST(StiffnessRegions, StiffenAPouchesWallAndItsBending) {
+  Description d = read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder/scene.json");
+  const sim::Model plain = compile(d);
+  Pouch& pouch = d.pouches.at(0);
+  pouch.regions = {{pouch.held.at(0).centre, 0.5, 2, {}}};
+  const sim::Model stiff = compile(d);
+  const auto &a = plain.membranes.back().sheet, &b = stiff.membranes.back().sheet;
+  const auto before = tissue::drawn_springs(a.network), after = tissue::drawn_springs(b.network);
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(after[i].k, 2 * before[i].k, 1e-5 * before[i].k);
+  for (std::size_t i = 0; i < a.bends.size(); ++i) EXPECT_FLOAT_EQ(b.bends[i].k, 2 * a.bends[i].k);
+  pouch.regions = {{{3, 0, 0}, 0.01, 2, {}}};
+  EXPECT_THROW(compile(d), core::BadInput);
+}
+
+TEST(StiffnessRegions, AndStrokesGoAlongWhereTheSceneIsVaried) {
+  Description d = read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json");
+  Solid& body = d.solids.at(0);
+  const Vec3d place = body.sections.at(1).centre;
+  d.variation.emplace();
+  d.variation->regions.emplace_back();
+  d.variation->regions[0].around = body.name;
+  d.variation->regions[0].shift = 0.01;
+  body.regions = {{place, 0.01, 2, {}}};
+  body.fibre_strokes = {{place, place + Vec3d{0.01, 0, 0}}};
+  vary(d, 7);
+  EXPECT_NE(body.sections[1].centre, place);
+  EXPECT_EQ(body.regions[0].centre, body.sections[1].centre);
+  EXPECT_EQ(body.fibre_strokes[0][0], body.sections[1].centre);
 }
 
 TEST(StiffnessRegions, ThatReachNothingAreTold) {
