@@ -370,11 +370,12 @@ struct Done {
 };
 
 /// Does an exercise with that device, for `longest` seconds at most, and says on stdout how. TROCAR_ROBOT_TRACE in the
-/// environment tells a line a second on the way.
+/// environment tells a line a second on the way, TROCAR_ROBOT_SEED has another anatomy.
 template <class Fingers>
 Done do_with(const std::string& exercise, double longest) {
   const bool trace = std::getenv("TROCAR_ROBOT_TRACE") != nullptr;
-  const std::unique_ptr<Lesson> lesson = load_lesson(exercise);
+  const char* seed = std::getenv("TROCAR_ROBOT_SEED");
+  const std::unique_ptr<Lesson> lesson = load_lesson(exercise, seed ? std::strtoull(seed, nullptr, 10) : 0);
   Session session(*lesson);
   DeviceRobot<Fingers> robot(*lesson, 0.003);
   sim::Input input;
