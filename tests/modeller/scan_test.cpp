@@ -172,5 +172,28 @@ TEST(Scan, ALiverAndASpleenComeOutOfACT) {
   }
 }
 
+TEST(Scan, ThePatientsSpleenIsGraspedAndCut) {
+  const fs::path folder = shared_scans();
+  if (folder.empty()) GTEST_SKIP() << "no ../shared/data here";
+  const Workplace place;
+  Session session;
+  const auto step = [&](const std::string& text) { run_step(json(text), "script", session); };
+  step("{\"do\": \"scan\", \"file\": \"" + (folder / "example_ct_dicom_raw").generic_string() + "\"}");
+  step("{\"do\": \"labels\", \"file\": \"" + (folder / "example_seg_dicom.nii.gz").generic_string() + "\"}");
+  step("{\"do\": \"new\", \"file\": \"" + (place / "scene.json").generic_string() + "\"}");
+  step(R"({"do": "islands", "segment": "1"})");
+  step(R"({"do": "organ_from", "segment": "1", "name": "spleen", "tissue": "liver", "cuttable": true,
+           "centre_mm": [0, -160, -150]})");
+  step(R"({"do": "hold", "of": "spleen", "centre_mm": [0, -160, -175], "radius_mm": 30})");
+  step(R"({"do": "take", "at_mm": [5, -150, -100], "of": "spleen"})");
+  step(R"({"do": "pull", "by_mm": [0, 0, 6]})");
+  EXPECT_TRUE(session.said().back()["holds"].get<bool>());
+  EXPECT_GT(session.said().back()["pull_N"].get<double>(), 0.1);
+  step(R"({"do": "let_go"})");
+  for (const char* at : {"20, -142, -110", "25, -150, -95", "30, -160, -95"})
+    step(std::string(R"({"do": "use", "instrument": "scissors", "at_mm": [)") + at + "]}");
+  EXPECT_EQ(session.said().back()["cut"], Json::array({"spleen"}));
+}
+
 }  // namespace
 }  // namespace trocar::modeller
