@@ -15,8 +15,7 @@
 namespace trocar::app {
 namespace {
 
-constexpr double kMetBrush = 0.003;  // [m] of a ray
-constexpr float kDot = 4.5f;         // [px] of a painted place
+constexpr float kDot = 4.5f;  // [px] of a painted place
 
 /// Blue where it is softer, orange where it is stiffer or held; clear where nothing was painted.
 ImU32 colour_of_paint(double value, bool stiffness) {
@@ -45,7 +44,7 @@ void Modeller::toggle_brush() {
 std::optional<Vec3d> Modeller::on_chosen(const Viewport& v, float x, float y) const {
   const std::optional<modeller::Thing> thing = selected();
   if (!m_shown || !thing) return std::nullopt;
-  const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kMetBrush);
+  const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kRayReach);
   if (!met || sim::name_of(*m_shown->built.model, met->body) != thing->name) return std::nullopt;
   return met->at;
 }

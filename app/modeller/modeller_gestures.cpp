@@ -18,7 +18,6 @@ namespace trocar::app {
 namespace {
 
 constexpr double kDegree = portable::pi / 180;
-constexpr double kSnapReach = 0.003;  // [m] of a ray
 constexpr Vec3d kAxes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 double snapped(double value, double to, bool snap) { return snap ? std::round(value / to) * to : value; }
@@ -32,7 +31,7 @@ std::optional<Vec3d> Modeller::onto_other_body(const Viewport& v, float x, float
   std::vector<modeller::BodyPlace> others;
   for (const modeller::BodyPlace& p : m_places)
     if (sim::name_of(*m_shown->built.model, p.body) != own->name) others.push_back(p);
-  const std::optional<modeller::BodyPlace> met = modeller::met_by(others, v.eye(), v.ray(x, y), kSnapReach);
+  const std::optional<modeller::BodyPlace> met = modeller::met_by(others, v.eye(), v.ray(x, y), kRayReach);
   return met ? std::optional(met->at) : std::nullopt;
 }
 

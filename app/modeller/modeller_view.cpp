@@ -19,7 +19,6 @@ namespace {
 
 constexpr float kHandleReach = 12;           // [px] of a handle
 constexpr float kViewTurn = 0.008f;          // [rad/px]
-constexpr double kOnBody = 0.003;            // [m] of a ray
 constexpr std::uint64_t kPictureStep = 500;  // [ms] of a camera's time that a picture takes
 
 const ImU32 kLineColour = IM_COL32(107, 191, 242, 200), kPointColour = IM_COL32(242, 168, 26, 255),
@@ -175,7 +174,7 @@ void Modeller::point_in(Viewport& v) {
   if (m_drive) {
     if (io.MouseClicked[0] && m_drive->hand() >= 0) {
       m_places = modeller::places_of(*m_shown->built.model, *m_state);
-      if (const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kOnBody)) {
+      if (const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kRayReach)) {
         m_drive->take(met->at);
         m_taking = true;
         tell("taking hold of " + sim::name_of(*m_shown->built.model, met->body));
@@ -192,7 +191,7 @@ void Modeller::point_in(Viewport& v) {
   if (!io.MouseClicked[0]) return;
   if (!m_draw_for.empty()) return draw_point(v, x, y);
   if (m_measuring) {
-    if (const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kOnBody))
+    if (const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kRayReach))
       m_measured.push_back(met->at);
     return;
   }
@@ -207,7 +206,7 @@ void Modeller::point_in(Viewport& v) {
 /// A point of a line more: on the body that is met there, else as deep as the one before.
 void Modeller::draw_point(const Viewport& v, float x, float y) {
   if (ImGui::GetIO().MouseDoubleClicked[0] && m_drawn.size() > 1) return end_drawing(true);
-  const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kOnBody);
+  const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kRayReach);
   m_drawn.push_back(met ? met->at : v.on_plane_of(m_drawn.empty() ? v.orbit.target : m_drawn.back(), x, y));
   m_drawn_on = met ? sim::name_of(*m_shown->built.model, met->body) : "";
   if (is_one_place(m_draw_for)) return end_drawing(true);
@@ -245,7 +244,7 @@ void Modeller::hold_here() {
   const std::optional<modeller::Thing> thing = selected();
   if (!v || !thing) return tell("choose a body, then point at where it is held");
   const std::optional<modeller::BodyPlace> met =
-      modeller::met_by(m_places, v->eye(), v->ray(io.MousePos.x, io.MousePos.y), kOnBody);
+      modeller::met_by(m_places, v->eye(), v->ray(io.MousePos.x, io.MousePos.y), kRayReach);
   if (!met || sim::name_of(*m_shown->built.model, met->body) != thing->name) return tell("point at the chosen body");
   scene::JsonValue s = scene::json_object();
   put(s, "do", scene::json_text("hold"));
@@ -258,7 +257,7 @@ void Modeller::hold_here() {
 void Modeller::pick(const Viewport& v, float x, float y) {
   m_handle.reset();
   if (!m_shown) return;
-  const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kOnBody);
+  const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kRayReach);
   if (!met) return select("");
   const std::string name = sim::name_of(*m_shown->built.model, met->body);
   for (const modeller::Thing& t : m_things)

@@ -13,6 +13,9 @@
 
 namespace trocar::app {
 
+/// A ray meets what is so near to it [m]: bodies are pointed at by places on their skins.
+inline constexpr double kRayReach = 0.003;
+
 struct Viewport {
   std::string name;  ///< "free", "front", "side", "top"
   Area area;
