@@ -139,6 +139,13 @@ fs::path shared_scans() {
   return fs::exists(folder) ? folder : fs::path();
 }
 
+void open_patient(const fs::path& folder, Session& session) {
+  for (const auto& [step, file] :
+       {std::pair{"scan", "example_ct_dicom_raw"}, std::pair{"labels", "example_seg_dicom.nii.gz"}})
+    run_step(json(std::string("{\"do\": \"") + step + "\", \"file\": \"" + (folder / file).generic_string() + "\"}"),
+             "script", session);
+}
+
 /// The patient of ../shared/data: two organs of its label map, compiled, grasped, cut.
 TEST(Scan, ALiverAndASpleenComeOutOfACT) {
   const fs::path folder = shared_scans();
@@ -146,9 +153,8 @@ TEST(Scan, ALiverAndASpleenComeOutOfACT) {
   const Workplace place;
   Session session;
   const auto step = [&](const std::string& text) { run_step(json(text), "script", session); };
-  step("{\"do\": \"scan\", \"file\": \"" + (folder / "example_ct_dicom_raw").generic_string() + "\"}");
-  EXPECT_EQ(session.said().back()["spacing_mm"][2].get<double>(), 2);
-  step("{\"do\": \"labels\", \"file\": \"" + (folder / "example_seg_dicom.nii.gz").generic_string() + "\"}");
+  open_patient(folder, session);
+  EXPECT_EQ(session.said()[0]["spacing_mm"][2].get<double>(), 2);
   step(R"({"do": "name_segment", "segment": "5", "to": "liver"})");
   step(R"({"do": "name_segment", "segment": "1", "to": "spleen"})");
   step(R"({"do": "measure", "segment": "liver", "mean_from": 88.8, "mean_to": 89.8})");
@@ -178,8 +184,7 @@ TEST(Scan, ThePatientsSpleenIsGraspedAndCut) {
   const Workplace place;
   Session session;
   const auto step = [&](const std::string& text) { run_step(json(text), "script", session); };
-  step("{\"do\": \"scan\", \"file\": \"" + (folder / "example_ct_dicom_raw").generic_string() + "\"}");
-  step("{\"do\": \"labels\", \"file\": \"" + (folder / "example_seg_dicom.nii.gz").generic_string() + "\"}");
+  open_patient(folder, session);
   step("{\"do\": \"new\", \"file\": \"" + (place / "scene.json").generic_string() + "\"}");
   step(R"({"do": "islands", "segment": "1"})");
   step(R"({"do": "organ_from", "segment": "1", "name": "spleen", "tissue": "liver", "cuttable": true,
