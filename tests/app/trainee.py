@@ -48,8 +48,11 @@ def unit(a):
 
 
 def in_basis(d, a, b, c):
-    """Coordinates of d along a, b, c, which need not be square to each other (Cramer's rule)."""
+    """Coordinates of d along a, b (square to each other) and c, which need not be square to them (Cramer's rule). A c
+    that lies almost across a x b, as an instrument square to the view, leads nowhere in depth: then c is left alone."""
     det = dot(a, cross(b, c))
+    if abs(det) < 0.15:
+        return dot(d, a), dot(d, b), 0.0
     return dot(d, cross(b, c)) / det, dot(a, cross(d, c)) / det, dot(a, cross(b, d)) / det
 
 
@@ -445,8 +448,10 @@ class Trainee:
 
     def show(self, points, distance_mm=60.0, aside=(0.0, 0.0)):
         """Turns the endoscope until all these points [mm] are well inside its picture, then as near as that allows.
-        `aside` [tan] to the right and upwards: not straight at them, so that the lens sees them from another side."""
-        for _ in range(12):
+        `aside` [tan] to the right and upwards: not straight at them, so that the lens sees them from another side.
+        A hand on a slow picture overshoots: each correction is a little more careful than the last."""
+        for corrections in range(24):
+            care = 1 / (1 + 0.1 * corrections)
             picture = self.eyes.pose["picture"]
             port, eye = picture["port_mm"], picture["eye_mm"]
             ways = [add(p, eye, -1) for p in points]
@@ -467,8 +472,9 @@ class Trainee:
             self.lead("scope")
             stride = max(-self.hands.stride_mm, min(self.hands.stride_mm, further))
             goes = max(abs(right), abs(up)) < 0.3 and abs(further) > 3
-            self.hands.look(right, up, 1e-3 * stride if goes else 0.0)
+            self.hands.look(care * right, care * up, 1e-3 * stride if goes else 0.0)
             self.settled()
+        print(f"the endoscope is still {right:.2f}, {up:.2f} rad and {further:.0f} mm off")
 
     def move(self, goal, tolerance_mm, what, limit=120):
         """The led tip to goal() [mm], which may itself move: sideways in the picture and along the shaft. Who has tried
