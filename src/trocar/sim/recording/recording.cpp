@@ -2,18 +2,16 @@
 //   u32 magic  u32 kind  u64 first_tick  u64 count  u64 payload_size  u64 checksum  payload
 // checksum = XXH3(payload, seed = XXH3 of the 32 bytes before it). Kinds and their payloads:
 //   HEAD  u32 format, u64 model_hash, u64 seed, then exercise, program_version, metadata_json as u32 size + bytes
-//   INPT  `count` ticks from first_tick: entries of a varint mask of the fields that changed since the tick before
-//         (bit i = i-th 32-bit word of Input; before a block's first tick every word is 0) and, for each, the varint
-//         of old bits XOR new bits; mask 0 is followed by the varint number of ticks on which nothing changed
+//   INPT  `count` ticks from first_tick, see input_code.hpp
 //   HASH  `count` pairs u64 tick, u64 hash
 //   KEYF  the bytes that the caller gave, of tick first_tick
 //   END   the result, JSON; first_tick = number of ticks; nothing may follow
-// A varint carries 7 bits a byte, lowest first, and a set top bit means that more follow.
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <optional>
 
+#include <trocar/core/byte_code.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/tick.hpp>
@@ -29,88 +27,9 @@ constexpr std::size_t kBlockHead = 40, kCheckedHead = 32;
 
 enum Kind : std::uint32_t { kHead = 1, kInputs = 2, kHashes = 3, kKeyframe = 4, kEnd = 5 };
 
-using Bytes = std::vector<std::uint8_t>;
-using ConstBytes = std::span<const std::uint8_t>;
-
-constexpr std::size_t kWords = sizeof(Input) / 4;
-using Words = std::array<std::uint32_t, kWords>;
-static_assert(kWords <= 64, "the mask of changed fields has 64 bits");
-
-Words words_of(const Input& input) {
-  Words words;
-  std::memcpy(words.data(), &input, sizeof input);
-  return words;
-}
-
-Input input_of(const Words& words) {
-  Input input;
-  std::memcpy(static_cast<void*>(&input), words.data(), sizeof input);
-  return input;
-}
-
-// --- numbers to bytes ---
-
-template <class Unsigned>
-void put(Bytes& to, Unsigned value) {
-  for (std::size_t i = 0; i < sizeof value; ++i) to.push_back(std::uint8_t(value >> (8 * i)));
-}
-
-void put_varint(Bytes& to, std::uint64_t value) {
-  for (; value >= 0x80; value >>= 7) to.push_back(std::uint8_t(value | 0x80));
-  to.push_back(std::uint8_t(value));
-}
-
-void put_text(Bytes& to, const std::string& text) {
-  put(to, std::uint32_t(text.size()));
-  to.insert(to.end(), text.begin(), text.end());
-}
-
-// --- bytes to numbers: reading beyond the end gives 0 and clears `sound` ---
-
-class ByteReader {
- public:
-  explicit ByteReader(ConstBytes bytes) : m_bytes(bytes) {}
-  bool sound() const { return m_sound; }
-  bool at_end() const { return m_at == m_bytes.size(); }
-
-  template <class Unsigned>
-  Unsigned get() {
-    if (m_bytes.size() - m_at < sizeof(Unsigned)) return fault();
-    Unsigned value = 0;
-    for (std::size_t i = 0; i < sizeof value; ++i) value |= Unsigned(m_bytes[m_at++]) << (8 * i);
-    return value;
-  }
-
-  std::uint64_t varint() {
-    std::uint64_t value = 0;
-    for (int shift = 0; shift < 64; shift += 7) {
-      if (at_end()) return fault();
-      const std::uint8_t byte = m_bytes[m_at++];
-      value |= std::uint64_t(byte & 0x7f) << shift;
-      if (byte < 0x80) return value;
-    }
-    return fault();
-  }
-
-  std::string text() {
-    const std::size_t size = get<std::uint32_t>();
-    if (m_bytes.size() - m_at < size) return fault(), std::string();
-    const auto first = m_bytes.begin() + std::ptrdiff_t(m_at);
-    m_at += size;
-    return {first, first + std::ptrdiff_t(size)};
-  }
-
- private:
-  std::uint8_t fault() {
-    m_sound = false;
-    m_at = m_bytes.size();
-    return 0;
-  }
-
-  ConstBytes m_bytes;
-  std::size_t m_at = 0;
-  bool m_sound = true;
-};
+using core::ByteReader;
+using Bytes = core::ByteString;
+using ConstBytes = core::ByteView;
 
 std::uint64_t checksum(ConstBytes checked_head, ConstBytes payload) {
   return core::hash_bytes(payload.data(), payload.size(), core::hash_bytes(checked_head.data(), checked_head.size()));
@@ -122,12 +41,12 @@ std::string text_of(ConstBytes bytes) { return {bytes.begin(), bytes.end()}; }
 
 Bytes coded(const RecordingHeader& header) {
   Bytes bytes;
-  put(bytes, header.format);
-  put(bytes, header.model_hash);
-  put(bytes, header.seed);
-  put_text(bytes, header.exercise);
-  put_text(bytes, header.program_version);
-  put_text(bytes, header.metadata_json);
+  core::put(bytes, header.format);
+  core::put(bytes, header.model_hash);
+  core::put(bytes, header.seed);
+  core::put_text(bytes, header.exercise);
+  core::put_text(bytes, header.program_version);
+  core::put_text(bytes, header.metadata_json);
   return bytes;
 }
 
@@ -143,27 +62,6 @@ std::optional<RecordingHeader> decoded_header(ConstBytes bytes) {
   header.metadata_json = from.text();
   if (!from.sound() || !from.at_end()) return std::nullopt;
   return header;
-}
-
-// --- one input block ---
-
-/// Appends `count` ticks; false (and `inputs` as it was) when the payload does not hold exactly so many.
-bool decode_inputs(ConstBytes payload, std::uint64_t count, std::vector<Input>& inputs) {
-  const std::size_t before = inputs.size(), after = before + count;
-  ByteReader from(payload);
-  Words words{};
-  while (from.sound() && !from.at_end()) {
-    const std::uint64_t mask = from.varint();
-    const std::uint64_t repeats = mask ? 1 : from.varint();
-    if (!from.sound() || mask >> kWords || repeats == 0 || repeats > after - inputs.size()) break;
-    for (std::size_t i = 0; i < kWords; ++i)
-      if (mask >> i & 1) words[i] ^= std::uint32_t(from.varint());
-    if (!from.sound()) break;
-    inputs.insert(inputs.end(), repeats, input_of(words));
-  }
-  if (from.sound() && from.at_end() && inputs.size() == after) return true;
-  inputs.resize(before);
-  return false;
 }
 
 // --- the reader ---
@@ -271,7 +169,7 @@ class Reader {
         if (block.first_tick != ticks) return "expected the inputs from tick " + std::to_string(ticks);
         if (block.count == 0 || block.count > kTicksPerBlock || ticks + block.count > kMaxTicks)
           return "more ticks than a recording may hold";
-        return decode_inputs(block.payload, block.count, recording.inputs) ? "" : "the inputs are not well coded";
+        return append_inputs(block.payload, block.count, recording.inputs) ? "" : "the inputs are not well coded";
       case kHashes:
         return add_hashes(block, recording);
       case kKeyframe:
@@ -313,7 +211,7 @@ class Reader {
 RecordingWriter::RecordingWriter(const std::filesystem::path& path, const RecordingHeader& header)
     : m_file(std::fopen(path.c_str(), "wb")), m_path(path.string()) {
   if (!m_file) fail(std::strerror(errno));
-  m_inputs.reserve(kTicksPerBlock * (5 + 5 * kWords));
+  m_inputs.reserve(kTicksPerBlock);
   m_hashes.reserve(16 * kTicksPerBlock);
   if (open() && std::fwrite(kSignature.data(), 1, kSignature.size(), m_file.get()) != kSignature.size())
     fail(std::strerror(errno));
@@ -328,26 +226,14 @@ void RecordingWriter::tick(std::uint64_t tick, const Input& input) {
   if (tick != ticks()) return fail("expected tick " + std::to_string(ticks()) + ", got " + std::to_string(tick));
   if (tick >= kMaxTicks) return fail("the recording is full: " + std::to_string(kMaxTicks) + " ticks");
 
-  const Words last = words_of(m_last), now = words_of(input);
-  std::uint64_t mask = 0;
-  for (std::size_t i = 0; i < kWords; ++i) mask |= std::uint64_t(last[i] != now[i]) << i;
-  ++m_ticks;
-  if (mask == 0) {
-    ++m_unchanged;
-  } else {
-    end_run();
-    put_varint(m_inputs, mask);
-    for (std::size_t i = 0; i < kWords; ++i)
-      if (mask >> i & 1) put_varint(m_inputs, last[i] ^ now[i]);
-    m_last = input;
-  }
-  if (m_ticks == kTicksPerBlock) flush();
+  m_inputs.add(input);
+  if (m_inputs.count() == kTicksPerBlock) flush();
 }
 
 void RecordingWriter::hash(std::uint64_t tick, std::uint64_t hash) {
   if (!accepts_mark(tick)) return;
-  put(m_hashes, tick);
-  put(m_hashes, hash);
+  core::put(m_hashes, tick);
+  core::put(m_hashes, hash);
 }
 
 void RecordingWriter::keyframe(std::uint64_t tick, std::span<const std::uint8_t> bytes) {
@@ -357,13 +243,10 @@ void RecordingWriter::keyframe(std::uint64_t tick, std::span<const std::uint8_t>
 }
 
 void RecordingWriter::flush() {
-  if (m_ticks > 0) {
-    end_run();
-    write_block(kInputs, m_first_tick, m_ticks, m_inputs);
-    m_first_tick += m_ticks;
-    m_ticks = 0;
+  if (const std::uint64_t count = m_inputs.count(); count > 0) {
+    write_block(kInputs, m_first_tick, count, m_inputs.bytes());
     m_inputs.clear();
-    m_last = input_of({});
+    m_first_tick += count;
   }
   if (!m_hashes.empty()) {
     write_block(kHashes, m_first_tick, m_hashes.size() / 16, m_hashes);
@@ -384,13 +267,6 @@ bool RecordingWriter::accepts_mark(std::uint64_t tick) {
   return open();
 }
 
-void RecordingWriter::end_run() {
-  if (m_unchanged == 0) return;
-  put_varint(m_inputs, 0);
-  put_varint(m_inputs, m_unchanged);
-  m_unchanged = 0;
-}
-
 void RecordingWriter::fail(const std::string& what) {
   if (m_failure.empty()) m_failure = m_path + ": the recording ends here: " + what;
 }
@@ -400,12 +276,12 @@ void RecordingWriter::write_block(std::uint32_t kind, std::uint64_t first_tick, 
   if (!open()) return;
   Bytes head;
   head.reserve(kBlockHead);
-  put(head, kBlockMagic);
-  put(head, kind);
-  put(head, first_tick);
-  put(head, count);
-  put(head, std::uint64_t(payload.size()));
-  put(head, checksum(head, payload));
+  core::put(head, kBlockMagic);
+  core::put(head, kind);
+  core::put(head, first_tick);
+  core::put(head, count);
+  core::put(head, std::uint64_t(payload.size()));
+  core::put(head, checksum(head, payload));
   const auto wrote = [file = m_file.get()](ConstBytes bytes) {
     return bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
   };

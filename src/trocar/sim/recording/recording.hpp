@@ -24,7 +24,7 @@
 #include <vector>
 
 #include <trocar/core/tick.hpp>
-#include <trocar/sim/model/input.hpp>
+#include <trocar/sim/recording/input_code.hpp>
 
 namespace trocar::sim {
 
@@ -86,20 +86,17 @@ class RecordingWriter {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   bool open() const { return m_file && m_failure.empty(); }
-  std::uint64_t ticks() const { return m_first_tick + m_ticks; }
+  std::uint64_t ticks() const { return m_first_tick + m_inputs.count(); }
   bool accepts_mark(std::uint64_t tick);
-  void end_run();
   void fail(const std::string& what);
   void write_block(std::uint32_t kind, std::uint64_t first_tick, std::uint64_t count,
                    std::span<const std::uint8_t> payload);
 
   std::unique_ptr<std::FILE, CloseFile> m_file;
   std::string m_path, m_failure;
-  std::vector<std::uint8_t> m_inputs, m_hashes;  ///< coded, not yet in the file
-  std::uint64_t m_first_tick = 0;                ///< of m_inputs
-  std::uint64_t m_ticks = 0;                     ///< in m_inputs
-  std::uint64_t m_unchanged = 0;                 ///< the last ticks, equal to the one before them and not yet coded
-  Input m_last;
+  InputCode m_inputs;                  ///< not yet in the file
+  std::vector<std::uint8_t> m_hashes;  ///< coded, not yet in the file
+  std::uint64_t m_first_tick = 0;      ///< of m_inputs
 };
 
 /// Memory is bounded by the file's size and by kMaxTicks, whatever the bytes are.
