@@ -49,6 +49,7 @@ FOREIGN = [
     (re.compile(r"^nlohmann/"), ["core", "scene", "training", "app"]),
     (re.compile(r"^CLI/"), ["app"]),
     (re.compile(r"^sqlite3\.h"), ["training"]),
+    (re.compile(r"^sodium\.h"), ["attempt"]),
     (re.compile(r"^zlib\.h"), ["geometry", "volumes"]),
     (re.compile(r"^gdcm"), ["volumes"]),
     (re.compile(r"^(Eigen|suitesparse)/|^(cholmod|umfpack)\.h"), ["numerics", "studies", "app"]),

@@ -26,6 +26,7 @@ build=(
   zlib1g-dev           # volumes of voxels packed with gzip (NRRD, NIfTI, MetaImage)
   libgdcm-dev          # JPEG in DICOM scans; without it these are refused, all else works
   libsqlite3-dev       # the session store: attempts and results
+  libsodium-dev        # seals what the programs of a team say to each other
   libopenal-dev        # sounds of the window
   fonts-dejavu-core    # its text
   ffmpeg               # films: a program of its own, called for --video and by the player

@@ -38,6 +38,7 @@ void add_trials(CLI::App& program, Chosen& chosen);
 void add_precompute(CLI::App& program, Chosen& chosen);
 void add_compare(CLI::App& program, Chosen& chosen);
 void add_rehearse(CLI::App& program, Chosen& chosen);
+void add_join(CLI::App& program, Chosen& chosen);
 void add_model(CLI::App& program, Chosen& chosen);
 
 }  // namespace trocar::app

@@ -72,6 +72,7 @@ int run_program(int argc, const char* const* argv) {
   add_trials(program, chosen);
   add_precompute(program, chosen);
   add_rehearse(program, chosen);
+  add_join(program, chosen);
   add_model(program, chosen);
   add_compare(program, chosen);
   const std::string first = argv[1];

@@ -6,15 +6,18 @@
 #include <trocar/attempt/paths.hpp>
 #include <trocar/attempt/solver_beside.hpp>
 #include <trocar/attempt/sources.hpp>
-#include <trocar/scene/checks/standing.hpp>
+#include <trocar/attempt/team/message.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/log.hpp>
 #include <trocar/pictures/analysis_choice.hpp>
 #include <trocar/pictures/headless.hpp>
 #include <trocar/reports/report_page.hpp>
+#include <trocar/scene/checks/standing.hpp>
 
 #include "commands/command.hpp"
 #include "commands/number_options.hpp"
+#include "commands/team_options.hpp"
 #include "shell/event_log.hpp"
 #include "trainer/window_loop.hpp"
 
@@ -27,6 +30,7 @@ struct TrainChoice {
   double seconds = 0, data_rate = pictures::kDataRate;
   std::uint64_t seed = 0;
   bool headless = false, familiarisation = false, no_store = false;
+  TeamChoice team;
 };
 
 constexpr std::uint64_t kLogTimeEvery = 250;  ///< ticks
@@ -70,7 +74,15 @@ attempt::AttemptPlan plan_of(const TrainChoice& o) {
 
 Json train_headless(const TrainChoice& o, const attempt::Lesson& lesson, training::Store* store,
                     pictures::PictureSize size) {
-  const std::unique_ptr<attempt::InputSource> source = attempt::make_source(lesson, o.input);
+  const std::unique_ptr<attempt::InputSource> own = attempt::make_source(lesson, o.input);
+  std::unique_ptr<attempt::TeamHost> team;
+  std::unique_ptr<attempt::InputSource> hosted;
+  if (!o.team.roles.empty()) {
+    team = std::make_unique<attempt::TeamHost>(lesson, team_plan(o.team));
+    hosted = std::make_unique<attempt::HostedSource>(*team, *own);
+    core::log::info("the others join with{}", how_to_join(*team, o.team));
+  }
+  attempt::InputSource& source = hosted ? *hosted : *own;
   attempt::Session session(lesson);
   EventLog events(o.log);
   attempt::AttemptLog log(store, session, plan_of(o));
@@ -81,17 +93,19 @@ Json train_headless(const TrainChoice& o, const attempt::Lesson& lesson, trainin
       .data = {o.data, o.data_rate},
       .size = size,
       .look = {pictures::parse_stereo(o.stereo), pictures::parse_show(o.show), pictures::parse_analysis(o.analysis)},
-      .seconds = o.seconds};
-  const pictures::Leftovers left = pictures::run_headless(session, *source, what, [&] {
+      .seconds = o.seconds,
+      .real_time = team != nullptr};
+  const pictures::Leftovers left = pictures::run_headless(session, source, what, [&] {
     for (const attempt::Moment& m : session.moments()) events.moment(lesson.model, m);
     if (session.state().tick % kLogTimeEvery == 0) events.event("time", {{"tick", session.state().tick}});
     return true;
   });
+  if (team) team->end(attempt::interrupted() ? "the host has ended it" : attempt::message::kFinished);
   const bool aborted = attempt::interrupted() && !(session.monitor() && session.monitor()->finished());
   Json result = session.result(aborted);
   result["input"] = o.input;
   result["slow_motion_share"] = 0.0;
-  result.update(source->describe());
+  result.update(source.describe());
   log.end(result, aborted ? training::AttemptState::aborted : training::AttemptState::finished);
   events.event("end", {{"interrupted", aborted}, {"passed", result["passed"]}, {"ticks", result["ticks"]}});
   if (!events.failure().empty()) result["log_failure"] = events.failure();
@@ -114,6 +128,7 @@ WindowOptions window_options(const TrainChoice& o, training::Store* store,
   w.familiarisation = o.familiarisation;
   w.store = store;
   w.beside = o.beside;
+  if (!o.team.roles.empty()) w.team = team_plan(o.team);
   w.other_solver = std::move(other);
   return w;
 }
@@ -188,6 +203,7 @@ void add_train(CLI::App& program, Chosen& chosen) {
   c->add_flag("--no-store", options->no_store, "leave nothing in the session store");
   c->add_option("--seconds", options->seconds, "stop after so much simulated time")
       ->check(number_above(0, kLongestRun, "s"));
+  add_team_options(*c, options->team);
   c->add_option("--log", options->log, "write what happens as JSON lines to this file");
   c->callback([options, &chosen] { chosen.run = [options, &chosen] { return train(*options, chosen.json); }; });
 }

@@ -10,6 +10,7 @@
 #include <trocar/attempt/hand_names.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/attempt/sources.hpp>
+#include <trocar/attempt/team/message.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/core/tick.hpp>
@@ -58,13 +59,65 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
     m_pilot->set(hand_settings(stage.settings, 0));
     m_pilot->lead_both(stage.settings.both_hands);
     m_hint = stage.settings.show_hint;
-  } else {
+    m_hands = std::make_unique<attempt::HandsSource>(lesson.model);
+  } else if (!stage.options.member) {
     m_source = attempt::make_source(lesson, plan.input);
   }
+  join_in();
   run_beside();
   m_gamepad_used = plan.input == "gamepad";
   if (m_session.monitor()) m_steps = m_session.monitor()->steps();
   stage.window.set_title(window_title(lesson));
+}
+
+/// Others take part, or this is a part of somebody else's attempt.
+void AttemptWindow::join_in() {
+  if (const auto& member = m_stage.options.member; member && m_pilot) {
+    m_hint = false;
+    int first = devices::kScope;
+    for (int h = attempt::hand_count(m_lesson.model) - 1; h >= 0; --h)
+      if (member->duty().hands >> h & 1) first = h;
+    m_pilot->choose(first);
+  }
+  if (!m_stage.options.team || m_stage.options.member) return;
+  m_team = std::make_unique<attempt::TeamHost>(m_lesson, *m_stage.options.team);
+  m_hosted = std::make_unique<attempt::HostedSource>(*m_team, source());
+  for (const std::string& line : team_in_words()) core::log::info("{}", line);
+}
+
+attempt::InputSource& AttemptWindow::source() const {
+  if (m_hosted) return *m_hosted;
+  if (m_stage.options.member) return *m_stage.options.member;
+  return m_hands ? static_cast<attempt::InputSource&>(*m_hands) : *m_source;
+}
+
+/// Where the hands command everything to be.
+void AttemptWindow::put(const sim::Input& command) {
+  if (const auto& member = m_stage.options.member)
+    member->put(command);
+  else
+    m_hands->put(command);
+}
+
+/// Who is here, and how old what comes from them is; how to join for who is not.
+std::vector<std::string> AttemptWindow::team_in_words() const {
+  std::vector<std::string> lines;
+  if (const auto& member = m_stage.options.member)
+    lines.push_back(fmt::format("your part is the {}: {:.0f} ms", member->role(), 1000 * member->latency()));
+  if (!m_team) return lines;
+  for (const attempt::TeamSeat& seat : m_team->seats())
+    lines.push_back(seat.here ? fmt::format("{}: {:.0f} ms", seat.role, 1000 * seat.latency)
+                              : fmt::format("{}: trocar join {}:{} --role {} --token {}", seat.role,
+                                            m_stage.options.team->address, m_team->port(), seat.role, m_team->token()));
+  return lines;
+}
+
+/// Time stands still while somebody is away.
+void AttemptWindow::tell_of_team(const attempt::Snapshot& now) {
+  const std::string waits = m_over ? "" : source().waits_for();
+  if (waits == m_told_waits) return;
+  m_told_waits = waits;
+  m_stage.log.event("waits", {{"tick", now.state.tick}, {"for", waits}});
 }
 
 /// The other solver of an organ, where this is the exercise that it was asked for.
@@ -128,8 +181,7 @@ Choice AttemptWindow::run() {
                                 {"trainee", m_log.attempt().trainee},
                                 {"recording", m_log.attempt().recording}});
   const double seconds = m_stage.options.seconds;
-  attempt::Live live(m_session, m_source.get(),
-                     seconds > 0 ? std::uint64_t(double(core::kTicksPerSecond) * seconds) : 0);
+  attempt::Live live(m_session, source(), seconds > 0 ? std::uint64_t(double(core::kTicksPerSecond) * seconds) : 0);
   Choice choice = Choice::none;
   const auto goes_on = [&] {
     return choice != Choice::restart && choice != Choice::start_screen && choice != Choice::quit;
@@ -160,8 +212,9 @@ void AttemptWindow::picture(attempt::Live& live, Choice& choice) {
   live.pause(stands_still());
   live.refresh();
   const attempt::Snapshot& now = live.snapshot();
-  lead(live, now);
+  lead(now);
   tell(live);
+  tell_of_team(now);
   warn_of_pull(now);
   ask_for_the_eye(now);
   if (now.finished && !m_over) end(live, Ending::came_to_its_end);
@@ -229,20 +282,20 @@ void AttemptWindow::look_at_keys() {
   }
 }
 
-void AttemptWindow::lead(attempt::Live& live, const attempt::Snapshot& now) {
+void AttemptWindow::lead(const attempt::Snapshot& now) {
   if (!m_pilot) return;
   devices::HandSample sample = m_stage.window.hands();
   sample.dt *= float(std::clamp(now.speed, kSlowest, 1.0));  // where time is slow, held keys and sticks are as slow
   const bool still = stands_still() || m_rack;
   if (still) {
-    if (m_rack && !stands_still()) live.put(m_pilot->rest(sample.dt, now.state));
+    if (m_rack && !stands_still()) put(m_pilot->rest(sample.dt, now.state));
   } else {
     if (m_was_still) {
       m_pilot->set(hand_settings(m_stage.settings, 0));
       m_pilot->lead_both(m_stage.settings.both_hands);
       m_pilot->take_up(sample);
     }
-    live.put(m_pilot->lead(sample, now.state));
+    put(m_pilot->lead(sample, now.state));
     if (m_pilot->asks_for_rack()) m_rack = true;
     keep_mode();
   }
@@ -365,8 +418,10 @@ void AttemptWindow::draw_scene(const attempt::Snapshot& now) {
                              stands_still(),
                              m_gamepad_used && m_stage.window.gamepads().present(),
                              pull_limit(m_lesson),
-                             outlook(now)};
+                             outlook(now),
+                             team_in_words()};
   draw_panel(content, float(width), panel, float(height));
+  if (!m_told_waits.empty()) draw_waiting(m_told_waits, float(width), float(height));
   if (!stands_still()) draw_notices(m_feedback, now_seconds(), float(width), float(height));
 }
 
@@ -432,7 +487,8 @@ void AttemptWindow::end(attempt::Live& live, Ending ending) {
   }
   m_result["input"] = m_plan.input;
   m_result["slow_motion_share"] = live.slow_share();
-  if (m_source) m_result.update(m_source->describe());
+  m_result.update(source().describe());
+  if (m_team) m_team->end(attempt::message::kFinished);
   m_log.end(m_result, left ? AttemptState::aborted : AttemptState::finished);
   m_stage.log.event("end", {{"interrupted", left}, {"passed", m_result["passed"]}, {"ticks", m_result["ticks"]}});
   if (ending == Ending::came_to_its_end) m_stage.sound.play(Tone::finished);

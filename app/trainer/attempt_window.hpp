@@ -8,6 +8,8 @@
 #include <trocar/attempt/attempt_log.hpp>
 #include <trocar/attempt/hand_pilot.hpp>
 #include <trocar/attempt/live.hpp>
+#include <trocar/attempt/sources.hpp>
+#include <trocar/attempt/team/host.hpp>
 #include <trocar/training/exercise/outlook.hpp>
 
 #include "shell/panes.hpp"
@@ -34,7 +36,12 @@ class AttemptWindow {
   void look_at_keys();
   void hold(const std::string& why);
   bool stands_still() const;
-  void lead(attempt::Live& live, const attempt::Snapshot& now);
+  void lead(const attempt::Snapshot& now);
+  void put(const sim::Input& command);
+  attempt::InputSource& source() const;
+  void join_in();
+  void tell_of_team(const attempt::Snapshot& now);
+  std::vector<std::string> team_in_words() const;
   void keep_mode();
   void tell(attempt::Live& live);
   void warn_of_pull(const attempt::Snapshot& now);
@@ -63,12 +70,15 @@ class AttemptWindow {
   attempt::Session m_session;
   attempt::AttemptLog m_log;
   std::unique_ptr<attempt::HandPilot> m_pilot;
-  std::unique_ptr<attempt::InputSource> m_source;
+  std::unique_ptr<attempt::HandsSource> m_hands;    ///< null: something else leads
+  std::unique_ptr<attempt::TeamHost> m_team;        ///< null: nobody else takes part
+  std::unique_ptr<attempt::InputSource> m_source;   ///< not the hands themselves
+  std::unique_ptr<attempt::HostedSource> m_hosted;  ///< with the team's
   std::vector<training::StepStatus> m_steps;
   std::unique_ptr<training::Outlook> m_outlook;  ///< made when it is first asked
   Feedback m_feedback;
   PullWarning m_pull_warning;
-  std::string m_told_warning, m_told_views, m_why_paused;
+  std::string m_told_warning, m_told_views, m_told_waits, m_why_paused;
   Json m_result;
   bool m_hint = false, m_hint_again = false, m_paused = false, m_rack = false, m_over = false;
   bool m_display = false, m_views = false;

@@ -259,6 +259,7 @@ void draw_panel(const PanelContent& c, float left, float width, float height) {
   draw_lens(c);
   draw_generator(c);
   draw_outlook(c);
+  for (const std::string& line : c.team) ui::text(line, ui::kGrey);
   const float line = ImGui::GetTextLineHeightWithSpacing(), foot = line + 2 * ui::scale();
   ui::heading("Steps");
   const float left_over = ImGui::GetContentRegionAvail().y - foot - 1.9f * line;
@@ -271,21 +272,38 @@ void draw_panel(const PanelContent& c, float left, float width, float height) {
   ImGui::End();
 }
 
-void draw_notices(const Feedback& feedback, double now, float picture_width, float picture_height) {
-  const std::vector<const Notice*> fresh = feedback.fresh(now);
-  if (fresh.empty()) return;
-  ImGui::SetNextWindowPos({0.5f * picture_width, picture_height - 12 * ui::scale()}, ImGuiCond_Always, {0.5f, 1});
+namespace {
+
+/// A box over the picture that takes no input. @param at [px]  @param hold  which of its points lies there [shares]
+void begin_box(const char* name, ImVec2 at, ImVec2 hold, float picture_width, float picture_height) {
+  ImGui::SetNextWindowPos(at, ImGuiCond_Always, hold);
   const float width = std::min(0.9f * picture_width, 460 * ui::scale());
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, picture_height});
   ImGui::SetNextWindowBgAlpha(0.88f);
-  ImGui::Begin("notices", nullptr,
+  ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoFocusOnAppearing);
+}
+
+}  // namespace
+
+void draw_notices(const Feedback& feedback, double now, float picture_width, float picture_height) {
+  const std::vector<const Notice*> fresh = feedback.fresh(now);
+  if (fresh.empty()) return;
+  begin_box("notices", {0.5f * picture_width, picture_height - 12 * ui::scale()}, {0.5f, 1}, picture_width,
+            picture_height);
   for (const Notice* n : fresh) {
     ui::mark(n->mark);
     ui::text(n->text, n->mark == Mark::note ? ui::kWhite : ui::colour_of(n->mark));
   }
+  ImGui::End();
+}
+
+void draw_waiting(const std::string& why, float picture_width, float picture_height) {
+  begin_box("waiting", {0.5f * picture_width, 0.4f * picture_height}, {0.5f, 0.5f}, picture_width, picture_height);
+  ui::mark(Mark::warning);
+  ui::text("Time stands still: " + why, ui::colour_of(Mark::warning));
   ImGui::End();
 }
 

@@ -26,6 +26,7 @@ struct PanelContent {
   bool paused = false, gamepad = false;            ///< gamepad: the keys at its foot are a gamepad's
   double pull_limit = 5;                           ///< [N]
   std::optional<training::Foretold> outlook = {};  ///< of what a hand is about to do; told while familiarising
+  std::vector<std::string> team = {};              ///< who else takes part, a line each
 };
 
 /// Its width beside a window of `width` [px].
@@ -33,5 +34,7 @@ float panel_width(float width, float scale);
 void draw_panel(const PanelContent& content, float left, float width, float height);
 /// Fresh notices over the lower part of the picture.
 void draw_notices(const Feedback& feedback, double now, float picture_width, float picture_height);
+/// Why time stands still, though nobody paused it, in the picture's middle.
+void draw_waiting(const std::string& why, float picture_width, float picture_height);
 
 }  // namespace trocar::app

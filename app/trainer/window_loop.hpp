@@ -6,6 +6,8 @@
 #include <optional>
 
 #include <trocar/attempt/lesson.hpp>
+#include <trocar/attempt/team/host.hpp>
+#include <trocar/attempt/team/member.hpp>
 #include <trocar/pictures/picture_size.hpp>
 #include <trocar/training/store/store.hpp>
 
@@ -24,6 +26,8 @@ struct WindowOptions {
   training::Store* store = nullptr;                     ///< null: nothing is kept but recordings that were asked for
   std::string beside;                                   ///< organ whose other solver runs beside; empty: none
   std::shared_ptr<const attempt::Lesson> other_solver;  ///< the exercise with it
+  std::optional<attempt::TeamPlan> team;                ///< whoever plays along; nothing: nobody
+  std::shared_ptr<attempt::TeamMember> member;          ///< this is a part in somebody else's attempt; null: it is not
 };
 
 /// Opens the window: with a lesson straight in the exercise, without one on the start screen. Returns the last

@@ -56,7 +56,7 @@ class DeviceRobot {
   bool next(const sim::State& state, sim::Input& input) {
     if (m_brain->done() && ++m_after > kAfter) return false;
     think(state);
-    if (!m_looks && m_menu == Menu::closed) m_swayed += sim::kTick;
+    if (m_menu == Menu::closed && (works(state) || !eased())) m_swayed += sim::kTick;
     remember(state);
     if (double(state.tick) * sim::kTick >= m_next_picture) {
       m_next_picture += kPicture;
@@ -89,6 +89,8 @@ class DeviceRobot {
   static constexpr std::uint64_t kDelay = 150;  // ticks from what is seen to what is done
   static constexpr int kAfter = 3000;           // ticks
   static constexpr double kKnown = 0.9;         // of what its own hands have done since
+  static constexpr double kStopped = 0.008;     // [m] that an instrument is behind its hand: something is in its way
+  static constexpr double kPeriod = 4;          // [s] of the left hand's drawing and easing
 
   enum class Menu { closed, open };
   struct Seen {
@@ -119,9 +121,17 @@ class DeviceRobot {
   struct Lag {
     double way = 0, turn = 0, handle = 0;  ///< [m] [rad] of the handle
   };
+  /// The right hand works: it is wanted elsewhere than a second ago, or burns. Nobody draws at tissue only to look at
+  /// it.
+  bool works(const sim::State& state) {
+    const sim::ToolInput& wanted = m_wanted.tools[m_side[kRight]];
+    const Vec3d at = tip(m_side[kRight], wanted);
+    if (length(at - m_worked_at) > 1e-3 || (m_wanted.pedals & sim::kBlue) != 0) m_worked_at = at, m_worked = state.tick;
+    return state.tick < m_worked + 1000;
+  }
+  bool eased() const { return std::fmod(m_swayed, kPeriod) < sim::kTick; }
   /// What is wanted of the left hand while it holds and the right one works: to the patient's right and back.
   Vec3d sway(const sim::State& state) const {
-    constexpr double kPeriod = 4;  // [s]
     const double wave = 0.5 * m_sway * (1 - portable::cos(2 * portable::pi * m_swayed / kPeriod));
     return state.tools[std::size_t(m_side[kLeft])].holds > 0 ? Vec3d{-wave, 0, 0} : Vec3d{};
   }
@@ -135,8 +145,11 @@ class DeviceRobot {
     const sim::ToolInput& wanted = m_wanted.tools[h];
     const interactions::ToolState& tool = state.tools[std::size_t(h)];
     const bool jaws = grip_of(h, state) == Grip::jaws;
-    return {length(goal(h, wanted, state) - training::tip_of(m_model, state, std::size_t(h))),
-            std::fabs(turn_left(double(wanted.roll) - tool.roll, grip_of(h, state))),
+    const Vec3d to = goal(h, wanted, state);
+    // what a wall keeps from where it is wanted has been brought as near as a hand can
+    const double way = std::min(length(to - training::tip_of(m_model, state, std::size_t(h))),
+                                length(to - tip(h, m_commanded.tools[h])));
+    return {way, std::fabs(turn_left(double(wanted.roll) - tool.roll, grip_of(h, state))),
             jaws ? std::fabs(double(wanted.handle) - tool.handle) : 0};
   }
 
@@ -210,7 +223,11 @@ class DeviceRobot {
                       m_old.commanded.tools[hand].instrument == m_commanded.tools[hand].instrument;
     const Vec3d seen = kinematics::forward(port, m_old.tool[h]).tip;
     const Vec3d since = tip(hand, m_commanded.tools[hand]) - tip(hand, m_old.commanded.tools[hand]);
-    const Vec3d at = same ? seen + kKnown * since : training::tip_of(m_model, state, h);
+    // who sees that the instrument does not follow presses no farther than to where it is wanted
+    const bool stopped = length(tip(hand, m_old.commanded.tools[hand]) - seen) > kStopped;
+    const Vec3d at = !same     ? training::tip_of(m_model, state, h)
+                     : stopped ? tip(hand, m_commanded.tools[hand])
+                               : seen + kKnown * since;
     const Vec3d way = goal(hand, wanted, state) - at;
     const kinematics::ScopeFrame view = sim::scope_of(m_model, state);
     const Vec3d shaft = kinematics::forward(port, pose_of(m_commanded.tools[hand])).axis();
@@ -347,6 +364,8 @@ class DeviceRobot {
   std::unique_ptr<training::Performer> m_brain;
   sim::Input m_wanted, m_commanded, m_closing;
   double m_sway = 0, m_swayed = 0;  ///< [m] [s]
+  Vec3d m_worked_at;
+  std::uint64_t m_worked = 0;
   std::array<bool, sim::kMaxTools> m_inserts{};
   int m_settles = 0;  ///< ticks for which jaws still wait before they close
   std::array<bool, sim::kMaxTools> m_squeezing{};

@@ -3,6 +3,7 @@
 
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/attempt/live.hpp>
+#include <trocar/attempt/sources.hpp>
 
 namespace trocar::attempt {
 namespace {
@@ -25,7 +26,8 @@ bool newer(attempt::Live& live) {
 
 TEST(Live, EveryPictureThatAsksGetsALaterStateThanTheOneBefore) {
   attempt::Session session(scene(), 1);
-  attempt::Live live(session, nullptr, 0);
+  attempt::HandsSource hands(scene().model);
+  attempt::Live live(session, hands, 0);
   std::uint64_t before = 0;
   for (int i = 0; i < 20; ++i) {
     ASSERT_TRUE(newer(live));
@@ -36,7 +38,8 @@ TEST(Live, EveryPictureThatAsksGetsALaterStateThanTheOneBefore) {
 
 TEST(Live, WhileTimeStandsStillThePictureShowsTheTickItStandsAt) {
   attempt::Session session(scene(), 1);
-  attempt::Live live(session, nullptr, 0);
+  attempt::HandsSource hands(scene().model);
+  attempt::Live live(session, hands, 0);
   ASSERT_TRUE(newer(live));
   live.pause(true);
   ASSERT_TRUE(newer(live));  // this may have been asked for before
@@ -48,7 +51,8 @@ TEST(Live, WhileTimeStandsStillThePictureShowsTheTickItStandsAt) {
 
 TEST(Live, NobodyWaitsForASimulationThatHasEnded) {
   attempt::Session session(scene(), 1);
-  attempt::Live live(session, nullptr, 10);
+  attempt::HandsSource hands(scene().model);
+  attempt::Live live(session, hands, 10);
   while (!live.snapshot().finished) ASSERT_TRUE(newer(live));
   EXPECT_EQ(live.snapshot().state.tick, 10u);
   live.stop();

@@ -19,6 +19,16 @@ int hand_count(const sim::Model& model) { return int(model.hands.size()); }
 
 std::string hand_name(const sim::Model& model, int h) { return in_words(model.hands[size_t(h)].name); }
 
+std::array<int, 2> sides_of(const sim::Model& model) {
+  if (model.hands.size() < 2) return {0, 1};
+  Vec3d ahead;
+  for (std::size_t h = 0; h < model.hands.size(); ++h)
+    ahead += kinematics::forward(model.hands[h].port, pose_of(model.start.tools[h])).tip - model.scope.port;
+  const Vec3d right = cross(model.gravity, ahead);
+  if (dot(model.hands[1].port - model.hands[0].port, right) < 0) return {1, 0};
+  return {0, 1};
+}
+
 const interactions::ToolModel& held_by(const sim::Model& model, const sim::State& state, int h) {
   return model.tool(state, size_t(h));
 }

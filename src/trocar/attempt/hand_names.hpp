@@ -1,6 +1,7 @@
 // The hands and what they hold, in words for people.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,10 @@ std::string in_words(std::string name);
 int hand_count(const sim::Model& model);
 /// Where hand `h` comes in: "left lateral".
 std::string hand_name(const sim::Model& model, int h);
+/// Of the first two hands the left one and the right one: the left one's trocar lies further to the left for who looks
+/// from the endoscope's trocar at the instruments, upright; the first picture may look elsewhere, even the other way.
+/// {0, 1} where there are not two.
+std::array<int, 2> sides_of(const sim::Model& model);
 /// The instrument that hand `h` holds now.
 const interactions::ToolModel& held_by(const sim::Model& model, const sim::State& state, int h);
 

@@ -36,18 +36,7 @@ HandPilot::HandPilot(const sim::Model& model) : m_model(model), m_input(model.st
     m_hands.state.handle[t] = model.start.tools[t].handle;
     m_hands.state.ratchet[t] = model.start.tools[t].handle == 1;  // an assistant who holds something
   }
-  place_sides();
-}
-
-/// Of the first two hands the left one is that whose trocar lies further to the left for who looks from the endoscope's
-/// trocar at the instruments, upright: the first picture may look elsewhere, even the other way.
-void HandPilot::place_sides() {
-  if (m_model.hands.size() < 2) return;
-  Vec3d ahead;
-  for (std::size_t h = 0; h < m_model.hands.size(); ++h)
-    ahead += kinematics::forward(m_model.hands[h].port, pose_of(m_model.start.tools[h])).tip - m_model.scope.port;
-  const Vec3d right = cross(m_model.gravity, ahead);
-  if (dot(m_model.hands[1].port - m_model.hands[0].port, right) < 0) m_hands.pair = {1, 0};
+  m_hands.pair = sides_of(model);
 }
 
 void HandPilot::set(const devices::HandSettings& settings) {

@@ -53,7 +53,6 @@ class HandPilot {
  private:
   int waiting(int led, const sim::State& state) const;
   void insert(int hand);
-  void place_sides();
   void move_tool(const devices::HandCommand& command, const kinematics::ScopeFrame& view, const sim::State& state);
   void move_scope(const devices::ScopeMotion& motion, const kinematics::ScopeFrame& view);
   void move_in(int hand, float dt, const sim::State& state);

@@ -21,6 +21,13 @@ class InputSource {
   virtual ~InputSource() = default;
   /// The input of the next tick, from the State as it stands; false: there is no more, the attempt ends.
   virtual bool next(const sim::State& state, sim::Input& input) = 0;
+  /// False: there will be a next input, but not now: a device or somebody of the team is away, see waits_for(). Time
+  /// stands still meanwhile.
+  virtual bool ready() { return true; }
+  /// Why, for people; empty: it is ready. Any thread.
+  virtual std::string waits_for() const { return {}; }
+  /// Ticks that are there already and wait to be made: who is behind hurries.
+  virtual std::uint64_t behind() const { return 0; }
   /// What the tick made of it.
   virtual void after(const sim::State&, const sim::StepReport&) {}
   /// What there is to say about it in the result.

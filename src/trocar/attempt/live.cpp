@@ -1,6 +1,5 @@
 #include <iterator>
 
-#include <trocar/attempt/hand_pilot.hpp>
 #include <trocar/attempt/live.hpp>
 #include <trocar/core/tick.hpp>
 
@@ -10,20 +9,21 @@ namespace {
 constexpr auto kTickTime = std::chrono::microseconds(1'000'000 / core::kTicksPerSecond);
 constexpr auto kDebt = std::chrono::milliseconds(30);  // that much is caught up with; more becomes slow motion
 constexpr std::uint64_t kAftermath = 1500;             // ticks shown after the last step is done
+constexpr std::uint64_t kHurry = 30;                   // ticks that wait to be made: no pace is kept
 constexpr double kSpeedWindow = 0.25;                  // [s]
 constexpr double kSlow = 0.97;
+constexpr auto kIdle = std::chrono::milliseconds(2);  // while time stands still
 // A copy takes nearly half a tick and throws the simulation's data out of the cache: none is made that nobody draws.
 constexpr auto kPatience = std::chrono::milliseconds(4);  // of who asked for one
 constexpr auto kLookEvery = std::chrono::microseconds(50);
 
 }  // namespace
 
-Live::Live(Session& session, InputSource* source, std::uint64_t limit)
+Live::Live(Session& session, InputSource& source, std::uint64_t limit)
     : m_session(session),
       m_source(source),
       m_limit(limit),
       m_published(Snapshot{.state = session.state()}),
-      m_command(session.lesson().model.start),
       m_window_start(Clock::now()),
       m_thread([this] { loop(); }) {}
 
@@ -52,28 +52,22 @@ std::vector<Moment> Live::take_moments() {
 }
 
 void Live::loop() {
-  SmoothInput smooth(m_command);
   Clock::time_point due = Clock::now();
   while (!m_stop.load(std::memory_order_relaxed)) {
-    if (m_paused.load(std::memory_order_relaxed) || m_finished) {
+    if (m_paused.load(std::memory_order_relaxed) || m_finished || !m_source.ready()) {
       pass_moments();
       publish_if_wanted();
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      std::this_thread::sleep_for(kIdle);
       due = m_window_start = Clock::now();
       m_window_ticks = 0;
       continue;
     }
     sim::Input input;
-    if (m_source) {
-      m_finished = !m_source->next(m_session.state(), input);
-    } else {
-      m_commands.take(m_command);
-      input = smooth.step(m_command);
-    }
+    m_finished = !m_source.next(m_session.state(), input);
     if (!m_finished) {
       const sim::StepReport& report = m_session.advance(input);
       m_pending.insert(m_pending.end(), m_session.moments().begin(), m_session.moments().end());
-      if (m_source) m_source->after(m_session.state(), report);
+      m_source.after(m_session.state(), report);
       const std::uint64_t ticks = m_session.state().tick;
       if (m_session.finished() && m_end == kNever) m_end = m_session.broken().empty() ? ticks + kAftermath : ticks;
       m_finished = ticks >= m_end || (m_limit > 0 && ticks >= m_limit);
@@ -84,7 +78,9 @@ void Live::loop() {
     publish_if_wanted();
     due += kTickTime;
     const Clock::time_point now = Clock::now();
-    if (due > now)
+    if (m_source.behind() > kHurry)
+      due = now;
+    else if (due > now)
       std::this_thread::sleep_until(due);
     else if (now - due > kDebt)
       due = now;

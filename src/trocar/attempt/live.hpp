@@ -1,8 +1,7 @@
 // The simulation on a thread of its own, paced by the clock: 1000 ticks a second. It is never waited for, and a machine
 // that is too slow gets slow motion, never skipped ticks.
 //
-//   Live live(session, source);          // source null: the hands lead, see put()
-//   live.put(input);                      // newest command, from the drawing thread
+//   Live live(session, source);           // hands: a HandsSource
 //   if (live.refresh()) draw(live.snapshot().state);      // copied when asked for, and as it ends
 //   live.stop();                          // joins; then the Session may be used again
 #pragma once
@@ -14,7 +13,6 @@
 
 #include <trocar/attempt/session.hpp>
 #include <trocar/core/triple_buffer.hpp>
-#include <trocar/devices/mailbox.hpp>
 
 namespace trocar::attempt {
 
@@ -32,12 +30,11 @@ struct Snapshot {
 class Live {
  public:
   /// Starts at once. `source` and `session` must outlive it. @param limit ticks, 0: none
-  Live(Session& session, InputSource* source, std::uint64_t limit);
+  Live(Session& session, InputSource& source, std::uint64_t limit);
   ~Live() { stop(); }
   Live(const Live&) = delete;
   Live& operator=(const Live&) = delete;
 
-  void put(const sim::Input& input) { m_commands.put(input); }
   void pause(bool on) { m_paused.store(on, std::memory_order_relaxed); }
 
   /// Asks for the State as it is now and has it a tick later. False, and snapshot() as it was, when nothing newer
@@ -61,14 +58,12 @@ class Live {
 
   using Clock = std::chrono::steady_clock;
   Session& m_session;
-  InputSource* m_source;
+  InputSource& m_source;
   std::uint64_t m_limit;
-  devices::Mailbox<sim::Input> m_commands;
   core::TripleBuffer<Snapshot> m_published;
   std::atomic<bool> m_stop{false}, m_paused{false}, m_wanted{false};
 
   // The simulation thread's own.
-  sim::Input m_command;
   static constexpr std::uint64_t kNever = ~std::uint64_t(0);
   bool m_finished = false;
   std::uint64_t m_end = kNever;  ///< the tick after which it is over

@@ -1,7 +1,9 @@
 // The inputs that are no hands: a recording's, a motion file's, and resting ones.
 #pragma once
 
+#include <trocar/attempt/hand_pilot.hpp>
 #include <trocar/attempt/lesson.hpp>
+#include <trocar/devices/mailbox.hpp>
 #include <trocar/devices/motion_file.hpp>
 #include <trocar/sim/recording/recording.hpp>
 #include <trocar/training/expert/expert.hpp>
@@ -19,6 +21,23 @@ class RestingSource : public InputSource {
 
  private:
   sim::Input m_input;
+};
+
+/// Hands: their newest command, which comes at display rate, as smooth motion.
+class HandsSource : public InputSource {
+ public:
+  explicit HandsSource(const sim::Model& model) : m_command(model.start), m_smooth(model.start) {}
+  void put(const sim::Input& command) { m_commands.put(command); }  ///< one other thread
+  bool next(const sim::State&, sim::Input& input) override {
+    m_commands.take(m_command);
+    input = m_smooth.step(m_command);
+    return true;
+  }
+
+ private:
+  devices::Mailbox<sim::Input> m_commands;
+  sim::Input m_command;
+  SmoothInput m_smooth;
 };
 
 /// The inputs of a recording, tick by tick.

@@ -38,12 +38,13 @@ class ByteReader {
   explicit ByteReader(ByteView bytes) : m_bytes(bytes) {}
   bool sound() const { return m_sound; }
   bool at_end() const { return m_at == m_bytes.size(); }
+  ByteView rest() const { return m_bytes.subspan(m_at); }  ///< not read yet
 
   template <class Unsigned>
   Unsigned get() {
     if (m_bytes.size() - m_at < sizeof(Unsigned)) return fault();
     Unsigned value = 0;
-    for (std::size_t i = 0; i < sizeof value; ++i) value |= Unsigned(m_bytes[m_at++]) << (8 * i);
+    for (std::size_t i = 0; i < sizeof value; ++i) value = Unsigned(value | Unsigned(m_bytes[m_at++]) << (8 * i));
     return value;
   }
 

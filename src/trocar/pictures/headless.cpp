@@ -1,5 +1,10 @@
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/attempt/progress.hpp>
+#include <trocar/core/log.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/pictures/headless.hpp>
 #include <trocar/pictures/pictures.hpp>
@@ -10,6 +15,34 @@ namespace trocar::pictures {
 namespace {
 
 constexpr std::uint64_t kTicksPerVideoFrame = core::kTicksPerSecond / kVideoRate;
+
+/// Waits for a source that has nothing yet, and for the clock where time is to pass as it does.
+class Patience {
+ public:
+  explicit Patience(bool real_time) : m_real_time(real_time) {}
+
+  void before(attempt::InputSource& source) {
+    const Clock::time_point begun = Clock::now();
+    while (!source.ready() && !attempt::interrupted()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      if (Clock::now() - begun < kTold) continue;
+      if (const std::string why = source.waits_for(); why != m_told && !why.empty())
+        core::log::info("waiting: {}", m_told = why);
+    }
+    if (!m_real_time) return;
+    m_due = std::max(m_due + kTickTime, Clock::now() - kDebt);
+    if (source.behind() < kHurry) std::this_thread::sleep_until(m_due);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::microseconds kTickTime{1'000'000 / core::kTicksPerSecond};
+  static constexpr std::chrono::milliseconds kTold{500}, kDebt{30};
+  static constexpr std::uint64_t kHurry = 30;  // ticks
+  bool m_real_time;
+  Clock::time_point m_due = Clock::now();
+  std::string m_told;
+};
 
 }  // namespace
 
@@ -43,7 +76,10 @@ Leftovers run_headless(attempt::Session& session, attempt::InputSource& source, 
   const auto goes_on = [&] {
     return !attempt::interrupted() && session.broken().empty() && session.state().tick < limit;
   };
-  while (goes_on() && source.next(session.state(), input)) {
+  Patience patience(options.real_time);
+  while (goes_on()) {
+    patience.before(source);
+    if (!goes_on() || !source.next(session.state(), input)) break;
     source.after(session.state(), session.advance(input));
     if (shots)
       for (const ShotMoment& m : moments_to_show(session, begin)) shots->take(session.state(), m.what, m.text);

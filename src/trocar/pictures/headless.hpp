@@ -16,8 +16,9 @@ struct HeadlessOptions {
   std::filesystem::path video;  ///< file; empty: none
   DataOptions data;
   PictureSize size;
-  PictureLook look;    ///< of pictures and film
-  double seconds = 0;  ///< stop after so much simulated time; 0: no limit
+  PictureLook look;        ///< of pictures and film
+  double seconds = 0;      ///< stop after so much simulated time; 0: no limit
+  bool real_time = false;  ///< no faster than the clock
 };
 
 /// What else a loop left behind, in the result's words: "pictures", "picture_index", "video", "data".

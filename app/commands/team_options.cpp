@@ -1,0 +1,52 @@
+#include "commands/team_options.hpp"
+
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include <trocar/core/error.hpp>
+
+namespace trocar::app {
+
+Place parse_place(const std::string& text, const std::string& where) {
+  const auto colon = text.rfind(':');
+  const std::string port = colon == std::string::npos ? "" : text.substr(colon + 1);
+  const bool digits = !port.empty() && port.size() <= 5 && port.find_first_not_of("0123456789") == std::string::npos;
+  if (colon == 0 || !digits || std::stoi(port) > 65535)
+    throw core::BadInput({{{where, 0, 0}, fmt::format("expected ADDRESS:PORT as 127.0.0.1:4711, got {}", text)}});
+  return {text.substr(0, colon), std::stoi(port)};
+}
+
+void add_team_options(CLI::App& command, TeamChoice& choice) {
+  command.add_option(
+      "--team", choice.roles,
+      "others lead these over the network, and time waits for them: camera, assistant, left, right, or a "
+      "trocar's name, with commas; see trocar join");
+  command
+      .add_option("--team-at", choice.at,
+                  "ADDRESS:PORT where they are waited for; port 0: a free one; 0.0.0.0: from other machines, too")
+      ->capture_default_str();
+  command.add_option("--token", choice.token, "what they must know; without it one is drawn and shown")
+      ->envname(kTokenVariable);
+}
+
+attempt::TeamPlan team_plan(const TeamChoice& choice) {
+  const Place place = parse_place(choice.at, "--team-at");
+  attempt::TeamPlan plan{place.address, place.port, choice.token, {}};
+  for (std::size_t from = 0; from <= choice.roles.size();) {
+    const std::size_t comma = std::min(choice.roles.find(',', from), choice.roles.size());
+    plan.roles.push_back(choice.roles.substr(from, comma - from));
+    from = comma + 1;
+  }
+  return plan;
+}
+
+std::string how_to_join(const attempt::TeamHost& team, const TeamChoice& choice) {
+  std::string text;
+  for (const attempt::TeamSeat& seat : team.seats())
+    text += fmt::format("\n  {}={} trocar join {}:{} --role {}", kTokenVariable, team.token(),
+                        parse_place(choice.at, "--team-at").address, team.port(), seat.role);
+  return text;
+}
+
+}  // namespace trocar::app
