@@ -1,4 +1,4 @@
-#include "commands/check_scene.hpp"
+#include "commands/checks/check_scene.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
-#include <trocar/scene/checks/standing.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
+#include <trocar/scene/checks/standing.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/sim/model/bodies.hpp>

@@ -1,4 +1,4 @@
-#include "commands/check_exercise.hpp"
+#include "commands/checks/check_exercise.hpp"
 
 #include <chrono>
 #include <optional>

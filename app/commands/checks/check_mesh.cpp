@@ -1,4 +1,4 @@
-#include "commands/check_mesh.hpp"
+#include "commands/checks/check_mesh.hpp"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "commands/check_vessels.hpp"
+#include "commands/checks/check_vessels.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -15,8 +15,8 @@
 #include <trocar/core/parallel.hpp>
 #include <trocar/tissue/network/network.hpp>
 
-#include "commands/bench_inputs.hpp"
-#include "commands/bench_picture.hpp"
+#include "commands/bench/bench_inputs.hpp"
+#include "commands/bench/bench_picture.hpp"
 #include "commands/command.hpp"
 #include "commands/number_options.hpp"
 

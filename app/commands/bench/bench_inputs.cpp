@@ -1,4 +1,4 @@
-#include "commands/bench_inputs.hpp"
+#include "commands/bench/bench_inputs.hpp"
 
 #include <trocar/attempt/session.hpp>
 #include <trocar/attempt/sources.hpp>

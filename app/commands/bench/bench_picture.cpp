@@ -1,4 +1,4 @@
-#include "commands/bench_picture.hpp"
+#include "commands/bench/bench_picture.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -15,7 +15,7 @@
 #include <trocar/render/gl/gl_context.hpp>
 #include <trocar/view/scene/scene_view.hpp>
 
-#include "commands/bench_inputs.hpp"
+#include "commands/bench/bench_inputs.hpp"
 
 namespace trocar::app {
 namespace {

@@ -11,10 +11,10 @@
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/json/json.hpp>
 
-#include "commands/check_exercise.hpp"
-#include "commands/check_mesh.hpp"
-#include "commands/check_scene.hpp"
-#include "commands/check_vessels.hpp"
+#include "commands/checks/check_exercise.hpp"
+#include "commands/checks/check_mesh.hpp"
+#include "commands/checks/check_scene.hpp"
+#include "commands/checks/check_vessels.hpp"
 #include "commands/command.hpp"
 #include "commands/number_options.hpp"
 
