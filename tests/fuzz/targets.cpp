@@ -28,6 +28,7 @@ std::span<const Target> targets() {
       {"volume_nrrd", volume_file, 2'000, volume_nrrd_seeds, volume_words},
       {"volume_meta", volume_file, 2'000, volume_meta_seeds, volume_words},
       {"volume_dicom", volume_file, 3'000, volume_dicom_seeds, volume_words},
+      {"team", team_message, 4'000, team_seeds},
   };
   return all;
 }

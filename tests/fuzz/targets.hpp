@@ -49,6 +49,8 @@ std::vector<Seed> volume_nrrd_seeds();
 std::vector<Seed> volume_meta_seeds();
 std::vector<Seed> volume_dicom_seeds();
 std::vector<std::string> volume_words();
+void team_message(Bytes bytes);
+std::vector<Seed> team_seeds();
 
 /// So small that a compile takes milliseconds.
 bool quick_to_compile(const scene::Description& description);

@@ -66,16 +66,17 @@ bool append_inputs(core::ByteView bytes, std::uint64_t count, std::vector<Input>
   const std::size_t before = inputs.size(), after = before + count;
   core::ByteReader from(bytes);
   Words words{};
-  while (from.sound() && !from.at_end()) {
+  bool sound = true;
+  while (sound && !from.at_end()) {
     const std::uint64_t mask = from.varint();
     const std::uint64_t repeats = mask ? 1 : from.varint();
-    if (!from.sound() || mask >> kWords || repeats == 0 || repeats > after - inputs.size()) break;
-    for (std::size_t i = 0; i < kWords; ++i)
+    sound = from.sound() && !(mask >> kWords) && repeats > 0 && repeats <= after - inputs.size();
+    for (std::size_t i = 0; sound && i < kWords; ++i)
       if (mask >> i & 1) words[i] ^= std::uint32_t(from.varint());
-    if (!from.sound()) break;
-    inputs.insert(inputs.end(), repeats, input_of(words));
+    sound = sound && from.sound();
+    if (sound) inputs.insert(inputs.end(), repeats, input_of(words));
   }
-  if (from.sound() && from.at_end() && inputs.size() == after) return true;
+  if (sound && inputs.size() == after) return true;
   inputs.resize(before);
   return false;
 }
