@@ -26,7 +26,7 @@ namespace {
 
 struct TrainChoice {
   std::string exercise, input = "mouse", record, shots, video, report, data, size, stereo = "off", show, analysis,
-                        trainee, log, beside;
+                        trainee, log, beside, map;
   double seconds = 0, data_rate = pictures::kDataRate;
   std::uint64_t seed = 0;
   bool headless = false, familiarisation = false, no_store = false;
@@ -128,6 +128,7 @@ WindowOptions window_options(const TrainChoice& o, training::Store* store,
   w.familiarisation = o.familiarisation;
   w.store = store;
   w.beside = o.beside;
+  if (!o.map.empty()) w.map = attempt::read_input_map(o.map);
   if (!o.team.roles.empty()) w.team = team_plan(o.team);
   w.other_solver = std::move(other);
   return w;
@@ -203,6 +204,7 @@ void add_train(CLI::App& program, Chosen& chosen) {
   c->add_flag("--no-store", options->no_store, "leave nothing in the session store");
   c->add_option("--seconds", options->seconds, "stop after so much simulated time")
       ->check(number_above(0, kLongestRun, "s"));
+  c->add_option("--map", options->map, "in the window: a file that says what each of several devices leads");
   add_team_options(*c, options->team);
   c->add_option("--log", options->log, "write what happens as JSON lines to this file");
   c->callback([options, &chosen] { chosen.run = [options, &chosen] { return train(*options, chosen.json); }; });

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
+#include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -18,11 +19,6 @@ namespace {
 
 using devices::Button;
 using devices::Gamepad;
-
-constexpr const char* kButtonNames[] = {
-    "a",     "b",          "x",           "y",  "left_shoulder", "right_shoulder", "back",
-    "start", "left_stick", "right_stick", "up", "right",         "down",           "left"};
-static_assert(std::size(kButtonNames) == std::size_t(Button::count));
 
 constexpr int kGlfwButtons[] = {
     GLFW_GAMEPAD_BUTTON_A,           GLFW_GAMEPAD_BUTTON_B,           GLFW_GAMEPAD_BUTTON_X,
@@ -70,9 +66,10 @@ std::optional<Gamepad> read_gamepad_line(const std::string& line, bool& gone) {
     *axes[i] = float(std::clamp(value, i < 4 ? -1.0 : 0.0, 1.0));
   }
   for (std::string word; words >> word;) {
-    const auto found = std::find(std::begin(kButtonNames), std::end(kButtonNames), word);
-    if (found == std::end(kButtonNames)) return {};
-    g.set(Button(found - std::begin(kButtonNames)));
+    const std::vector<std::string>& names = devices::button_names();
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) return {};
+    g.set(Button(found - names.begin()));
   }
   return g;
 }
@@ -82,18 +79,30 @@ bool touched(const Gamepad& g) {
                                      g.left_trigger, g.right_trigger}) > kTouched;
 }
 
-/// The file or pipe behind TROCAR_GAMEPAD.
+/// A file or pipe of TROCAR_GAMEPAD.
 class Gamepads::Seam {
  public:
-  explicit Seam(const char* path) : m_file(open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+  explicit Seam(const std::string& path) : m_file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
     if (m_file < 0) core::log::warn("TROCAR_GAMEPAD: cannot read {}", path);
   }
   ~Seam() {
     if (m_file >= 0) close(m_file);
   }
-  Seam(const Seam&) = delete;
-  Seam& operator=(const Seam&) = delete;
+  Seam(Seam&& other) noexcept
+      : m_file(std::exchange(other.m_file, -1)), m_text(std::move(other.m_text)), m_pad(std::move(other.m_pad)) {}
+  Seam& operator=(Seam&&) = delete;
 
+  /// What its pad does after the next line, if there is one; nothing: it is unplugged.
+  const std::optional<Gamepad>& poll() {
+    const std::optional<std::string> text = line();
+    if (!text) return m_pad;
+    bool gone = false;
+    const std::optional<Gamepad> sample = read_gamepad_line(*text, gone);
+    if (sample || gone) m_pad = sample;
+    return m_pad;
+  }
+
+ private:
   /// The next whole line, if there is one.
   std::optional<std::string> line() {
     const std::size_t end = m_text.find('\n');
@@ -112,61 +121,74 @@ class Gamepads::Seam {
     return out;
   }
 
- private:
   int m_file = -1;
   std::string m_text;
+  std::optional<Gamepad> m_pad;
 };
 
 Gamepads::Gamepads() {
-  if (const char* path = std::getenv("TROCAR_GAMEPAD"); path && *path) m_seam = std::make_unique<Seam>(path);
+  const char* given = std::getenv("TROCAR_GAMEPAD");
+  if (!given || !*given) return;
+  std::istringstream paths(given);
+  for (std::string path; std::getline(paths, path, ',');) m_seams.emplace_back(path);
 }
 Gamepads::~Gamepads() = default;
 
 void Gamepads::poll() {
-  m_lost = false;
-  if (m_seam)
-    poll_seam();
+  m_all.clear();
+  m_numbers.clear();
+  if (!m_seams.empty())
+    poll_seams();
   else
     poll_glfw();
+  choose_used();
 }
 
-void Gamepads::poll_seam() {
-  const std::optional<std::string> line = m_seam->line();
-  if (!line) return;
-  bool gone = false;
-  const std::optional<Gamepad> sample = read_gamepad_line(*line, gone);
-  if (gone) {
-    m_lost = present();
-    m_names.clear();
-    m_state = {};
-  } else if (sample) {
-    m_names = {"gamepad of TROCAR_GAMEPAD"};
-    m_state = *sample;
+void Gamepads::poll_seams() {
+  for (std::size_t i = 0; i < m_seams.size(); ++i) {
+    const std::optional<Gamepad>& pad = m_seams[i].poll();
+    if (!pad) continue;
+    m_all.push_back({"gamepad of TROCAR_GAMEPAD", true, *pad, {}, {}});
+    m_numbers.push_back(int(i));
   }
 }
 
 void Gamepads::poll_glfw() {
-  m_names.clear();
-  Gamepad first, used;
-  int first_id = -1, touched_id = -1;
-  bool used_there = false;
-  GLFWgamepadstate raw;
   for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
-    if (!glfwJoystickIsGamepad(id) || !glfwGetGamepadState(id, &raw)) continue;
-    const char* name = glfwGetGamepadName(id);
-    m_names.emplace_back(name ? name : "gamepad");
-    const Gamepad pad = from_glfw(raw);
-    if (first_id < 0) first_id = id, first = pad;
-    if (id == m_used) used_there = true, used = pad;
-    if (touched_id < 0 && id != m_used && touched(pad)) touched_id = id;
+    if (!glfwJoystickPresent(id)) continue;
+    devices::DeviceReading reading;
+    GLFWgamepadstate raw;
+    reading.is_pad = glfwJoystickIsGamepad(id) && glfwGetGamepadState(id, &raw);
+    const char* name = reading.is_pad ? glfwGetGamepadName(id) : glfwGetJoystickName(id);
+    reading.name = name ? name : "gamepad";
+    if (reading.is_pad) reading.pad = from_glfw(raw);
+    int count = 0;
+    if (const float* axes = glfwGetJoystickAxes(id, &count)) reading.axes.assign(axes, axes + count);
+    if (const unsigned char* buttons = glfwGetJoystickButtons(id, &count))
+      reading.buttons.assign(buttons, buttons + count);
+    m_all.push_back(std::move(reading));
+    m_numbers.push_back(id);
   }
-  m_lost = m_used >= 0 && !used_there;
-  if (touched_id >= 0 && !(used_there && touched(used))) {
-    glfwGetGamepadState(touched_id, &raw);
-    m_used = touched_id;
-    m_state = from_glfw(raw);
-  } else if (used_there) {
-    m_state = used;
+}
+
+/// Of the pads without a part the one last touched.
+void Gamepads::choose_used() {
+  m_names.clear();
+  const Gamepad *used = nullptr, *other = nullptr;
+  int other_number = -1;
+  for (std::size_t i = 0; i < m_all.size(); ++i) {
+    const devices::DeviceReading& reading = m_all[i];
+    if (!reading.is_pad || (m_claimed && m_claimed(reading))) continue;
+    m_names.push_back(reading.name);
+    if (m_numbers[i] == m_used) used = &reading.pad;
+    if (!other && m_numbers[i] != m_used && touched(reading.pad)) other = &reading.pad, other_number = m_numbers[i];
+  }
+  m_lost = m_used >= 0 && !used;
+  if (other && !(used && touched(*used))) {
+    m_used = other_number;
+    m_state = *other;
+  } else if (used) {
+    m_state = *used;
   } else {
     m_used = -1;
     m_state = {};  // not yet touched: nobody's

@@ -66,6 +66,7 @@ class Window {
   /// What the hands did since the last begin_picture(). At rest, but for the gamepad, while the pointer is free.
   const devices::HandSample& hands() const { return m_sample; }
   const Gamepads& gamepads() const { return m_gamepads; }
+  Gamepads& gamepads() { return m_gamepads; }
   const WindowKeys& keys() const { return m_keys; }
   /// Every key that went down since the last picture, and went up again perhaps; one that is held repeats.
   const std::vector<TypedKey>& typed() const { return m_typed; }

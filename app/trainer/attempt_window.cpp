@@ -60,6 +60,7 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
     m_pilot->lead_both(stage.settings.both_hands);
     m_hint = stage.settings.show_hint;
     m_hands = std::make_unique<attempt::HandsSource>(lesson.model);
+    give_parts();
   } else if (!stage.options.member) {
     m_source = attempt::make_source(lesson, plan.input);
   }
@@ -70,14 +71,25 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
   stage.window.set_title(window_title(lesson));
 }
 
+AttemptWindow::~AttemptWindow() {
+  m_stage.window.gamepads().leave_out({});
+  m_stage.close_elsewhere();
+}
+
+/// Several devices, each with what it leads.
+void AttemptWindow::give_parts() {
+  if (!m_stage.options.map) return;
+  m_parts = std::make_unique<attempt::DeviceParts>(*m_stage.options.map, m_lesson.model);
+  m_stage.window.gamepads().leave_out([this](const devices::DeviceReading& reading) {
+    return m_parts->claims(reading, m_stage.window.gamepads().all());
+  });
+}
+
 /// Others take part, or this is a part of somebody else's attempt.
 void AttemptWindow::join_in() {
   if (const auto& member = m_stage.options.member; member && m_pilot) {
     m_hint = false;
-    int first = devices::kScope;
-    for (int h = attempt::hand_count(m_lesson.model) - 1; h >= 0; --h)
-      if (member->duty().hands >> h & 1) first = h;
-    m_pilot->choose(first);
+    m_pilot->choose(first_of(member->duty()));
   }
   if (!m_stage.options.team || m_stage.options.member) return;
   m_team = std::make_unique<attempt::TeamHost>(m_lesson, *m_stage.options.team);
@@ -92,16 +104,17 @@ attempt::InputSource& AttemptWindow::source() const {
 }
 
 /// Where the hands command everything to be.
-void AttemptWindow::put(const sim::Input& command) {
+void AttemptWindow::put(const sim::Input& command, float dt, const attempt::Snapshot& now) {
+  const sim::Input& all = m_parts ? m_parts->lead(command, m_stage.window.gamepads().all(), dt, now.state) : command;
   if (const auto& member = m_stage.options.member)
-    member->put(command);
+    member->put(all);
   else
-    m_hands->put(command);
+    m_hands->put(all);
 }
 
 /// Who is here, and how old what comes from them is; how to join for who is not.
 std::vector<std::string> AttemptWindow::team_in_words() const {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = m_parts ? m_parts->in_words() : std::vector<std::string>();
   if (const auto& member = m_stage.options.member)
     lines.push_back(fmt::format("your part is the {}: {:.0f} ms", member->role(), 1000 * member->latency()));
   if (!m_team) return lines;
@@ -258,6 +271,9 @@ void AttemptWindow::look_at_keys() {
   const Window& window = m_stage.window;
   if (window.gamepads().lost() && m_gamepad_used)
     hold("The gamepad is gone: plug it in again, or go on with mouse and keyboard.");
+  if (m_parts && !stands_still())
+    if (const std::string missing = m_parts->missing(window.gamepads().all()); !missing.empty())
+      hold(missing + ": plug it in, and go on.");
   if (m_had_focus && !window.focused() && m_pilot && !stands_still()) hold("Another window came to the front.");
   m_had_focus = window.focused();
   m_gamepad_used |= touched(window.gamepads().state());
@@ -288,14 +304,15 @@ void AttemptWindow::lead(const attempt::Snapshot& now) {
   sample.dt *= float(std::clamp(now.speed, kSlowest, 1.0));  // where time is slow, held keys and sticks are as slow
   const bool still = stands_still() || m_rack;
   if (still) {
-    if (m_rack && !stands_still()) put(m_pilot->rest(sample.dt, now.state));
+    if (m_rack && !stands_still()) put(m_pilot->rest(sample.dt, now.state), sample.dt, now);
   } else {
     if (m_was_still) {
       m_pilot->set(hand_settings(m_stage.settings, 0));
       m_pilot->lead_both(m_stage.settings.both_hands);
       m_pilot->take_up(sample);
+      if (m_parts) m_parts->take_up(m_stage.window.gamepads().all());
     }
-    put(m_pilot->lead(sample, now.state));
+    put(m_pilot->lead(sample, now.state), sample.dt, now);
     if (m_pilot->asks_for_rack()) m_rack = true;
     keep_mode();
   }

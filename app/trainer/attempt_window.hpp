@@ -7,6 +7,7 @@
 
 #include <trocar/attempt/attempt_log.hpp>
 #include <trocar/attempt/hand_pilot.hpp>
+#include <trocar/attempt/inputs/device_parts.hpp>
 #include <trocar/attempt/live.hpp>
 #include <trocar/attempt/sources.hpp>
 #include <trocar/attempt/team/host.hpp>
@@ -23,7 +24,7 @@ class AttemptWindow {
  public:
   /// @param plan.input "mouse" or "gamepad": hands; else a source, see make_source()
   AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson, const attempt::AttemptPlan& plan);
-  ~AttemptWindow() { m_stage.close_elsewhere(); }
+  ~AttemptWindow();
 
   Choice run();
   const Json& result() const { return m_result; }
@@ -37,8 +38,9 @@ class AttemptWindow {
   void hold(const std::string& why);
   bool stands_still() const;
   void lead(const attempt::Snapshot& now);
-  void put(const sim::Input& command);
+  void put(const sim::Input& command, float dt, const attempt::Snapshot& now);
   attempt::InputSource& source() const;
+  void give_parts();
   void join_in();
   void tell_of_team(const attempt::Snapshot& now);
   std::vector<std::string> team_in_words() const;
@@ -70,6 +72,7 @@ class AttemptWindow {
   attempt::Session m_session;
   attempt::AttemptLog m_log;
   std::unique_ptr<attempt::HandPilot> m_pilot;
+  std::unique_ptr<attempt::DeviceParts> m_parts;    ///< null: all devices lead the same
   std::unique_ptr<attempt::HandsSource> m_hands;    ///< null: something else leads
   std::unique_ptr<attempt::TeamHost> m_team;        ///< null: nobody else takes part
   std::unique_ptr<attempt::InputSource> m_source;   ///< not the hands themselves

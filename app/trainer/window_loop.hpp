@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include <trocar/attempt/inputs/input_map.hpp>
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/attempt/team/host.hpp>
 #include <trocar/attempt/team/member.hpp>
@@ -26,6 +27,7 @@ struct WindowOptions {
   training::Store* store = nullptr;                     ///< null: nothing is kept but recordings that were asked for
   std::string beside;                                   ///< organ whose other solver runs beside; empty: none
   std::shared_ptr<const attempt::Lesson> other_solver;  ///< the exercise with it
+  std::optional<attempt::InputMap> map;                 ///< what several devices lead; nothing: one person leads all
   std::optional<attempt::TeamPlan> team;                ///< whoever plays along; nothing: nobody
   std::shared_ptr<attempt::TeamMember> member;          ///< this is a part in somebody else's attempt; null: it is not
 };

@@ -45,6 +45,7 @@ class HandPilot {
   /// After a pause or a lost device: nothing that is held down now acts, every handle keeps its grip.
   void take_up(const devices::HandSample& sample) { devices::take_up(m_settings, sample, m_hands); }
 
+  const sim::Model& model() const { return m_model; }
   const devices::HandState& hands() const { return m_hands.state; }
   const devices::BothHands& both() const { return m_hands; }
   const devices::HandSettings& settings() const { return m_settings; }

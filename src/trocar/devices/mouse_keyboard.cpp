@@ -244,6 +244,13 @@ void move_handle(const HandSettings& settings, const HandSample& sample, float s
 
 }  // namespace
 
+const std::vector<std::string>& button_names() {
+  static const std::vector<std::string> names{
+      "a",     "b",          "x",           "y",  "left_shoulder", "right_shoulder", "back",
+      "start", "left_stick", "right_stick", "up", "right",         "down",           "left"};
+  return names;
+}
+
 const char* name_of(Key key) noexcept { return kKeyNames[std::size_t(key)]; }
 
 void choose(int led, HandState& state) noexcept {

@@ -17,6 +17,8 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace trocar::devices {
 
@@ -92,6 +94,9 @@ enum class Button : std::uint8_t {
   left,
   count
 };
+
+/// "a", "left_shoulder": in Button's order.
+const std::vector<std::string>& button_names();
 
 /// Sticks -1..1, right and down positive as consoles report them; triggers 0..1. All 0 without a gamepad.
 struct Gamepad {

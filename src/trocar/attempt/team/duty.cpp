@@ -1,6 +1,7 @@
 #include <trocar/attempt/hand_names.hpp>
 #include <trocar/attempt/team/duty.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/devices/mouse_keyboard.hpp>
 
 namespace trocar::attempt {
 namespace {
@@ -39,6 +40,12 @@ Duty duty_of(std::string_view role, const sim::Model& model, const std::string& 
   throw core::BadInput({{{where, 0, 0},
                          std::string("expected camera, ") + (count > 2 ? "assistant, " : "") +
                              (count >= 2 ? "left, right" : "a trocar") + names + "; got " + std::string(role)}});
+}
+
+int first_of(const Duty& duty) {
+  for (int h = 0; h < sim::kMaxTools; ++h)
+    if (duty.hands >> h & 1) return h;
+  return devices::kScope;
 }
 
 void copy(const Duty& duty, const sim::Input& from, sim::Input& to) {

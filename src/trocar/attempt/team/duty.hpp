@@ -24,6 +24,9 @@ struct Duty {
 /// @throws core::BadInput naming `where` when the scene has none such
 Duty duty_of(std::string_view role, const sim::Model& model, const std::string& where);
 
+/// What it leads first: a hand, or devices::kScope.
+int first_of(const Duty& duty);
+
 /// What that duty leads goes from one input into the other; all else stays.
 void copy(const Duty& duty, const sim::Input& from, sim::Input& to);
 
