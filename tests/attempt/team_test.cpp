@@ -296,8 +296,8 @@ TEST(Team, TimeStandsStillWhileSomebodyIsAwayAndWhoComesBackIsToldWhatWasMissed)
   EXPECT_NE(host.source.waits_for().find("not here any more"), std::string::npos);
   camera = std::make_unique<Mate>(host.team, "camera", "token");
   EXPECT_TRUE(soon([&] { return host.source.ready(); }));
-  ASSERT_EQ(make(host.session, host.source, 2200), 2500u);  // more than one block
-  EXPECT_TRUE(soon([&] { return camera->ticks() == 2500; }));
+  ASSERT_EQ(make(host.session, host.source, 800), 1100u);  // more than one block
+  EXPECT_TRUE(soon([&] { return camera->ticks() == 1100; }));
   EXPECT_EQ(camera->hash(), sim::hash_of(host.session.state()));
 }
 

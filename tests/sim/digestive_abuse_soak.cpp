@@ -1,8 +1,8 @@
 // Hands that pull, burn, cut, spill and change instruments at random in the scenes of the gallbladder, ten simulated
 // minutes each. Whatever they do: numbers stay finite, no joule appears from nowhere, the fluids' account is exact to
-// the picolitre, and when they let go no body is left in a knot: what holds together hangs together as it was drawn.
-// Jaws that have opened hold nothing then; what a hook's foot has caught, or a tube in a tear, comes off in a round.
-// TROCAR_ABUSE_SECONDS does less of it.
+// the picolitre, and when they have let go no body is left in a knot: what holds together hangs together as it was
+// drawn. Jaws that have opened hold nothing then; what a hook's foot has caught, or a tube in a tear, comes off in a
+// round. TROCAR_ABUSE_SECONDS does less of it.
 #include <cstdio>
 #include <cstdlib>
 
@@ -115,7 +115,7 @@ TEST_P(DigestiveAbuse, LeavesNumbersFiniteTheAccountExactAndNoBodyInAKnot) {
     ASSERT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
     EXPECT_LT(r.most_energy, kMostEnergy) << "[J]";
     EXPECT_FALSE(r.held);  // what was torn off may lie on an instrument: that is told, not refused
-    EXPECT_LE(drawn.share, kMostPull) << drawn.worst << ", " << drawn.most;
+    if (r.let_go) EXPECT_LE(drawn.share, kMostPull) << drawn.worst << ", " << drawn.most;
     ASSERT_EQ(abuse::broken(model, attack.state()), "");
   }
   EXPECT_GT(done, 3) << "hands that never hold or tear anything prove nothing";
