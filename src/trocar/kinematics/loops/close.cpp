@@ -5,6 +5,7 @@
 
 #include <trocar/kinematics/loops/close.hpp>
 #include <trocar/kinematics/loops/conditions.hpp>
+#include <trocar/kinematics/loops/equations.hpp>
 
 namespace trocar::kinematics {
 
@@ -32,12 +33,6 @@ void hold_drives(const Mechanism& m, LoopWork& work) noexcept {
 
 namespace {
 
-int conditions_of(std::span<const Closure> closures) noexcept {
-  int count = 0;
-  for (const Closure& c : closures) count += c.count;
-  return count;
-}
-
 template <class F>
 void each_condition(const Mechanism& m, std::span<const Closure> goals, F&& f) noexcept {
   int row = 0;
@@ -46,8 +41,21 @@ void each_condition(const Mechanism& m, std::span<const Closure> goals, F&& f) n
       for (int k = 0; k < c.count; ++k) f(row++, is_length(c.conditions[std::size_t(k)]));
 }
 
-/// Pose and scaled residuals at u. @return their root of squares
-double look(const Mechanism& m, std::span<const double> u, LoopWork& w, std::span<const Closure> goals) noexcept {
+}  // namespace
+
+int rows_of(const Mechanism& m, std::span<const Closure> goals) noexcept {
+  int count = m.rows;
+  for (const Closure& c : goals) count += c.count;
+  return count;
+}
+
+void list_free(LoopWork& w) noexcept {
+  w.free.clear();  // its room was reserved
+  for (std::size_t u = 0; u < w.held.size(); ++u)
+    if (!w.held[u]) w.free.push_back(int(u));
+}
+
+double evaluate(const Mechanism& m, std::span<const double> u, LoopWork& w, std::span<const Closure> goals) noexcept {
   forward(m, u, w.pose);
   residuals(m.closures, w.pose, w.r.data());
   residuals(goals, w.pose, w.r.data() + m.rows);
@@ -61,8 +69,7 @@ double look(const Mechanism& m, std::span<const double> u, LoopWork& w, std::spa
   return std::sqrt(sum);
 }
 
-/// Scaled slopes at the pose; the columns that are free are factored.
-int factor(const Mechanism& m, LoopWork& w, std::span<const Closure> goals, int rows, double least) noexcept {
+void evaluate_slopes(const Mechanism& m, LoopWork& w, std::span<const Closure> goals, int rows) noexcept {
   slopes(m, m.closures, w.pose, w.slope.data(), rows);
   slopes(m, goals, w.pose, w.slope.data(), rows, m.rows);
   const double by = 1 / m.length;
@@ -71,16 +78,17 @@ int factor(const Mechanism& m, LoopWork& w, std::span<const Closure> goals, int 
     const double scale = m.scale(u);
     each_condition(m, goals, [&](int row, bool is_metres) { column[row] *= is_metres ? scale * by : scale; });
   }
+}
+
+namespace {
+
+/// Of the columns that are free. @return the rank
+int factor(const Mechanism& m, LoopWork& w, std::span<const Closure> goals, int rows, double least) noexcept {
+  evaluate_slopes(m, w, goals, rows);
   double* a = w.qr.matrix(rows, int(w.free.size()));
   for (std::size_t k = 0; k < w.free.size(); ++k)
     std::copy_n(w.slope.begin() + w.free[k] * rows, rows, a + k * std::size_t(rows));
   return w.qr.factor(least);
-}
-
-void list_free(LoopWork& w) noexcept {
-  w.free.clear();  // its room was reserved
-  for (std::size_t u = 0; u < w.held.size(); ++u)
-    if (!w.held[u]) w.free.push_back(int(u));
 }
 
 /// The largest gap of a closure, as a length and as an angle.
@@ -103,11 +111,11 @@ constexpr double kNoise = 1e-10;      // of a residual that no step makes smalle
 LoopReport close(const Mechanism& m, std::span<double> u, LoopWork& w, const LoopOptions& options,
                  std::span<const Closure> goals) noexcept {
   LoopReport report;
-  const int rows = m.rows + conditions_of(goals);
+  const int rows = rows_of(m, goals);
   list_free(w);
   report.unknowns = int(w.free.size());
   report.conditions = rows;
-  double size = look(m, u, w, goals);
+  double size = evaluate(m, u, w, goals);
   for (; size > options.tolerance && report.iterations < options.iterations; ++report.iterations) {
     // Where conditions depend on each other at the closed pose, their pivots are as small as the residual on the way to
     // it, and steps along them would be noise.
@@ -124,12 +132,12 @@ LoopReport close(const Mechanism& m, std::span<double> u, LoopWork& w, const Loo
         const auto i = std::size_t(w.free[k]);
         u[i] = w.trial[i] - share * w.step[k] * m.scale(w.free[k]);
       }
-      next = look(m, u, w, goals);
+      next = evaluate(m, u, w, goals);
       if (next < (1 - 1e-3 * share) * size) break;
     }
     if (!(next < size)) {
       std::copy(w.trial.begin(), w.trial.end(), u.begin());
-      size = look(m, u, w, goals);
+      size = evaluate(m, u, w, goals);
       break;
     }
     size = next;
@@ -149,7 +157,7 @@ LoopReport close(const Mechanism& m, std::span<double> u, LoopWork& w, const Loo
 
 Branch branch_at(const Mechanism& m, std::span<const double> u, LoopWork& w) {
   list_free(w);
-  look(m, u, w, {});
+  evaluate(m, u, w, {});
   Branch branch;
   const int rank = m.rows > 0 && !w.free.empty() ? factor(m, w, {}, m.rows, 1e-8) : 0;
   for (int k = 0; k < rank; ++k) branch.columns.push_back(w.free[std::size_t(w.qr.column(k))]);

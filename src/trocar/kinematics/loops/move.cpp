@@ -113,8 +113,8 @@ class Moving {
   const Branch& m_branch;
   LoopWork& w;
   LoopOptions m_options;
-  /// Of the branch's minor, and how fast it falls: a step may halve it. Branches meet where it is 0, and beyond that the
-  /// other one may have the same sign.
+  /// Of the branch's minor, and how fast it falls: a step may halve it. Branches meet where it is 0, and beyond that
+  /// the other one may have the same sign.
   double m_share = 1, m_falls = 0;
   std::vector<double> m_from, m_tangent, m_good;
 };
