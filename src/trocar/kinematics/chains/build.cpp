@@ -20,6 +20,7 @@ class Building {
     m.name = m_d.name;
     m.gravity = m_d.gravity;
     m.parameters = m_d.parameters;
+    m.named_parameters = int(m.parameters.size());
     for (const Parameter& p : m_d.parameters) m.parameter_values.push_back(p.value);
     m.term_start.push_back(0);
     coordinates();

@@ -124,6 +124,7 @@ struct Mechanism {
   std::vector<BodyShape> shapes;
   Vec3d gravity;
 
+  int named_parameters = 0;              ///< of the description: the first of them
   std::vector<Parameter> parameters;     ///< as described, then a dimension each that has none: "rod.at.x"
   std::vector<double> parameter_values;  ///< (parameters)
   struct Term {

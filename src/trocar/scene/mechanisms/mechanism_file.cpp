@@ -69,6 +69,10 @@ class MechanismReading {
     if (m_faults.size() == before)
       for (const MechanismFault& f : check(d)) tell(m_faults, {place_of(f), f.message});
     if (m_faults.size() == before) check_units();
+    std::stable_sort(m_faults.begin() + std::ptrdiff_t(before), m_faults.end(),
+                     [](const core::Fault& a, const core::Fault& b) {
+                       return std::pair(a.at.line, a.at.column) < std::pair(b.at.line, b.at.column);
+                     });
     return std::move(d);
   }
 
