@@ -28,6 +28,8 @@ std::span<const Target> targets() {
       {"volume_nrrd", volume_file, 2'000, volume_nrrd_seeds, volume_words},
       {"volume_meta", volume_file, 2'000, volume_meta_seeds, volume_words},
       {"volume_dicom", volume_file, 3'000, volume_dicom_seeds, volume_words},
+      {"mechanism", mechanism_file, 6'000, mechanism_seeds, json_words, mutate_json, cross_json},
+      {"urdf", urdf_file, 3'000, urdf_seeds, urdf_words},
   };
   return all;
 }
