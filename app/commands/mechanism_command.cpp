@@ -218,7 +218,7 @@ int show_workspace(const Mechanism& m, const MechanismWords& given, bool json) {
              w.samples, w.closed, w.within);
   constexpr const char* kAxes[] = {"x", "y", "z"};
   for (int k = 0; k < 3; ++k) fmt::print("  {} {:>10.3f} to {:>10.3f} mm\n", kAxes[k], 1e3 * w.low[k], 1e3 * w.high[k]);
-  if (m.drives.size() == 1)
+  if (w.path > 0)
     fmt::print("  its way is {:.3f} mm long\n", 1e3 * w.path);
   else
     fmt::print("  reachable volume {:.4g} mL (cells of {:.3g} mm; half of the poses: {:.4g} mL)\n", 1e6 * w.volume,
@@ -245,7 +245,7 @@ void add_mechanism(CLI::App& program, Chosen& chosen) {
   c->add_option("--set", given->sets, "a free coordinate, as NAME=DEGREES or NAME=MM; what is not set follows");
   c->add_option("--drive", given->drives, "an actuator, as NAME=0..1");
   c->add_option("--frame", given->frame, "workspace: of which frame")->capture_default_str();
-  c->add_option("--samples", given->samples, "workspace: how many poses")
+  c->add_option("--samples", given->samples, "workspace: how many poses within limits")
       ->transform(whole_number(100, 10'000'000))
       ->capture_default_str();
   c->add_option("--cell-mm", given->cell_mm, "workspace: edge of a cell, default a fortieth of what is reached")

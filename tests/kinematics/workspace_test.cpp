@@ -26,7 +26,7 @@ TEST(Workspace, OfASphericalArmIsItsShellOfAHemisphere) {
   EXPECT_EQ(w.within, w.samples);
   EXPECT_GT(w.volume, shell) << "cells at the border count whole";
   EXPECT_LT(w.volume, 1.25 * shell);
-  EXPECT_GT(w.volume_of_half, 0.97 * w.volume) << "settled";
+  EXPECT_GT(w.volume_of_half, 0.95 * w.volume) << "settled";
   EXPECT_NEAR(w.high.z, 0.3, 1e-3);
   EXPECT_NEAR(w.low.z, 0, 1e-3);
 }

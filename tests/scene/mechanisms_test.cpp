@@ -153,6 +153,23 @@ TEST(ShippedMechanisms, TheClipAppliersJawsStayParallelAndCloseFromSixMillimetre
   }
 }
 
+TEST(ShippedMechanisms, ShaftsOfArmsGoThroughTheirRemoteCentre) {
+  for (const char* name : {"dvrk_arm", "flexible_instrument", "redundant_arm"}) {
+    const Mechanism m = mechanism(name);
+    const auto frame = [&](const char* of) -> const BodyFrame& { return m.frames[std::size_t(m.frame(of))]; };
+    LoopWork work(m);
+    core::Random random(32);
+    std::vector<double> u = m.start_u();
+    for (int k = 0; k < 50; ++k) {
+      for (std::size_t i = 0; i < u.size(); ++i) u[i] += random.uniform(-0.1, 0.1) * m.scale(int(i));
+      ASSERT_TRUE(close(m, u, work).closed()) << name;
+      const Frame shaft = place(frame("shaft"), work.pose);
+      const Vec3d away = place(frame("remote_centre"), work.pose).p - shaft.p;
+      EXPECT_LT(length(cross(away, shaft.r.column(2))), 1e-12) << name;
+    }
+  }
+}
+
 /// Poses of an arm within its limits, loops closed.
 bool random_pose(const Mechanism& m, core::Random& random, std::vector<double>& u, LoopWork& work) {
   for (std::size_t i = 0; i < u.size(); ++i) {

@@ -26,11 +26,11 @@ Closure through(const BodyFrame& shaft, Vec3d port) noexcept {
 
 InverseWork::InverseWork(const Mechanism& m, int goals)
     : loops(m, goals),
-      damped(m.rows + goals + m.u_count(), m.u_count()),
+      damped(m.rows + goals + m.u_count() + int(m.dependents.size()), m.u_count()),
       start(m.independent.size()),
       best(m.independent.size()),
       gradient(m.independent.size()),
-      rhs(std::size_t(m.rows + goals + m.u_count())),
+      rhs(std::size_t(m.rows + goals + m.u_count()) + m.dependents.size()),
       kernel(m.independent.size()),
       own(m.independent) {
   for (const int i : m.dependents)
@@ -112,33 +112,64 @@ class Inverting {
       }
   }
 
+  /// How far a coordinate that follows others is beyond its limits, scaled.
+  double excess(int q) const noexcept {
+    const auto i = std::size_t(q);
+    const double x = w.loops.pose.q[i], unit = m.measures[i] == Measure::length ? m.length : 1;
+    return (x > m.high[i] ? x - m.high[i] : x < m.low[i] ? x - m.low[i] : 0) / unit;
+  }
+
+  /// Residuals at u, and what is beyond limits that no step can be kept within.
+  double size_at_u() noexcept {
+    const double size = evaluate(m, m_u, w.loops, m_goals);
+    double sum = size * size;
+    for (const int q : m.dependents) sum += excess(q) * excess(q);
+    return std::sqrt(sum);
+  }
+
+  void damped_step(double size, double damping) noexcept {
+    LoopWork& l = w.loops;
+    const int n = int(l.free.size()), limits = int(m.dependents.size()), rows = m_rows + n + limits;
+    double* a = w.damped.matrix(rows, n);
+    std::fill_n(a, rows * n, 0.0);
+    std::fill(w.rhs.begin(), w.rhs.end(), 0.0);
+    std::copy_n(l.r.begin(), m_rows, w.rhs.begin());
+    const double diagonal = std::sqrt(damping) * std::min(1.0, size);
+    for (int j = 0; j < n; ++j) {
+      std::copy_n(l.slope.begin() + l.free[std::size_t(j)] * m_rows, m_rows, a + j * rows);
+      a[j * rows + m_rows + j] = diagonal;
+    }
+    for (int k = 0; k < limits; ++k) {
+      const int q = m.dependents[std::size_t(k)];
+      const double over = excess(q);
+      if (over == 0) continue;
+      w.rhs[std::size_t(m_rows + n + k)] = over;
+      const double unit = m.measures[std::size_t(q)] == Measure::length ? m.length : 1;
+      for (int e = m.expand_start[std::size_t(q)]; e < m.expand_start[std::size_t(q) + 1]; ++e) {
+        const Mechanism::Entry& entry = m.expand[std::size_t(e)];
+        for (int j = 0; j < n; ++j)
+          if (l.free[std::size_t(j)] == entry.u) a[j * rows + m_rows + n + k] = entry.ratio * m.scale(entry.u) / unit;
+      }
+    }
+    w.damped.factor(1e-14);
+    w.damped.solve(w.rhs.data(), l.step.data());
+    std::copy(m_u.begin(), m_u.end(), l.trial.begin());
+    for (int j = 0; j < n; ++j) {
+      const int u = l.free[std::size_t(j)];
+      m_u[std::size_t(u)] -= std::clamp(l.step[std::size_t(j)], -1.0, 1.0) * m.scale(u);
+    }
+    keep_within();
+  }
+
   /// @return the residual's size where they end
   double damped_steps(InverseReport& report) noexcept {
-    LoopWork& l = w.loops;
-    double size = evaluate(m, m_u, l, m_goals), damping = 1e-2;
-    const int n = int(l.free.size()), rows = m_rows + n;
+    double size = size_at_u(), damping = 1e-2;
     bool fresh = true;
-    for (int k = 0; k < m_options.iterations && size > kNear && n > 0; ++k) {
+    for (int k = 0; k < m_options.iterations && size > kNear && !w.loops.free.empty(); ++k) {
       ++report.iterations;
-      if (fresh) evaluate_slopes(m, l, m_goals, m_rows);
-      double* a = w.damped.matrix(rows, n);
-      std::fill_n(a, rows * n, 0.0);
-      std::fill(w.rhs.begin(), w.rhs.end(), 0.0);
-      std::copy_n(l.r.begin(), m_rows, w.rhs.begin());
-      const double diagonal = std::sqrt(damping) * std::min(1.0, size);
-      for (int j = 0; j < n; ++j) {
-        std::copy_n(l.slope.begin() + l.free[std::size_t(j)] * m_rows, m_rows, a + j * rows);
-        a[j * rows + m_rows + j] = diagonal;
-      }
-      w.damped.factor(1e-14);
-      w.damped.solve(w.rhs.data(), l.step.data());
-      std::copy(m_u.begin(), m_u.end(), l.trial.begin());
-      for (int j = 0; j < n; ++j) {
-        const int u = l.free[std::size_t(j)];
-        m_u[std::size_t(u)] -= std::clamp(l.step[std::size_t(j)], -1.0, 1.0) * m.scale(u);
-      }
-      keep_within();
-      const double next = evaluate(m, m_u, l, m_goals);
+      if (fresh) evaluate_slopes(m, w.loops, m_goals, m_rows);
+      damped_step(size, damping);
+      const double next = size_at_u();
       fresh = next < size;
       if (fresh) {
         damping = std::max(1e-9, 0.2 * damping);
@@ -146,9 +177,9 @@ class Inverting {
         size = next;
       } else {
         damping *= 8;
-        std::copy(l.trial.begin(), l.trial.end(), m_u.begin());
-        if (damping > 1e6) return evaluate(m, m_u, l, m_goals);
-        evaluate(m, m_u, l, m_goals);
+        std::copy(w.loops.trial.begin(), w.loops.trial.end(), m_u.begin());
+        size_at_u();
+        if (damping > 1e6) return size;
       }
     }
     return size;

@@ -11,6 +11,8 @@ namespace trocar::kinematics {
 namespace {
 
 class Surveying {
+  static constexpr int kMostTries = 30;  ///< for a pose within limits
+
  public:
   Surveying(const Mechanism& mechanism, const BodyFrame& frame, const WorkspaceOptions& options)
       : m(mechanism), m_frame(frame), m_options(options), m_loops(mechanism), m_start(mechanism.start_u()) {}
@@ -20,7 +22,9 @@ class Surveying {
     const LoopReport first = close(m, m_start, m_loops);
     if (!first.closed())
       throw std::invalid_argument(m.name + ": expected a start that closes, got one " + words(m, first));
-    if (m.drives.size() == 1)
+    m_led = !m.drives.empty() && first.idle() == 0;  // drives that leave nothing else to choose
+    if (!m_led) hold(m_loops, {});
+    if (m_led && m.drives.size() == 1)
       along_the_drive();
     else
       at_random();
@@ -35,7 +39,6 @@ class Surveying {
     if (!report.closed() || report.limit >= 0) return;
     ++m_out.within;
     m_points.push_back(place(m_frame, m_loops.pose).p);
-    if (2 * m_out.samples <= m_options.samples) m_half = m_points.size();
   }
 
   void along_the_drive() {
@@ -58,16 +61,18 @@ class Surveying {
   void at_random() {
     core::Random random(m_options.seed);
     std::vector<double> u = m_start;
-    for (int k = 0; k < m_options.samples; ++k) {
+    for (std::int64_t k = 0; k < kMostTries * std::int64_t(m_options.samples) && m_out.within < m_options.samples;
+         ++k) {
       std::copy(m_start.begin(), m_start.end(), u.begin());
-      if (m.drives.empty())
+      if (!m_led)
         for (std::size_t i = 0; i < u.size(); ++i) {
           const auto q = std::size_t(m.independent[i]);
           const bool limited = std::isfinite(m.low[q]) && std::isfinite(m.high[q]);
           const double reach = m.measures[q] == Measure::angle ? portable::pi : m.length;
           u[i] = limited ? random.uniform(m.low[q], m.high[q]) : m_start[i] + random.uniform(-reach, reach);
         }
-      for (const Drive& d : m.drives) u[std::size_t(d.independent)] = d.value(random.uniform());
+      if (m_led)
+        for (const Drive& d : m.drives) u[std::size_t(d.independent)] = d.value(random.uniform());
       take(close(m, u, m_loops));
     }
   }
@@ -98,7 +103,7 @@ class Surveying {
     m_out.cell = m_options.cell > 0 ? std::max(m_options.cell, longest / 1e6) : longest / 40;
     if (!(m_out.cell > 0)) return;
     m_out.volume = cells(m_points.size());
-    m_out.volume_of_half = cells(m_half);
+    m_out.volume_of_half = cells(m_points.size() / 2);
   }
 
   const Mechanism& m;
@@ -107,7 +112,7 @@ class Surveying {
   LoopWork m_loops;
   std::vector<double> m_start;
   std::vector<Vec3d> m_points;
-  std::size_t m_half = 0;
+  bool m_led = false;
   Workspace m_out;
 };
 

@@ -15,8 +15,8 @@
 namespace trocar::kinematics {
 
 struct WorkspaceOptions {
-  int samples = 100'000;
-  double cell = 0;  ///< edge of a cell [m]; 0: a fortieth of the longest side of what is reached
+  int samples = 100'000;  ///< poses within limits; thirty times as many are tried at most
+  double cell = 0;        ///< edge of a cell [m]; 0: a fortieth of the longest side of what is reached
   unsigned seed = 1;
 };
 
@@ -27,7 +27,7 @@ struct Workspace {
   Vec3d low, high;            ///< what is reached lies between [m]
   double cell = 0;            ///< [m]
   double volume = 0;          ///< of cells that hold a place that was reached [m^3]
-  double volume_of_half = 0;  ///< the same of the first half of the samples: how far the count has settled
+  double volume_of_half = 0;  ///< the same of the first half of the places: how far the count has settled
   double path = 0;            ///< with one drive: length of the frame's way [m]
 };
 
