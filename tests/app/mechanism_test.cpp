@@ -62,6 +62,13 @@ TEST(Mechanism, WrongWordsExitWithTwoAndSayWhatThereIs) {
   EXPECT_EQ(trocar({"mechanism", "four_bar", "workspace", "--frame", "toe"}).exit, 2);
 }
 
+TEST(Mechanism, CheckSaysWhatAFileHolds) {
+  const Outcome o = trocar({"check", TROCAR_SOURCE_DIR "/scenes/mechanisms/bricard.json", "--json"});
+  ASSERT_EQ(o.exit, 0) << o.err;
+  EXPECT_EQ(o.json()["files"][0]["kind"], "mechanism");
+  EXPECT_EQ(o.json()["files"][0]["mobility"], 1);
+}
+
 TEST(Mechanism, FaultsOfItsFileAreAllTold) {
   const std::string path = testing::TempDir() + "trocar_mechanism_test.json";
   std::ofstream(path)

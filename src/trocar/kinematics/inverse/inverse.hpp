@@ -30,7 +30,7 @@ Closure through(const BodyFrame& shaft, Vec3d port) noexcept;
 struct InverseOptions {
   LoopOptions loops = {};
   int iterations = 60;  ///< of damped steps in an attempt
-  int attempts = 200;   ///< at most
+  int attempts = 400;   ///< at most
 };
 
 struct InverseWork {
