@@ -8,6 +8,7 @@
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
 #include <trocar/scene/json/json_text.hpp>
+#include <trocar/scene/mechanisms/mechanism_file.hpp>
 #include <trocar/training/exercise/exercise.hpp>
 
 #include "archive.hpp"
@@ -24,13 +25,10 @@ const std::vector<scene::Key>& known_keys() {
   static const std::vector<scene::Key> all = [] {
     std::vector<scene::Key> found;
     std::vector<std::string> seen;
-    std::vector<const scene::Shape*> open{&scene::scene_shape(),
-                                          &scene::organ_shape(),
-                                          &scene::instrument_shape(),
-                                          &scene::tissue_shape(),
-                                          &scene::vessels_shape(),
-                                          &training::exercise_shape(),
-                                          &training::common_rules_shape()};
+    std::vector<const scene::Shape*> open{&scene::scene_shape(),       &scene::organ_shape(),
+                                          &scene::instrument_shape(),  &scene::tissue_shape(),
+                                          &scene::vessels_shape(),     &scene::mechanism_shape(),
+                                          &training::exercise_shape(), &training::common_rules_shape()};
     for (std::size_t i = 0; i < open.size(); ++i) {
       if (std::find(seen.begin(), seen.end(), open[i]->name) != seen.end()) continue;
       seen.push_back(open[i]->name);

@@ -29,6 +29,8 @@ std::span<const Target> targets() {
       {"volume_meta", volume_file, 2'000, volume_meta_seeds, volume_words},
       {"volume_dicom", volume_file, 3'000, volume_dicom_seeds, volume_words},
       {"team", team_message, 4'000, team_seeds},
+      {"mechanism", mechanism_file, 6'000, mechanism_seeds, json_words, mutate_json, cross_json},
+      {"urdf", urdf_file, 3'000, urdf_seeds, urdf_words},
   };
   return all;
 }

@@ -51,6 +51,11 @@ std::vector<Seed> volume_dicom_seeds();
 std::vector<std::string> volume_words();
 void team_message(Bytes bytes);
 std::vector<Seed> team_seeds();
+void mechanism_file(Bytes bytes);
+std::vector<Seed> mechanism_seeds();
+void urdf_file(Bytes bytes);
+std::vector<Seed> urdf_seeds();
+std::vector<std::string> urdf_words();
 
 /// So small that a compile takes milliseconds.
 bool quick_to_compile(const scene::Description& description);

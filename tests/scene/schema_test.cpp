@@ -9,6 +9,7 @@
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
 #include <trocar/scene/json/schema.hpp>
+#include <trocar/scene/mechanisms/mechanism_file.hpp>
 #include <trocar/training/exercise/exercise.hpp>
 
 #include "files.hpp"
@@ -28,6 +29,7 @@ const Published kPublished[] = {{"scene.schema.json", scene_shape},
                                 {"tissue.schema.json", tissue_shape},
                                 {"vessel.schema.json", vessels_shape},
                                 {"look.schema.json", look_shape},
+                                {"mechanism.schema.json", mechanism_shape},
                                 {"exercise.schema.json", training::exercise_shape},
                                 {"common_rules.schema.json", training::common_rules_shape}};
 

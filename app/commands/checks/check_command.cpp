@@ -12,6 +12,7 @@
 #include <trocar/scene/json/json.hpp>
 
 #include "commands/checks/check_exercise.hpp"
+#include "commands/checks/check_mechanism.hpp"
 #include "commands/checks/check_mesh.hpp"
 #include "commands/checks/check_scene.hpp"
 #include "commands/checks/check_vessels.hpp"
@@ -81,6 +82,7 @@ void print_tissues(const Json& tissues) {
 /// @throws core::BadInput with all faults of the file
 Json check_one(const fs::path& path, double unit) {
   if (is_mesh_file(path)) return describe_mesh(path, unit);
+  if (is_mechanism_file(path)) return describe_mechanism(path);
   std::vector<core::Fault> faults;
   const scene::JsonDocument document = scene::load_json(path, faults);
   if (!faults.empty()) throw core::BadInput(scene::check_file(path));  // with what else is wrong beside the JSON
@@ -118,6 +120,7 @@ void print_checks(const Json& r) {
   if (r.contains("mesh")) print_mesh(r);
   if (r.contains("vessels")) print_vessels(r);
   if (r.contains("tissues")) print_tissues(r["tissues"]);
+  if (r.contains("mobility_words")) fmt::print("  {}\n", r["mobility_words"].get<std::string>());
   if (r.contains("note")) fmt::print("  {}\n", r["note"].get<std::string>());
   if (!r.contains("bodies")) return;
   print_scene(r);
@@ -148,8 +151,9 @@ void add_check(CLI::App& program, Chosen& chosen) {
   auto unit_mm = std::make_shared<double>(1.0);
   CLI::App* c = add_command(program, chosen, "check", "Say what files compile to or hold, or all their faults",
                             "trocar check scenes/organs/uterus.json scenes/gynaecology/sterilisation.json liver.msh");
-  c->add_option("files", *files,
-                "scenes, organs, instruments, tissue tables, vessels, exercises; meshes of tetrahedra (.msh, .vtk)")
+  c->add_option(
+       "files", *files,
+       "scenes, organs, instruments, tissue tables, vessels, mechanisms, exercises; meshes of tetrahedra (.msh, .vtk)")
       ->required();
   c->add_option("--unit-mm", *unit_mm, "the unit of meshes' coordinates in mm")
       ->check(number_between(1e-6, 1e6, "mm"))

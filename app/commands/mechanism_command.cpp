@@ -1,0 +1,256 @@
+// trocar mechanism: what a mechanism does: a pose of it, and where it can get to.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <trocar/core/decimal.hpp>
+#include <trocar/core/error.hpp>
+#include <trocar/core/json.hpp>
+#include <trocar/kinematics/inverse/workspace.hpp>
+#include <trocar/kinematics/loops/mobility.hpp>
+#include <trocar/scene/files/library.hpp>
+#include <trocar/scene/mechanisms/mechanism_file.hpp>
+
+#include "commands/command.hpp"
+#include "commands/number_options.hpp"
+
+namespace trocar::app {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace kinematics;
+
+struct MechanismWords {
+  std::string file, what = "pose", frame = "tip";
+  std::vector<std::string> sets, drives;
+  int samples = 100'000;
+  double cell_mm = 0;
+};
+
+[[noreturn]] void refuse_words(const std::string& word, const std::string& message) {
+  throw core::BadInput({{{word, 0, 0}, message}});
+}
+
+/// A file, or the name of one under scenes/mechanisms.
+fs::path mechanism_file(const std::string& name) {
+  std::error_code error;
+  const auto scenes = scene::found_scenes_folder();
+  if (fs::exists(name, error) || !scenes) return name;
+  const fs::path shipped = *scenes / "mechanisms" / (name + ".json");
+  return fs::exists(shipped, error) ? shipped : fs::path(name);
+}
+
+/// "NAME=NUMBER"
+std::pair<std::string, double> assignment(const std::string& word) {
+  const std::size_t at = word.find('=');
+  const std::string number = at == word.npos ? "" : word.substr(at + 1);
+  if (at == word.npos || at == 0 || !core::is_decimal(number) || !(std::fabs(core::to_double(number)) <= 1e4))
+    refuse_words(word, fmt::format("expected NAME=NUMBER, at most 10000 either way, got \"{}\"", word));
+  return {word.substr(0, at), core::to_double(number)};
+}
+
+double in_file(const Mechanism& m, int q, double value) {
+  return m.measures[std::size_t(q)] == Measure::angle ? value * 180 / portable::pi : 1e3 * value;
+}
+const char* unit_of(const Mechanism& m, int q) { return m.measures[std::size_t(q)] == Measure::angle ? "deg" : "mm"; }
+
+std::vector<Target> targets_of(const Mechanism& m, const MechanismWords& words) {
+  std::vector<Target> targets;
+  std::vector<std::string> free_names, drive_names;
+  for (const int q : m.independent) free_names.push_back(m.coordinates[std::size_t(q)]);
+  for (const Drive& d : m.drives) drive_names.push_back(d.name);
+  const auto add = [&](const std::string& word, int independent, double value) {
+    for (const Target& t : targets)
+      if (t.independent == independent) refuse_words(word, "expected every coordinate once, got one again");
+    targets.push_back({independent, value});
+  };
+  for (const std::string& word : words.sets) {
+    const auto [name, value] = assignment(word);
+    const int u = m.independent_of(name);
+    if (u < 0) refuse_words(word, scene::unknown_name("free coordinate", name, free_names));
+    const bool angle = m.measures[std::size_t(m.independent[std::size_t(u)])] == Measure::angle;
+    add(word, u, angle ? value * portable::pi / 180 : 1e-3 * value);
+  }
+  for (const std::string& word : words.drives) {
+    const auto [name, value] = assignment(word);
+    const int d = m.drive(name);
+    if (d < 0) refuse_words(word, scene::unknown_name("drive", name, drive_names));
+    add(word, m.drives[std::size_t(d)].independent, m.drives[std::size_t(d)].value(value));
+  }
+  return targets;
+}
+
+Json place_json(const Frame& f) {
+  Json turn = Json::array();
+  for (const auto& row : f.r.m) turn.push_back({row[0], row[1], row[2]});
+  return {{"at_mm", {1e3 * f.p.x, 1e3 * f.p.y, 1e3 * f.p.z}}, {"turn", turn}};
+}
+
+Json describe_pose(const Mechanism& m, const Pose& pose) {
+  Json out{
+      {"coordinates", Json::array()}, {"drives", Json::array()}, {"frames", Json::array()}, {"links", Json::array()}};
+  for (int q = 0; q < m.q_count(); ++q) {
+    const auto i = std::size_t(q);
+    Json c{{"name", m.coordinates[i]},
+           {"value", in_file(m, q, pose.q[i])},
+           {"unit", unit_of(m, q)},
+           {"free", std::find(m.independent.begin(), m.independent.end(), q) != m.independent.end()}};
+    if (std::isfinite(m.low[i]) && std::fabs(m.low[i]) < 1e5) c["low"] = in_file(m, q, m.low[i]);
+    if (std::isfinite(m.high[i]) && std::fabs(m.high[i]) < 1e5) c["high"] = in_file(m, q, m.high[i]);
+    out["coordinates"].push_back(std::move(c));
+  }
+  for (const Drive& d : m.drives) {
+    const int q = m.independent[std::size_t(d.independent)];
+    const double way = d.at_1 - d.at_0;
+    out["drives"].push_back({{"name", d.name},
+                             {"coordinate", m.coordinates[std::size_t(q)]},
+                             {"handle", way != 0 ? (pose.q[std::size_t(q)] - d.at_0) / way : 0}});
+  }
+  for (std::size_t k = 0; k < m.frames.size(); ++k) {
+    Json f = place_json(place(m.frames[k], pose));
+    f["name"] = m.frame_names[k];
+    out["frames"].push_back(std::move(f));
+  }
+  for (std::size_t k = 1; k < m.links.size(); ++k) {
+    Json f = place_json(pose.frames[std::size_t(m.link_body[k])]);
+    f["name"] = m.links[k];
+    out["links"].push_back(std::move(f));
+  }
+  return out;
+}
+
+void print_pose(const Json& r) {
+  fmt::print("{}: {}\n  {}\n", r["name"].get<std::string>(), r["mobility_words"].get<std::string>(),
+             r["words"].get<std::string>());
+  fmt::print("  {:28} {:>12} {:>22}\n", "coordinate", "value", "limits");
+  for (const Json& c : r["coordinates"]) {
+    const auto bound = [&](const char* key) {
+      return c.contains(key) ? fmt::format("{:.4g}", c[key].get<double>()) : "-";
+    };
+    fmt::print("  {:28} {:>12.5f} {:>10} to {:>8} {}{}\n", c["name"].get<std::string>(), c["value"].get<double>(),
+               bound("low"), bound("high"), c["unit"].get<std::string>(), c["free"].get<bool>() ? "" : ", follows");
+  }
+  for (const Json& d : r["drives"])
+    fmt::print("  drive {}: {:.4f}\n", d["name"].get<std::string>(), d["handle"].get<double>());
+  for (const char* kind : {"frames", "links"}) {
+    fmt::print("  {:28} {:>38} {:>27}\n", kind, "place mm", "z axis");
+    for (const Json& f : r[kind])
+      fmt::print("  {:28} {:>12.5f} {:>12.5f} {:>12.5f} {:>9.5f} {:>8.5f} {:>8.5f}\n", f["name"].get<std::string>(),
+                 f["at_mm"][0].get<double>(), f["at_mm"][1].get<double>(), f["at_mm"][2].get<double>(),
+                 f["turn"][0][2].get<double>(), f["turn"][1][2].get<double>(), f["turn"][2][2].get<double>());
+  }
+}
+
+int show_pose(const Mechanism& m, const MechanismWords& given, bool json) {
+  const std::vector<Target> targets = targets_of(m, given);
+  std::vector<double> u = m.start_u(), near = u;
+  const Mobility freedoms = mobility(m, near);
+  LoopWork work(m);
+  hold_drives(m, work);
+  LoopReport report = close(m, u, work);
+  std::string said = words(m, report);
+  double reached = 1;
+  if (report.closed() && !targets.empty()) {
+    std::vector<int> held;
+    for (const Target& t : targets) held.push_back(t.independent);
+    hold(work, held);
+    const MoveReport moved = move(m, u, targets, branch_at(m, u, work), work);
+    report = moved.last;
+    reached = moved.reached;
+    said = words(m, moved);
+  }
+  const bool good = report.closed() && reached >= 1 && report.limit < 0;
+  Json out{{"name", m.name},
+           {"kind", "pose"},
+           {"mobility", freedoms.mobility},
+           {"mobility_words", words(freedoms)},
+           {"closed", report.closed()},
+           {"reached", reached},
+           {"within_limits", report.limit < 0},
+           {"gap_mm", 1e3 * report.metres},
+           {"gap_deg", report.radians * 180 / portable::pi},
+           {"rank", report.rank},
+           {"conditions", report.conditions},
+           {"smallest_pivot", report.pivot},
+           {"words", said}};
+  out.update(describe_pose(m, work.pose));
+  if (json)
+    print(out);
+  else
+    print_pose(out);
+  return good ? core::kDone : core::kGoalNotReached;
+}
+
+int show_workspace(const Mechanism& m, const MechanismWords& given, bool json) {
+  const int frame = m.frame(given.frame);
+  if (frame < 0) refuse_words(given.frame, scene::unknown_name("frame", given.frame, m.frame_names));
+  std::vector<double> u = m.start_u();
+  LoopWork work(m);
+  if (!m.drives.empty()) hold_drives(m, work);
+  if (const LoopReport first = close(m, u, work); !first.closed()) {
+    fmt::print(stderr, "{}: {}\n", m.name, words(m, first));
+    if (json) print({{"name", m.name}, {"kind", "workspace"}, {"closed", false}, {"words", words(m, first)}});
+    return core::kGoalNotReached;
+  }
+  WorkspaceOptions options;
+  options.samples = given.samples;
+  options.cell = 1e-3 * given.cell_mm;
+  const Workspace w = workspace(m, m.frames[std::size_t(frame)], options);
+  const auto mm = [](Vec3d v) { return Json{1e3 * v.x, 1e3 * v.y, 1e3 * v.z}; };
+  const Json out{{"name", m.name},
+                 {"kind", "workspace"},
+                 {"frame", given.frame},
+                 {"samples", w.samples},
+                 {"closed", w.closed},
+                 {"within_limits", w.within},
+                 {"low_mm", mm(w.low)},
+                 {"high_mm", mm(w.high)},
+                 {"cell_mm", 1e3 * w.cell},
+                 {"volume_mL", 1e6 * w.volume},
+                 {"volume_of_half_mL", 1e6 * w.volume_of_half},
+                 {"path_mm", 1e3 * w.path}};
+  if (json) {
+    print(out);
+    return w.within > 0 ? core::kDone : core::kGoalNotReached;
+  }
+  fmt::print("{}: where \"{}\" gets to\n  {} poses, {} closed, {} of them within limits\n", m.name, given.frame,
+             w.samples, w.closed, w.within);
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  for (int k = 0; k < 3; ++k) fmt::print("  {} {:>10.3f} to {:>10.3f} mm\n", kAxes[k], 1e3 * w.low[k], 1e3 * w.high[k]);
+  if (w.path > 0)
+    fmt::print("  its way is {:.3f} mm long\n", 1e3 * w.path);
+  else
+    fmt::print("  reachable volume {:.4g} mL (cells of {:.3g} mm; half of the poses: {:.4g} mL)\n", 1e6 * w.volume,
+               1e3 * w.cell, 1e6 * w.volume_of_half);
+  return w.within > 0 ? core::kDone : core::kGoalNotReached;
+}
+
+int run_mechanism(const MechanismWords& given, bool json) {
+  const Mechanism m = build(scene::read_mechanism(mechanism_file(given.file)));
+  return given.what == "pose" ? show_pose(m, given, json) : show_workspace(m, given, json);
+}
+
+}  // namespace
+
+void add_mechanism(CLI::App& program, Chosen& chosen) {
+  auto given = std::make_shared<MechanismWords>();
+  CLI::App* c = add_command(program, chosen, "mechanism", "Move a mechanism: a pose of it, or where it can get to",
+                            "trocar mechanism grasper pose --drive handle=0.5");
+  c->add_option("file", given->file, "a mechanism's file (.json, .urdf), or its name under scenes/mechanisms")
+      ->required();
+  c->add_option("what", given->what, "pose or workspace")
+      ->check(CLI::IsMember({"pose", "workspace"}))
+      ->capture_default_str();
+  c->add_option("--set", given->sets, "a free coordinate, as NAME=DEGREES or NAME=MM; what is not set follows");
+  c->add_option("--drive", given->drives, "an actuator, as NAME=0..1");
+  c->add_option("--frame", given->frame, "workspace: of which frame")->capture_default_str();
+  c->add_option("--samples", given->samples, "workspace: how many poses within limits")
+      ->transform(whole_number(100, 10'000'000))
+      ->capture_default_str();
+  c->add_option("--cell-mm", given->cell_mm, "workspace: edge of a cell, default a fortieth of what is reached")
+      ->check(number_between(0.01, 1000, "mm"));
+  c->callback([=, &chosen] { chosen.run = [=, &chosen] { return run_mechanism(*given, chosen.json); }; });
+}
+
+}  // namespace trocar::app

@@ -1,0 +1,33 @@
+// Files of mechanisms: scenes/mechanisms/*.json. Every fault of a file is told with its place, in one pass.
+//
+//   const kinematics::MechanismDescription d = read_mechanism("scenes/mechanisms/four_bar.json");   // or *.urdf
+//   const kinematics::Mechanism m = kinematics::build(d);
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <trocar/core/error.hpp>
+#include <trocar/kinematics/chains/description.hpp>
+#include <trocar/scene/json/shape.hpp>
+
+namespace trocar::scene {
+
+/// A file, by its ending JSON or URDF. What is wrong is appended to `faults`; without faults the description can be
+/// built. With `memory` files are looked up there instead of on the disk.
+kinematics::MechanismDescription read_mechanism(const std::filesystem::path& path, std::vector<core::Fault>& faults,
+                                                const MemoryFiles* memory = nullptr);
+/// The same. @throws core::BadInput with all faults
+kinematics::MechanismDescription read_mechanism(const std::filesystem::path& path, const MemoryFiles* memory = nullptr);
+/// JSON text.
+kinematics::MechanismDescription parse_mechanism(std::string_view text, const std::string& file,
+                                                 std::vector<core::Fault>& faults);
+
+/// The table of keys, from which scenes/schema/mechanism.schema.json is written.
+const Shape& mechanism_shape();
+
+/// Kinds of closures, as files call them.
+std::vector<std::string> closure_words();
+
+}  // namespace trocar::scene

@@ -1,0 +1,84 @@
+// `trocar mechanism`: poses and workspaces as scripts ask for them, and what it says of faults.
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "run_program.hpp"
+
+namespace trocar::app {
+namespace {
+
+double coordinate(const Json& pose, const std::string& name) {
+  for (const Json& c : pose["coordinates"])
+    if (c["name"] == name) return c["value"];
+  return std::nan("");
+}
+
+TEST(Mechanism, AHandleHalfShutLeavesTheJawsPartlyOpen) {
+  const Outcome o = trocar({"mechanism", "grasper", "pose", "--drive", "handle=0.5", "--json"});
+  ASSERT_EQ(o.exit, 0) << o.err;
+  const Json pose = o.json();
+  EXPECT_EQ(pose["mobility"], 1);
+  EXPECT_LT(pose["gap_mm"], 1e-9);
+  EXPECT_GT(coordinate(pose, "jaw_upper"), 3);
+  EXPECT_LT(coordinate(pose, "jaw_upper"), 27);
+  EXPECT_NEAR(coordinate(pose, "jaw_upper"), coordinate(pose, "jaw_lower"), 1e-9);
+}
+
+TEST(Mechanism, ASetCoordinateIsThereAndOthersFollow) {
+  const Outcome o = trocar({"mechanism", "four_bar", "--set", "crank=150", "--json"});
+  ASSERT_EQ(o.exit, 0) << o.err;
+  EXPECT_NEAR(coordinate(o.json(), "crank"), 150, 1e-9);
+  EXPECT_TRUE(trocar({"mechanism", "four_bar", "--set", "crank=150"}).out.find("over-constrained but consistent") !=
+              std::string::npos);
+}
+
+TEST(Mechanism, WhatCannotBeReachedIsTold) {
+  const Outcome o = trocar({"mechanism", "four_bar", "--set", "rocker=20", "--json"});
+  EXPECT_EQ(o.exit, 1);
+  EXPECT_LT(o.json()["reached"], 1);
+  EXPECT_NE(o.json()["words"].get<std::string>().find("singular"), std::string::npos);
+}
+
+TEST(Mechanism, AWorkspaceHasAVolumeOrAWay) {
+  const Outcome arm = trocar({"mechanism", "dvrk_arm", "workspace", "--samples", "20000", "--json"});
+  ASSERT_EQ(arm.exit, 0) << arm.err;
+  EXPECT_GT(arm.json()["volume_mL"], 1000);
+  EXPECT_LT(arm.json()["volume_mL"], 100'000);
+  const Outcome linkage = trocar({"mechanism", "four_bar", "workspace", "--json"});
+  ASSERT_EQ(linkage.exit, 0) << linkage.err;
+  EXPECT_GT(linkage.json()["path_mm"], 10);
+}
+
+TEST(Mechanism, WrongWordsExitWithTwoAndSayWhatThereIs) {
+  const Outcome name = trocar({"mechanism", "four_bar", "--set", "cranck=10"});
+  EXPECT_EQ(name.exit, 2);
+  EXPECT_NE(name.err.find("did you mean \"crank\"?"), std::string::npos) << name.err;
+  EXPECT_EQ(trocar({"mechanism", "four_bar", "--set", "crank=nan"}).exit, 2);
+  EXPECT_EQ(trocar({"mechanism", "four_bar", "--drive", "motor"}).exit, 2);
+  EXPECT_EQ(trocar({"mechanism", "four_bar", "dance"}).exit, 2);
+  EXPECT_EQ(trocar({"mechanism", "nowhere"}).exit, 2);
+  EXPECT_EQ(trocar({"mechanism", "four_bar", "workspace", "--frame", "toe"}).exit, 2);
+}
+
+TEST(Mechanism, CheckSaysWhatAFileHolds) {
+  const Outcome o = trocar({"check", TROCAR_SOURCE_DIR "/scenes/mechanisms/bricard.json", "--json"});
+  ASSERT_EQ(o.exit, 0) << o.err;
+  EXPECT_EQ(o.json()["files"][0]["kind"], "mechanism");
+  EXPECT_EQ(o.json()["files"][0]["mobility"], 1);
+}
+
+TEST(Mechanism, FaultsOfItsFileAreAllTold) {
+  const std::string path = testing::TempDir() + "trocar_mechanism_test.json";
+  std::ofstream(path)
+      << "{\"format\": 1, \"name\": \"bad\",\n \"links\": [{\"name\": \"a\", \"joint\": {\"kind\": \"hinge\"}},\n"
+         " {\"name\": \"b\", \"joint\": {\"kind\": \"revolute\"}, \"at_mm\": [1]}]}\n";
+  const Outcome o = trocar({"mechanism", path, "--json"});
+  EXPECT_EQ(o.exit, 2);
+  EXPECT_EQ(o.json()["faults"].size(), 2u) << o.err;
+  EXPECT_EQ(o.json()["faults"][0]["line"], 2);
+}
+
+}  // namespace
+}  // namespace trocar::app
