@@ -5,7 +5,7 @@
 namespace trocar::devices {
 namespace {
 
-constexpr double kReach = 0.15;  // [m]
+constexpr double kSimulatedReach = 0.15;  // [m]
 
 double rounded(double value, double step) { return step > 0 ? step * std::floor(value / step + 0.5) : value; }
 
@@ -18,7 +18,7 @@ SimulatedDevice::SimulatedDevice(const Settings& s) : m_settings(s) {
   m_capabilities.own_friction = s.own_friction;
   m_capabilities.damping_max = 0.25 * s.mass / s.period;
   m_capabilities.resolution = s.resolution;
-  m_capabilities.reach = {kReach, kReach, kReach};
+  m_capabilities.reach = {kSimulatedReach, kSimulatedReach, kSimulatedReach};
 }
 
 /// Half a kick, a drift, half a kick: a constant force is gone through exactly, and the hand's spring neither gains nor

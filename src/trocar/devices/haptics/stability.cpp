@@ -6,8 +6,8 @@
 namespace trocar::devices {
 namespace {
 
-constexpr double kAtRest = 1e-12;  // [(m/s)^2] below which no damper takes anything away
-constexpr double kFarthest = 1;    // [m]
+constexpr double kAtRest = 1e-12;    // [(m/s)^2] below which no damper takes anything away
+constexpr double kFarthestHand = 1;  // [m]
 
 }  // namespace
 
@@ -49,8 +49,8 @@ Vec3d ForceGuard::guard(Vec3d force, double silence, double period) noexcept {
 
 bool plausible(const HapticSample& s) noexcept {
   const double turn = dot(s.rotation, s.rotation);
-  return finite(s.position) && dot(s.position, s.position) < kFarthest * kFarthest && turn > 0.9 && turn < 1.1 &&
-         s.grip >= 0 && s.grip <= 1;
+  return finite(s.position) && dot(s.position, s.position) < kFarthestHand * kFarthestHand && turn > 0.9 &&
+         turn < 1.1 && s.grip >= 0 && s.grip <= 1;
 }
 
 }  // namespace trocar::devices
