@@ -13,6 +13,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/core/tick.hpp>
+#include <trocar/devices/haptics/choose_device.hpp>
 
 #include "shell/display_panel.hpp"
 #include "shell/layout_panel.hpp"
@@ -62,6 +63,7 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
     m_source = attempt::make_source(lesson, plan.input);
   }
   run_beside();
+  take_device();
   m_gamepad_used = plan.input == "gamepad";
   if (m_session.monitor()) m_steps = m_session.monitor()->steps();
   stage.window.set_title(window_title(lesson));
@@ -75,6 +77,19 @@ void AttemptWindow::run_beside() {
   m_session.run_beside(m_beside.get());
   m_panes.cameras.analysis.solvers = true;
   m_panes.cameras.analysis.strain = m_panes.cameras.analysis.forces = false;
+}
+
+/// The device leads its hand from now on, whatever leads the others.
+void AttemptWindow::take_device() {
+  const std::string& name = m_stage.options.haptics;
+  if (name.empty()) return;
+  const bool there = m_lesson.model.hand_index(m_stage.options.haptics_hand) >= 0;
+  std::unique_ptr<devices::HapticDevice> device = devices::choose_haptic_device(name, "--haptics");
+  device->open();
+  const int hand =
+      attempt::haptic_hand_of(m_lesson.model, there ? m_stage.options.haptics_hand : std::string(), "--haptics-hand");
+  m_haptic = std::make_unique<attempt::HapticHand>(m_lesson.model, hand, std::move(device),
+                                                   attempt::HapticHand::Pace::own_loop, attempt::HapticHand::Feel{});
 }
 
 void AttemptWindow::show_beside(const attempt::Snapshot& now) {
@@ -129,7 +144,7 @@ Choice AttemptWindow::run() {
                                 {"recording", m_log.attempt().recording}});
   const double seconds = m_stage.options.seconds;
   attempt::Live live(m_session, m_source.get(),
-                     seconds > 0 ? std::uint64_t(double(core::kTicksPerSecond) * seconds) : 0);
+                     seconds > 0 ? std::uint64_t(double(core::kTicksPerSecond) * seconds) : 0, m_haptic.get());
   Choice choice = Choice::none;
   const auto goes_on = [&] {
     return choice != Choice::restart && choice != Choice::start_screen && choice != Choice::quit;
@@ -433,6 +448,7 @@ void AttemptWindow::end(attempt::Live& live, Ending ending) {
   m_result["input"] = m_plan.input;
   m_result["slow_motion_share"] = live.slow_share();
   if (m_source) m_result.update(m_source->describe());
+  if (m_haptic) m_result["haptics"] = m_haptic->describe();
   m_log.end(m_result, left ? AttemptState::aborted : AttemptState::finished);
   m_stage.log.event("end", {{"interrupted", left}, {"passed", m_result["passed"]}, {"ticks", m_result["ticks"]}});
   if (ending == Ending::came_to_its_end) m_stage.sound.play(Tone::finished);

@@ -7,6 +7,7 @@
 
 #include <trocar/attempt/attempt_log.hpp>
 #include <trocar/attempt/hand_pilot.hpp>
+#include <trocar/attempt/haptics/haptic_hand.hpp>
 #include <trocar/attempt/live.hpp>
 #include <trocar/training/exercise/outlook.hpp>
 
@@ -44,6 +45,7 @@ class AttemptWindow {
   void draw_scene(const attempt::Snapshot& now);
   void draw_panes(const attempt::Snapshot& now);
   void run_beside();
+  void take_device();
   void show_beside(const attempt::Snapshot& now);
   void tell_views(const LayoutChoice& choice);
   void draw_over(const attempt::Snapshot& now, Choice& choice);
@@ -64,6 +66,7 @@ class AttemptWindow {
   attempt::AttemptLog m_log;
   std::unique_ptr<attempt::HandPilot> m_pilot;
   std::unique_ptr<attempt::InputSource> m_source;
+  std::unique_ptr<attempt::HapticHand> m_haptic;  ///< null: no device leads a hand
   std::vector<training::StepStatus> m_steps;
   std::unique_ptr<training::Outlook> m_outlook;  ///< made when it is first asked
   Feedback m_feedback;

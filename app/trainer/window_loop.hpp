@@ -24,6 +24,8 @@ struct WindowOptions {
   training::Store* store = nullptr;                     ///< null: nothing is kept but recordings that were asked for
   std::string beside;                                   ///< organ whose other solver runs beside; empty: none
   std::shared_ptr<const attempt::Lesson> other_solver;  ///< the exercise with it
+  std::string haptics;       ///< device that leads a hand (devices/haptics/choose_device.hpp); empty: none
+  std::string haptics_hand;  ///< that it leads, by its trocar; empty, or not there: the right one
 };
 
 /// Opens the window: with a lesson straight in the exercise, without one on the start screen. Returns the last

@@ -18,9 +18,10 @@ constexpr auto kLookEvery = std::chrono::microseconds(50);
 
 }  // namespace
 
-Live::Live(Session& session, InputSource* source, std::uint64_t limit)
+Live::Live(Session& session, InputSource* source, std::uint64_t limit, LedHand* led)
     : m_session(session),
       m_source(source),
+      m_led(led),
       m_limit(limit),
       m_published(Snapshot{.state = session.state()}),
       m_command(session.lesson().model.start),
@@ -71,7 +72,9 @@ void Live::loop() {
       input = smooth.step(m_command);
     }
     if (!m_finished) {
+      if (m_led) m_led->lead(m_session.state(), input);
       const sim::StepReport& report = m_session.advance(input);
+      if (m_led) m_led->after(m_session.state());
       m_pending.insert(m_pending.end(), m_session.moments().begin(), m_session.moments().end());
       if (m_source) m_source->after(m_session.state(), report);
       const std::uint64_t ticks = m_session.state().tick;

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <thread>
 
+#include <trocar/attempt/led_hand.hpp>
 #include <trocar/attempt/session.hpp>
 #include <trocar/core/triple_buffer.hpp>
 #include <trocar/devices/mailbox.hpp>
@@ -31,8 +32,9 @@ struct Snapshot {
 
 class Live {
  public:
-  /// Starts at once. `source` and `session` must outlive it. @param limit ticks, 0: none
-  Live(Session& session, InputSource* source, std::uint64_t limit);
+  /// Starts at once. `source`, `session` and `led` must outlive it. @param limit ticks, 0: none
+  /// @param led  leads its hand in place of whoever leads the others; null: nobody does
+  Live(Session& session, InputSource* source, std::uint64_t limit, LedHand* led = nullptr);
   ~Live() { stop(); }
   Live(const Live&) = delete;
   Live& operator=(const Live&) = delete;
@@ -62,6 +64,7 @@ class Live {
   using Clock = std::chrono::steady_clock;
   Session& m_session;
   InputSource* m_source;
+  LedHand* m_led;
   std::uint64_t m_limit;
   devices::Mailbox<sim::Input> m_commands;
   core::TripleBuffer<Snapshot> m_published;

@@ -32,7 +32,8 @@ struct HapticCapabilities {
   bool grips = false;         ///< it has a handle that closes
 };
 
-/// What it says. `switches`: bit 0 squeezes, bit 1 locks, bits 2 and 3 are the pedals of coagulation and cutting.
+/// What it says. `switches`: bit 0 squeezes the handle, bit 1 locks it, bit 2 is the pedal of coagulation, bit 3 lifts
+/// the hand: the instrument stays while it goes back to the middle of what it can reach.
 struct HapticSample {
   Vec3d position;  ///< [m]
   Quatd rotation;

@@ -48,7 +48,7 @@ void read_grip(const Json& message, HaplyState& out) {
   }
   const Json* buttons = member(state, "buttons");
   out.sample.switches = (is_true(member(state, "button")) || is_true(member(buttons, "a")) ? 1u : 0u) |
-                        (is_true(member(buttons, "b")) ? 2u : 0u) | (is_true(member(buttons, "c")) ? 4u : 0u);
+                        (is_true(member(buttons, "b")) ? 8u : 0u) | (is_true(member(buttons, "c")) ? 4u : 0u);
 }
 
 }  // namespace
