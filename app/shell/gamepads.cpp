@@ -171,6 +171,8 @@ void Gamepads::poll_glfw() {
     m_used = -1;
     m_state = {};  // not yet touched: nobody's
   }
+  const char* guid = m_used >= 0 ? glfwGetJoystickGUID(m_used) : nullptr;
+  m_guid = guid ? guid : "";
 }
 
 }  // namespace trocar::app

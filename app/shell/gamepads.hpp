@@ -35,7 +35,8 @@ class Gamepads {
 
   const devices::Gamepad& state() const { return m_state; }          ///< of the one in use, at rest where there is none
   const std::vector<std::string>& names() const { return m_names; }  ///< of all that are plugged in
-  bool lost() const { return m_lost; }  ///< the one in use was unplugged since the last poll()
+  const std::string& guid() const { return m_guid; }  ///< of the one in use, as GLFW tells it; empty: none, or the seam
+  bool lost() const { return m_lost; }                ///< the one in use was unplugged since the last poll()
   bool present() const { return !m_names.empty(); }
 
  private:
@@ -46,6 +47,7 @@ class Gamepads {
   std::unique_ptr<Seam> m_seam;
   devices::Gamepad m_state;
   std::vector<std::string> m_names;
+  std::string m_guid;
   int m_used = -1;  ///< GLFW's number
   bool m_lost = false;
 };

@@ -53,6 +53,7 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
       m_plan(plan),
       m_session(lesson),
       m_log(stage.options.store, m_session, plan),
+      m_feeler(lesson.model),
       m_panes(lesson.model) {
   if (by_hand(plan.input)) {
     m_pilot = std::make_unique<attempt::HandPilot>(lesson.model);
@@ -178,6 +179,7 @@ void AttemptWindow::picture(attempt::Live& live, Choice& choice) {
   lead(live, now);
   tell(live);
   warn_of_pull(now);
+  feel(now);
   ask_for_the_eye(now);
   if (now.finished && !m_over) end(live, Ending::came_to_its_end);
   draw_scene(now);
@@ -288,6 +290,37 @@ void AttemptWindow::tell(attempt::Live& live) {
   m_stage.log.pose(m_lesson.model, now, m_pilot ? m_pilot->hands().led : 0, both ? &m_pilot->both() : nullptr);
 }
 
+/// The hand whose force is told: the device's, the led one, or, where a source leads, that which feels most.
+int AttemptWindow::felt_hand(const attempt::Snapshot& now) const {
+  if (m_haptic) return m_haptic->hand();
+  if (m_pilot) return m_pilot->hands().led == devices::kScope ? m_pilot->hands().last_instrument : m_pilot->hands().led;
+  int most = 0;
+  double force = -1;
+  for (int h = 0; h < attempt::hand_count(m_lesson.model); ++h) {
+    const attempt::TipForces f = attempt::forces_at_tip(m_lesson.model, now.state, h);
+    if (const double size = length(f.contact + f.pull); size > force) most = h, force = size;
+  }
+  return most;
+}
+
+void AttemptWindow::feel(const attempt::Snapshot& now) {
+  const bool lost = m_haptic && m_haptic->lost();
+  if (lost != std::exchange(m_device_lost, lost) && lost)
+    m_feedback.add(ui::Mark::warning, "The haptic device is silent: its force is off until it speaks again.",
+                   now.seconds, now_seconds());
+  m_rumble.use(m_stage.settings.rumble && m_gamepad_used ? m_stage.window.gamepads().guid() : std::string());
+  const int hand = felt_hand(now);
+  if (stands_still() || m_lesson.model.hands.empty() || hand != std::exchange(m_felt_hand, hand)) {
+    m_feel.forget();
+    return m_rumble.set(0, 0, now_seconds());
+  }
+  m_feel.add(now_seconds(), m_feeler.feel(now.state, hand), pull_limit(m_lesson));
+  m_rumble.set(m_feel.strong(), m_feel.weak(), now_seconds());
+  if (!m_stage.settings.force_sound) return;
+  if (m_feel.click()) m_stage.sound.play(Tone::touch, m_feel.level());
+  if (m_feel.beat()) m_stage.sound.play(Tone::beat);
+}
+
 void AttemptWindow::warn_of_pull(const attempt::Snapshot& now) {
   if (!m_pilot || stands_still()) return;
   double pull = 0;
@@ -380,6 +413,7 @@ void AttemptWindow::draw_scene(const attempt::Snapshot& now) {
                              stands_still(),
                              m_gamepad_used && m_stage.window.gamepads().present(),
                              pull_limit(m_lesson),
+                             m_stage.settings.force_trace ? &m_feel : nullptr,
                              outlook(now)};
   draw_panel(content, float(width), panel, float(height));
   if (!stands_still()) draw_notices(m_feedback, now_seconds(), float(width), float(height));

@@ -12,8 +12,10 @@
 #include <trocar/training/exercise/outlook.hpp>
 
 #include "shell/panes.hpp"
+#include "shell/rumble.hpp"
 #include "trainer/choice.hpp"
 #include "trainer/feedback.hpp"
+#include "trainer/force_feel.hpp"
 #include "trainer/trainer_window.hpp"
 
 namespace trocar::app {
@@ -38,6 +40,8 @@ class AttemptWindow {
   void lead(attempt::Live& live, const attempt::Snapshot& now);
   void keep_mode();
   void tell(attempt::Live& live);
+  int felt_hand(const attempt::Snapshot& now) const;
+  void feel(const attempt::Snapshot& now);
   void warn_of_pull(const attempt::Snapshot& now);
   void ask_for_the_eye(const attempt::Snapshot& now);
   bool crowds_simulation(const attempt::Snapshot& now) const;
@@ -70,6 +74,10 @@ class AttemptWindow {
   std::vector<training::StepStatus> m_steps;
   std::unique_ptr<training::Outlook> m_outlook;  ///< made when it is first asked
   Feedback m_feedback;
+  attempt::Feeler m_feeler;
+  ForceFeel m_feel;
+  Rumble m_rumble;
+  int m_felt_hand = -1;
   PullWarning m_pull_warning;
   std::string m_told_warning, m_told_views, m_why_paused;
   Json m_result;
@@ -80,7 +88,8 @@ class AttemptWindow {
   bool m_was_still = true, m_gamepad_used = false, m_had_focus = false;
   int m_pictures = 0;  ///< since m_rate_since
   double m_rate_since = 0, m_slowest = 1;
-  int m_asked_for_eye = -1;  ///< hand whose insertion waits to be seen, as told
+  bool m_device_lost = false;  ///< as told
+  int m_asked_for_eye = -1;    ///< hand whose insertion waits to be seen, as told
 };
 
 }  // namespace trocar::app

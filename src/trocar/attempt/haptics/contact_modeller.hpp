@@ -52,7 +52,11 @@ class ContactModeller {
 
   const sim::Model& m_model;
   int m_hand;
+  Vec3d averaged(Vec3d contact) noexcept;
+
   StiffnessEstimate m_touched{200}, m_held{150};
+  std::array<Vec3d, 4> m_last{};  ///< contact forces of the last ticks
+  int m_ticks = 0;
   Vec3d m_normal, m_along;  ///< of the last tick's contact, of the last tick's pull
 };
 

@@ -138,7 +138,8 @@ void HapticHand::lead(const sim::State& state, sim::Input& input) noexcept {
 }
 
 void HapticHand::after(const sim::State& state) noexcept {
-  m_local = m_modeller.of(state, m_wanted, m_feel.seal_friction);
+  const double seal = m_feel.seal_friction < 0 ? m_model.hands[size_t(m_hand)].seal_friction : m_feel.seal_friction;
+  m_local = m_modeller.of(state, m_wanted, seal);
   m_local.frame = m_frame;
   if (m_loop && m_placed) m_loop->put(m_local);
 }

@@ -25,8 +25,8 @@ class HapticHand : public LedHand {
   enum class Pace { own_loop, with_ticks };
 
   struct Feel {
-    double scale = 1;            ///< of the instrument's way per the device's
-    double seal_friction = 0.5;  ///< of the trocar [N]; 0.25 to 3 in the literature
+    double scale = 1;           ///< of the instrument's way per the device's
+    double seal_friction = -1;  ///< of the trocar [N]; below 0: what the scene says
   };
 
   /// @param device  open
