@@ -30,7 +30,7 @@ ALLOWED = {
     "scene": SIM_BELOW + ["sim"],
     "studies": GEOMETRY + ["kinematics", "collision", "scene"],
     "training": SIM_BELOW + ["sim", "scene"],
-    "devices": CORE,
+    "devices": NUMERICS,
     "attempt": SIM_BELOW + ["sim", "scene", "training", "devices"],  # no window: tests/attempt looks at what it links
     "render": GEOMETRY,
     "view": SIM_BELOW + ["sim", "render"],

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/attempt_log.hpp>
+#include <trocar/attempt/haptics/haptic_source.hpp>
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/attempt/solver_beside.hpp>
@@ -10,6 +11,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/devices/haptics/choose_device.hpp>
 #include <trocar/pictures/analysis_choice.hpp>
 #include <trocar/pictures/headless.hpp>
 #include <trocar/reports/report_page.hpp>
@@ -26,7 +28,7 @@ namespace {
 
 struct TrainChoice {
   std::string exercise, input = "mouse", record, shots, video, report, data, size, stereo = "off", show, analysis,
-                        trainee, log, beside, map;
+                        trainee, log, beside, map, haptics, haptics_hand;
   double seconds = 0, data_rate = pictures::kDataRate;
   std::uint64_t seed = 0;
   bool headless = false, familiarisation = false, no_store = false;
@@ -74,15 +76,23 @@ attempt::AttemptPlan plan_of(const TrainChoice& o) {
 
 Json train_headless(const TrainChoice& o, const attempt::Lesson& lesson, training::Store* store,
                     pictures::PictureSize size) {
-  const std::unique_ptr<attempt::InputSource> own = attempt::make_source(lesson, o.input);
+  std::vector<std::unique_ptr<attempt::InputSource>> sources;  // each around the one before
+  sources.push_back(attempt::make_source(lesson, o.input));
+  std::unique_ptr<attempt::HapticHand> haptic;
+  if (!o.haptics.empty()) {
+    haptic = std::make_unique<attempt::HapticHand>(
+        lesson.model, attempt::haptic_hand_of(lesson.model, o.haptics_hand, "--haptics-hand"),
+        devices::choose_haptic_device(o.haptics, "--haptics"), attempt::HapticHand::Pace::with_ticks,
+        attempt::HapticHand::Feel{});
+    sources.push_back(std::make_unique<attempt::HapticSource>(*sources.back(), *haptic));
+  }
   std::unique_ptr<attempt::TeamHost> team;
-  std::unique_ptr<attempt::InputSource> hosted;
   if (!o.team.roles.empty()) {
     team = std::make_unique<attempt::TeamHost>(lesson, team_plan(o.team));
-    hosted = std::make_unique<attempt::HostedSource>(*team, *own);
+    sources.push_back(std::make_unique<attempt::HostedSource>(*team, *sources.back()));
     core::log::info("the others join with{}", how_to_join(*team, o.team));
   }
-  attempt::InputSource& source = hosted ? *hosted : *own;
+  attempt::InputSource& source = *sources.back();
   attempt::Session session(lesson);
   EventLog events(o.log);
   attempt::AttemptLog log(store, session, plan_of(o));
@@ -130,8 +140,25 @@ WindowOptions window_options(const TrainChoice& o, training::Store* store,
   w.beside = o.beside;
   if (!o.map.empty()) w.map = attempt::read_input_map(o.map);
   if (!o.team.roles.empty()) w.team = team_plan(o.team);
+  w.haptics = o.haptics;
+  w.haptics_hand = o.haptics_hand;
   w.other_solver = std::move(other);
   return w;
+}
+
+/// A device that is not there, a hand that is not there: told before a window opens.
+void check_haptics(const TrainChoice& o, const attempt::Lesson* lesson) {
+  if (o.haptics.empty() && !o.haptics_hand.empty())
+    throw core::BadInput({{{"--haptics-hand", 0, 0}, "expected --haptics with it, got none"}});
+  if (o.haptics.empty()) return;
+  const std::unique_ptr<devices::HapticDevice> device = devices::choose_haptic_device(o.haptics, "--haptics");
+  if (o.headless && !device->is_led())
+    throw core::BadInput(
+        {{{"--haptics", 0, 0},
+          fmt::format("expected simulated with --headless, where no time passes, got {}", o.haptics)}});
+  if (lesson) static_cast<void>(attempt::haptic_hand_of(lesson->model, o.haptics_hand, "--haptics-hand"));
+  device->open();
+  device->close();
 }
 
 int train(const TrainChoice& o, bool json) {
@@ -152,6 +179,7 @@ int train(const TrainChoice& o, bool json) {
   const pictures::PictureSize size = pictures::parse_size(o.size.empty() ? "800x600" : o.size);
   std::unique_ptr<attempt::Lesson> lesson = o.exercise.empty() ? nullptr : attempt::load_lesson(o.exercise, o.seed);
   if (lesson) scene::warn_of_sinking(lesson->model);
+  check_haptics(o, lesson.get());
   std::shared_ptr<const attempt::Lesson> other;
   if (!o.beside.empty()) other = attempt::load_beside(o.exercise, o.seed, o.beside, "--beside");
   std::unique_ptr<training::Store> store;
@@ -201,6 +229,9 @@ void add_train(CLI::App& program, Chosen& chosen) {
       ->transform(whole_number(0, kLargestSeed));
   c->add_option("--beside", options->beside,
                 "in the window: this organ's other solver runs beside, and the analysis shows how far both are apart");
+  c->add_option("--haptics", options->haptics,
+                std::string("a device that leads a hand, and pushes back: ") + devices::kHapticDevices);
+  c->add_option("--haptics-hand", options->haptics_hand, "that it leads, by its trocar; default: the right one");
   c->add_flag("--no-store", options->no_store, "leave nothing in the session store");
   c->add_option("--seconds", options->seconds, "stop after so much simulated time")
       ->check(number_above(0, kLongestRun, "s"));

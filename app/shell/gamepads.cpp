@@ -193,6 +193,8 @@ void Gamepads::choose_used() {
     m_used = -1;
     m_state = {};  // not yet touched: nobody's
   }
+  const char* guid = m_seams.empty() && m_used >= 0 ? glfwGetJoystickGUID(m_used) : nullptr;
+  m_guid = guid ? guid : "";
 }
 
 }  // namespace trocar::app

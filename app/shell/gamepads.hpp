@@ -37,7 +37,8 @@ class Gamepads {
 
   const devices::Gamepad& state() const { return m_state; }          ///< of the one in use, at rest where there is none
   const std::vector<std::string>& names() const { return m_names; }  ///< of those that may be in use
-  bool lost() const { return m_lost; }  ///< the one in use was unplugged since the last poll()
+  const std::string& guid() const { return m_guid; }  ///< of the one in use, as GLFW tells it; empty: none, or the seam
+  bool lost() const { return m_lost; }                ///< the one in use was unplugged since the last poll()
   bool present() const { return !m_names.empty(); }
   const std::vector<devices::DeviceReading>& all() const { return m_all; }  ///< pads and other joysticks, by number
 
@@ -53,6 +54,7 @@ class Gamepads {
   std::function<bool(const devices::DeviceReading&)> m_claimed;
   devices::Gamepad m_state;
   std::vector<std::string> m_names;
+  std::string m_guid;
   int m_used = -1;  ///< one of m_numbers
   bool m_lost = false;
 };

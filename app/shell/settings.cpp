@@ -54,6 +54,9 @@ const scene::Shape& settings_shape() {
        keys::choice("pane_4", names_in(kPaneNames), "the fourth"),
        keys::choice("second_window", second_window_names(), "what the window for a second screen shows"),
        keys::number("volume", 0, 1, "of sounds"),
+       keys::flag("force_trace", "the force on the led hand is drawn"),
+       keys::flag("force_sound", "it is heard"),
+       keys::flag("rumble", "it is felt, where a gamepad has motors"),
        keys::number("text_size", kLeastText, kMostText, "of all texts"),
        keys::integer("window_width", kLeastWidth, kMostPixels, "[px]"),
        keys::integer("window_height", kLeastHeight, kMostPixels, "[px]"),
@@ -104,6 +107,9 @@ Settings read_settings(const fs::path& file, std::vector<core::Fault>& faults, c
   s.swap_eyes = o.flag("swap_eyes", s.swap_eyes);
   s.views = read_views(o);
   s.volume = o.number("volume", s.volume);
+  s.force_trace = o.flag("force_trace", s.force_trace);
+  s.force_sound = o.flag("force_sound", s.force_sound);
+  s.rumble = o.flag("rumble", s.rumble);
   s.text_size = o.number("text_size", s.text_size);
   s.window_width = o.integer("window_width", s.window_width);
   s.window_height = o.integer("window_height", s.window_height);
@@ -136,6 +142,9 @@ std::string settings_text(const Settings& s) {
                   {"pane_4", name_of(s.views.panes[3])},
                   {"second_window", s.views.elsewhere ? name_of(*s.views.elsewhere) : kOff},
                   {"volume", s.volume},
+                  {"force_trace", s.force_trace},
+                  {"force_sound", s.force_sound},
+                  {"rumble", s.rumble},
                   {"text_size", s.text_size},
                   {"window_width", s.window_width},
                   {"window_height", s.window_height},

@@ -31,6 +31,8 @@ struct Settings {
   LayoutChoice views;                                      ///< what the window's panes show, while nothing counts
   bool swap_eyes = false;                                  ///< for screens that have them the other way round
   double volume = 0.7;                                     ///< of sounds, 0..1
+  bool force_trace = false, force_sound = false;           ///< the force on the led hand, drawn; heard
+  bool rumble = true;                                      ///< felt, where a gamepad has motors
   double text_size = 1;                                    ///< times the display's own scale
   int window_width = 1280, window_height = 800;            ///< [px on an ordinary display]
   std::string trainee;                                     ///< the last one

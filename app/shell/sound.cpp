@@ -88,10 +88,10 @@ Sound::~Sound() {
   m_thread.join();
 }
 
-void Sound::play(Tone tone) {
+void Sound::play(Tone tone, float level) {
   {
     const std::lock_guard lock(m_lock);
-    if (m_wanted.size() < kMostWanted) m_wanted.push_back(tone);
+    if (m_wanted.size() < kMostWanted) m_wanted.push_back({tone, level});
   }
   m_wake.notify_one();
 }
@@ -103,11 +103,11 @@ void Sound::loop() {
   while (!m_stop) {
     m_wake.wait(lock, [this] { return m_stop || !m_wanted.empty(); });
     while (!m_wanted.empty()) {
-      const Tone tone = m_wanted.front();
+      const Wanted wanted = m_wanted.front();
       m_wanted.pop_front();
-      const float volume = m_volume.load();
+      const float volume = m_volume.load() * wanted.level;
       lock.unlock();  // a device may take its time: the window does not wait for it
-      if (loudspeaker.good() && volume > 0) loudspeaker.play(tone, volume);
+      if (loudspeaker.good() && volume > 0) loudspeaker.play(wanted.tone, volume);
       lock.lock();
     }
   }

@@ -24,8 +24,8 @@ class Sound {
   Sound& operator=(const Sound&) = delete;
 
   void set_volume(double volume) { m_volume.store(float(volume)); }  ///< 0..1
-  void play(Tone tone);
-  bool audible() const { return m_audible.load(); }  ///< a device was found
+  void play(Tone tone, float level = 1);                             ///< level: of the volume, 0..1
+  bool audible() const { return m_audible.load(); }                  ///< a device was found
 
  private:
   void loop();
@@ -34,7 +34,11 @@ class Sound {
   std::atomic<bool> m_audible{false};
   std::mutex m_lock;
   std::condition_variable m_wake;
-  std::deque<Tone> m_wanted;
+  struct Wanted {
+    Tone tone = Tone::count;
+    float level = 1;
+  };
+  std::deque<Wanted> m_wanted;
   bool m_stop = false;
   std::thread m_thread;  // last
 };

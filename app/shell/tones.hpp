@@ -12,6 +12,8 @@ enum class Tone {
   error,      ///< one low, rough note
   clip,       ///< a snap
   cut,        ///< two blades
+  touch,      ///< a click: the more of them, the harder something presses
+  beat,       ///< a dull thump: a pulse
   warning,    ///< short and high: the pull comes near its limit
   finished,   ///< three rising notes
   count

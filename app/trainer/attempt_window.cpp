@@ -14,6 +14,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/core/tick.hpp>
+#include <trocar/devices/haptics/choose_device.hpp>
 
 #include "shell/display_panel.hpp"
 #include "shell/layout_panel.hpp"
@@ -53,6 +54,7 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
       m_plan(plan),
       m_session(lesson),
       m_log(stage.options.store, m_session, plan),
+      m_feeler(lesson.model),
       m_panes(lesson.model) {
   if (by_hand(plan.input)) {
     m_pilot = std::make_unique<attempt::HandPilot>(lesson.model);
@@ -64,6 +66,7 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
   } else if (!stage.options.member) {
     m_source = attempt::make_source(lesson, plan.input);
   }
+  take_device();
   join_in();
   run_beside();
   m_gamepad_used = plan.input == "gamepad";
@@ -99,6 +102,7 @@ void AttemptWindow::join_in() {
 
 attempt::InputSource& AttemptWindow::source() const {
   if (m_hosted) return *m_hosted;
+  if (m_felt) return *m_felt;
   if (m_stage.options.member) return *m_stage.options.member;
   return m_hands ? static_cast<attempt::InputSource&>(*m_hands) : *m_source;
 }
@@ -141,6 +145,20 @@ void AttemptWindow::run_beside() {
   m_session.run_beside(m_beside.get());
   m_panes.cameras.analysis.solvers = true;
   m_panes.cameras.analysis.strain = m_panes.cameras.analysis.forces = false;
+}
+
+/// The device leads its hand from now on, whatever leads the others.
+void AttemptWindow::take_device() {
+  const std::string& name = m_stage.options.haptics;
+  if (name.empty()) return;
+  const bool there = m_lesson.model.hand_index(m_stage.options.haptics_hand) >= 0;
+  std::unique_ptr<devices::HapticDevice> device = devices::choose_haptic_device(name, "--haptics");
+  device->open();
+  const int hand =
+      attempt::haptic_hand_of(m_lesson.model, there ? m_stage.options.haptics_hand : std::string(), "--haptics-hand");
+  m_haptic = std::make_unique<attempt::HapticHand>(m_lesson.model, hand, std::move(device),
+                                                   attempt::HapticHand::Pace::own_loop, attempt::HapticHand::Feel{});
+  m_felt = std::make_unique<attempt::HapticSource>(source(), *m_haptic);
 }
 
 void AttemptWindow::show_beside(const attempt::Snapshot& now) {
@@ -229,6 +247,7 @@ void AttemptWindow::picture(attempt::Live& live, Choice& choice) {
   tell(live);
   tell_of_team(now);
   warn_of_pull(now);
+  feel(now);
   ask_for_the_eye(now);
   if (now.finished && !m_over) end(live, Ending::came_to_its_end);
   draw_scene(now);
@@ -343,6 +362,37 @@ void AttemptWindow::tell(attempt::Live& live) {
   m_stage.log.pose(m_lesson.model, now, m_pilot ? m_pilot->hands().led : 0, both ? &m_pilot->both() : nullptr);
 }
 
+/// The hand whose force is told: the device's, the led one, or, where a source leads, that which feels most.
+int AttemptWindow::felt_hand(const attempt::Snapshot& now) const {
+  if (m_haptic) return m_haptic->hand();
+  if (m_pilot) return m_pilot->hands().led == devices::kScope ? m_pilot->hands().last_instrument : m_pilot->hands().led;
+  int most = 0;
+  double force = -1;
+  for (int h = 0; h < attempt::hand_count(m_lesson.model); ++h) {
+    const attempt::TipForces f = attempt::forces_at_tip(m_lesson.model, now.state, h);
+    if (const double size = length(f.contact + f.pull); size > force) most = h, force = size;
+  }
+  return most;
+}
+
+void AttemptWindow::feel(const attempt::Snapshot& now) {
+  const bool lost = m_haptic && m_haptic->lost();
+  if (lost != std::exchange(m_device_lost, lost) && lost)
+    m_feedback.add(ui::Mark::warning, "The haptic device is silent: its force is off until it speaks again.",
+                   now.seconds, now_seconds());
+  m_rumble.use(m_stage.settings.rumble && m_gamepad_used ? m_stage.window.gamepads().guid() : std::string());
+  const int hand = felt_hand(now);
+  if (stands_still() || m_lesson.model.hands.empty() || hand != std::exchange(m_felt_hand, hand)) {
+    m_feel.forget();
+    return m_rumble.set(0, 0, now_seconds());
+  }
+  m_feel.add(now_seconds(), m_feeler.feel(now.state, hand), pull_limit(m_lesson));
+  m_rumble.set(m_feel.strong(), m_feel.weak(), now_seconds());
+  if (!m_stage.settings.force_sound) return;
+  if (m_feel.click()) m_stage.sound.play(Tone::touch, m_feel.level());
+  if (m_feel.beat()) m_stage.sound.play(Tone::beat);
+}
+
 void AttemptWindow::warn_of_pull(const attempt::Snapshot& now) {
   if (!m_pilot || stands_still()) return;
   double pull = 0;
@@ -435,6 +485,7 @@ void AttemptWindow::draw_scene(const attempt::Snapshot& now) {
                              stands_still(),
                              m_gamepad_used && m_stage.window.gamepads().present(),
                              pull_limit(m_lesson),
+                             m_stage.settings.force_trace ? &m_feel : nullptr,
                              outlook(now),
                              team_in_words()};
   draw_panel(content, float(width), panel, float(height));

@@ -7,6 +7,7 @@
 
 #include <trocar/attempt/attempt_log.hpp>
 #include <trocar/attempt/hand_pilot.hpp>
+#include <trocar/attempt/haptics/haptic_source.hpp>
 #include <trocar/attempt/inputs/device_parts.hpp>
 #include <trocar/attempt/live.hpp>
 #include <trocar/attempt/sources.hpp>
@@ -14,8 +15,10 @@
 #include <trocar/training/exercise/outlook.hpp>
 
 #include "shell/panes.hpp"
+#include "shell/rumble.hpp"
 #include "trainer/choice.hpp"
 #include "trainer/feedback.hpp"
+#include "trainer/force_feel.hpp"
 #include "trainer/trainer_window.hpp"
 
 namespace trocar::app {
@@ -46,6 +49,8 @@ class AttemptWindow {
   std::vector<std::string> team_in_words() const;
   void keep_mode();
   void tell(attempt::Live& live);
+  int felt_hand(const attempt::Snapshot& now) const;
+  void feel(const attempt::Snapshot& now);
   void warn_of_pull(const attempt::Snapshot& now);
   void ask_for_the_eye(const attempt::Snapshot& now);
   bool crowds_simulation(const attempt::Snapshot& now) const;
@@ -53,6 +58,7 @@ class AttemptWindow {
   void draw_scene(const attempt::Snapshot& now);
   void draw_panes(const attempt::Snapshot& now);
   void run_beside();
+  void take_device();
   void show_beside(const attempt::Snapshot& now);
   void tell_views(const LayoutChoice& choice);
   void draw_over(const attempt::Snapshot& now, Choice& choice);
@@ -76,10 +82,16 @@ class AttemptWindow {
   std::unique_ptr<attempt::HandsSource> m_hands;    ///< null: something else leads
   std::unique_ptr<attempt::TeamHost> m_team;        ///< null: nobody else takes part
   std::unique_ptr<attempt::InputSource> m_source;   ///< not the hands themselves
+  std::unique_ptr<attempt::HapticHand> m_haptic;    ///< null: no device leads a hand
+  std::unique_ptr<attempt::HapticSource> m_felt;    ///< with its hand
   std::unique_ptr<attempt::HostedSource> m_hosted;  ///< with the team's
   std::vector<training::StepStatus> m_steps;
   std::unique_ptr<training::Outlook> m_outlook;  ///< made when it is first asked
   Feedback m_feedback;
+  attempt::Feeler m_feeler;
+  ForceFeel m_feel;
+  Rumble m_rumble;
+  int m_felt_hand = -1;
   PullWarning m_pull_warning;
   std::string m_told_warning, m_told_views, m_told_waits, m_why_paused;
   Json m_result;
@@ -90,7 +102,8 @@ class AttemptWindow {
   bool m_was_still = true, m_gamepad_used = false, m_had_focus = false;
   int m_pictures = 0;  ///< since m_rate_since
   double m_rate_since = 0, m_slowest = 1;
-  int m_asked_for_eye = -1;  ///< hand whose insertion waits to be seen, as told
+  bool m_device_lost = false;  ///< as told
+  int m_asked_for_eye = -1;    ///< hand whose insertion waits to be seen, as told
 };
 
 }  // namespace trocar::app

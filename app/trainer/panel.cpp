@@ -205,6 +205,32 @@ void draw_pull(const PanelContent& c) {
   ui::text(fmt::format("{:.1f} N at the trocar", push), ui::kGrey);
 }
 
+/// The force of the last seconds as a line, the pulse in it as another one below, each with its own scale.
+void draw_trace(const PanelContent& c) {
+  if (!c.feel) return;
+  const std::vector<ForceFeel::Sample>& trace = c.feel->trace();
+  const float width = ImGui::GetContentRegionAvail().x, height = 64 * ui::scale(), upper = 0.6f * height;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(at, {at.x + width, at.y + height}, ImGui::GetColorU32({0.13f, 0.15f, 0.18f, 1}), 3);
+  draw.AddLine({at.x, at.y + upper}, {at.x + width, at.y + upper}, ImGui::GetColorU32({0.30f, 0.32f, 0.36f, 1}));
+  const double most = c.feel->most(), pulse = c.feel->most_pulse(), end = trace.empty() ? 0 : trace.back().time;
+  const auto line = [&](auto share_of, float top, float tall, const ImVec4& colour) {
+    std::vector<ImVec2> points;
+    for (const ForceFeel::Sample& s : trace)
+      points.push_back({at.x + width * float(1 + (s.time - end) / ForceFeel::kSeconds),
+                        at.y + top + tall * (1 - 0.92f * float(std::clamp(share_of(s), 0.0, 1.0)))});
+    draw.AddPolyline(points.data(), int(points.size()), ImGui::GetColorU32(colour), 0, 1.6f * ui::scale());
+  };
+  line([&](const ForceFeel::Sample& s) { return s.felt.force / most; }, 0, upper - 1, ui::kBlue);
+  line([&](const ForceFeel::Sample& s) { return s.felt.pulse / pulse; }, upper, height - upper - 1, ui::kOrange);
+  const double now = trace.empty() ? 0 : trace.back().felt.force;
+  const float pad = 4 * ui::scale();
+  draw.AddText({at.x + pad, at.y + 1}, ImGui::GetColorU32(ui::kGrey), fmt::format("force {:.2f} N", now).c_str());
+  draw.AddText({at.x + pad, at.y + upper}, ImGui::GetColorU32(ui::kGrey), "pulse");
+  ImGui::Dummy({width, height});
+}
+
 void draw_generator(const PanelContent& c) {
   for (const GeneratorLine& line : generator_lines(c.lesson.model, c.now.state))
     ui::text(line.text, line.warning ? ui::kRed : line.on ? ui::kOrange : ui::kGrey);
@@ -254,6 +280,7 @@ void draw_panel(const PanelContent& c, float left, float width, float height) {
   draw_hands(c);
   ImGui::Dummy({0, 2 * ui::scale()});
   draw_pull(c);
+  draw_trace(c);
   draw_patient(c);
   draw_fluids(c);
   draw_lens(c);

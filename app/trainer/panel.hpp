@@ -10,6 +10,7 @@
 #include <trocar/training/exercise/outlook.hpp>
 
 #include "trainer/feedback.hpp"
+#include "trainer/force_feel.hpp"
 
 namespace trocar::app {
 
@@ -25,6 +26,7 @@ struct PanelContent {
   const Feedback& feedback;
   bool paused = false, gamepad = false;            ///< gamepad: the keys at its foot are a gamepad's
   double pull_limit = 5;                           ///< [N]
+  const ForceFeel* feel = nullptr;                 ///< null: no trace of the force
   std::optional<training::Foretold> outlook = {};  ///< of what a hand is about to do; told while familiarising
   std::vector<std::string> team = {};              ///< who else takes part, a line each
 };

@@ -309,6 +309,12 @@ bool draw_settings(Settings& s, const Settings& before, bool sound, bool quad_bu
   ui::text("Text and sound", ui::kBlue);
   ui::slider("text size", s.text_size, kLeastText, kMostText, "x %.2f", false);
   ui::slider(sound ? "sound volume" : "sound volume (no device found)", s.volume, 0, 1, "%.2f", false);
+  ui::text("Force on the led hand, for those without a haptic device", ui::kBlue);
+  ui::checkbox("drawn", s.force_trace);
+  ImGui::SameLine(0, 20 * ui::scale());
+  ui::checkbox("heard", s.force_sound);
+  ImGui::SameLine(0, 20 * ui::scale());
+  ui::checkbox("felt in the gamepad", s.rumble);
   ui::checkbox("tell the three things to know before an exercise", s.show_hint);
   ImGui::EndChild();
   if (ui::button("Close", {.width = 130, .primary = true})) closed = true;

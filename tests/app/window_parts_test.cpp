@@ -11,8 +11,10 @@
 
 #include "../other_process.hpp"
 #include "shell/gamepads.hpp"
+#include "shell/rumble.hpp"
 #include "shell/settings.hpp"
 #include "trainer/feedback.hpp"
+#include "trainer/force_feel.hpp"
 
 namespace trocar::app {
 namespace {
@@ -37,6 +39,8 @@ TEST_F(SettingsFile, WhatIsWrittenIsReadAgain) {
   s.left_handed = s.both_hands = s.invert_x = s.mirrored_picture = true;
   s.mouse = 1.7;
   s.volume = 0.25;
+  s.force_trace = s.force_sound = true;
+  s.rumble = false;
   s.text_size = 1.4;
   s.window_width = 1920;
   s.trainee = "Zo\u00eb \u0416";
@@ -162,6 +166,60 @@ TEST(GamepadLine, WhatIsNoSampleIsLeftOut) {
   EXPECT_FALSE(read_gamepad_line("gone", gone).has_value());
   EXPECT_TRUE(gone);
   EXPECT_FLOAT_EQ(read_gamepad_line("7 0 0 0 -3 9", gone)->left_x, 1.0f);
+}
+
+TEST(ForceFeel, ClicksComeFasterTheHarderItPressesAndNoneWhereNothingIsTouched) {
+  const auto clicks = [](double force) {
+    ForceFeel feel;
+    int count = 0;
+    for (int i = 0; i < 300; ++i) {
+      feel.add(i / 60.0, {force, 0}, 5);
+      count += feel.click();
+    }
+    return count;
+  };
+  EXPECT_EQ(clicks(0.01), 0);
+  EXPECT_GE(clicks(0.2), 8);
+  EXPECT_GT(clicks(2), clicks(0.2) + 10);
+  EXPECT_GT(clicks(5), clicks(2) + 10);
+  EXPECT_LE(clicks(500), 101);
+}
+
+TEST(ForceFeel, EachBeatIsToldOnceAndTurnsTheQuickMotor) {
+  ForceFeel feel;
+  int beats = 0;
+  double weak = 0;
+  for (int i = 0; i < 600; ++i) {
+    const double t = i / 60.0, phase = t - std::floor(t);
+    feel.add(t, {0.4, phase < 0.3 ? 0.08 * std::sin(phase / 0.3 * 3.14159) : 0}, 5);
+    beats += feel.beat();
+    weak = std::max(weak, feel.weak());
+  }
+  EXPECT_EQ(beats, 10);
+  EXPECT_GT(weak, 0.8);
+  EXPECT_NEAR(feel.trace().front().time, 600 / 60.0 - ForceFeel::kSeconds, 0.05);
+  feel.forget();
+  EXPECT_EQ(feel.strong(), 0);
+  EXPECT_TRUE(feel.trace().empty());
+}
+
+TEST(Rumble, FindsThePadByTheIdentityInItsGuid) {
+  const std::optional<PadIds> ids = ids_of_guid("030000005e0400008e02000010010000");
+  ASSERT_TRUE(ids);
+  EXPECT_EQ(*ids, (PadIds{3, 0x045e, 0x028e, 0x0110}));
+  for (const char* bad : {"", "03", "030000005e0400008e0200001001000g", "05000000506f63746f720000000000aa",
+                          "0300000000000000000000000000000000"})
+    EXPECT_FALSE(ids_of_guid(bad)) << bad;
+}
+
+TEST(Rumble, WithoutAPadNothingTurnsAndLevelsStayInTheirBounds) {
+  Rumble rumble;
+  rumble.use("030000005e0400008e02000010010000");
+  rumble.set(1, 1, 0);
+  EXPECT_FALSE(rumble.turns());
+  EXPECT_EQ(motor_level(0), 0);
+  EXPECT_EQ(motor_level(7), 65535);
+  EXPECT_EQ(motor_level(std::nan("")), 0);
 }
 
 TEST(Tones, BeginAndEndInSilenceAndAreHeard) {

@@ -78,8 +78,10 @@ void compile_hands(const Description& d, sim::Model& model, std::vector<core::Fa
     sim::HandModel& hand = model.hands.emplace_back();
     hand.name = port->name;
     hand.port = port->position;
+    hand.seal_friction = port->seal_friction;
     hand.rack = rack_of(d, *instrument, *port);
   }
+  model.instruments_push = d.instruments_push;
   const Port* port = named(d.ports, d.scope_placement.port);
   model.scope.port = port ? port->position : Vec3d{};
   model.scope.angle = d.scope.angle;

@@ -263,6 +263,7 @@ struct Port {
   std::string name;
   Vec3d position;
   double diameter = 0.005;
+  double seal_friction = 0.5;  ///< along a shaft [N]
   core::Location at;
 };
 
@@ -486,6 +487,7 @@ struct Description {
   std::shared_ptr<const sim::Lookbook> looks;  ///< those that are there; null: none
   std::vector<MarkSetting> marks;
   std::vector<Port> ports;
+  bool instruments_push = false;  ///< each other aside
   std::vector<Instrument> instruments;
   std::vector<Placement> placements;  ///< tools, in hand order: [0] left, [1] right, [2] assistant/third
   Scope scope;

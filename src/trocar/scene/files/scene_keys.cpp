@@ -50,7 +50,9 @@ const Table<Port>& port() {
       "A trocar: the point about which an instrument turns.",
       {needed(R::name("name", &Port::name, "what tools call it")),
        needed(R::vec3("position_mm", units::mm, &Port::position, -kFar, kFar, "the pivot, in the abdominal wall")),
-       R::number("diameter_mm", units::mm, &Port::diameter, 2, 40, "inner diameter, default {}")}};
+       R::number("diameter_mm", units::mm, &Port::diameter, 2, 40, "inner diameter, default {}"),
+       R::number("seal_friction_N", units::one, &Port::seal_friction, 0, 5,
+                 "of its seal along a shaft, felt with a haptic device; default {}")}};
   return table;
 }
 
@@ -264,6 +266,7 @@ std::vector<Row<Description>> scene_rows() {
       R::name("variant", &D::variant, "one of the variation's variants, which every seed has; default: the seed draws"),
       included("instruments", instrument, &D::instruments, &Reading::instruments, "instruments: files or objects"),
       needed(R::objects("ports", port, &D::ports, 1, "trocars")),
+      R::flag("instruments_push", &D::instruments_push, "instruments that meet push each other aside, default {}"),
       needed(R::objects("tools", tool, &D::placements, 0, "in the order of the hands: left, right, assistant",
                         check_tool)),
       needed(R::object(

@@ -279,6 +279,7 @@ struct EnergyModel {
 struct HandModel {
   std::string name;                           ///< of the trocar: "left_lateral"
   Vec3d port;                                 ///< its fulcrum [m]
+  double seal_friction = 0.5;                 ///< of its seal along a shaft, for who feels it; the step does not [N]
   std::vector<interactions::ToolModel> rack;  ///< 1..kMaxRack; the first is in the hand at the start
   std::int32_t membrane = -1;                 ///< that its jaws hold at the start; -1: they hold nothing
   std::vector<std::int32_t> held;             ///< nodes of it between them then, 1..interactions::kMaxHolds
@@ -289,7 +290,7 @@ struct HandModel {
   static void fields(S& s, V&& v) {
     v("rack", s.rack, core::FieldNote{.sized = true}), v("membrane", s.membrane, core::only_if(s.membrane >= 0)),
         v("held", s.held, core::only_if(s.membrane >= 0)), v("name", s.name, core::kNotHashed),
-        v("port", s.port, core::kNotHashed);
+        v("port", s.port, core::kNotHashed), v("seal_friction", s.seal_friction, core::kNotHashed);
   }
 };
 
@@ -354,6 +355,7 @@ struct Model {
   MotionModel motion;
   tissue::Box cavity{{-1e9f, -1e9f, -1e9f}, {1e9f, 1e9f, 1e9f}};  ///< nothing leaves it (containing.hpp)
   std::vector<HandModel> hands;                                   ///< at most kMaxTools
+  bool instruments_push = false;                                  ///< each other aside (stages/instruments.hpp)
   ScopeModel scope;
   Input start;  ///< everything as placed
   std::vector<interactions::SurfacePair> surface_pairs;
@@ -395,7 +397,8 @@ struct Model {
         v("strand_pairs", s.strand_pairs), v("self_pairs", s.self_pairs), v("samples", s.samples), v("marks", s.marks),
         v("vessels", s.vessels, core::only_if(s.vessels.there())), v("wet", s.wet, core::only_if(s.wet.there)),
         v("energy", s.energy, core::only_if(s.energy.there)), v("motion", s.motion, core::only_if(s.motion.there())),
-        v("objects", s.objects), v("statics", s.statics, core::only_if(!s.statics.empty())),
+        v("objects", s.objects), v("instruments_push", s.instruments_push, core::only_if(s.instruments_push)),
+        v("statics", s.statics, core::only_if(!s.statics.empty())),
         v("bonds", s.bonds, core::only_if(!s.bonds.empty())), v("name", s.name, core::kNotHashed),
         v("file", s.file, core::kNotHashed), v("anatomy", s.anatomy, core::kNotHashed),
         v("anatomy_title", s.anatomy_title, core::kNotHashed), v("drawn_folds", s.drawn_folds, core::kNotHashed),

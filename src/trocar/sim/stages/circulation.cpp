@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/bodies/vessel_wounds.hpp>
 #include <trocar/sim/stages/circulation.hpp>
+#include <trocar/sim/stages/pulse_feel.hpp>
 #include <trocar/sim/stages/stage.hpp>
 #include <trocar/sim/verbs/sealing.hpp>
 
@@ -70,35 +70,14 @@ void push(StepContext& c, const interactions::VesselPoint& p, Vec3d force, inter
   }
 }
 
-constexpr double kFelt =
-    0.003;  // [m] of tissue between a vessel's wall and an instrument that still feels it. Our choice
-
-Vec3d on_segment(Vec3d p, Vec3d a, Vec3d b) noexcept { return a + geometry::closest_on_segment(p, a, b) * (b - a); }
-double away(Vec3d p, Vec3d a, Vec3d b) noexcept { return length(p - on_segment(p, a, b)); }
-
-/// Does the hand's instrument press on tissue?
-bool presses(const StepContext& c, size_t t) noexcept {
-  const double(&f)[3] = c.state.tools[t].contact_force;
-  return f[0] != 0 || f[1] != 0 || f[2] != 0;
-}
-
 /// A wall that a pulse drives outwards pushes what palpates it, and is pushed back: pressure above the mean on the
 /// vessel's width times the length that a point of its line stands for, less the more tissue lies between.
 void push_hands(StepContext& c, const interactions::VesselPoint& p, Vec3d at, double force, double radius) noexcept {
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
-    const interactions::ToolShape& shape = c.work.shapes[t];
-    if (!presses(c, t) || away(at, shape.part[interactions::kShaft].a, shape.frame.tip) > kNearSheet) continue;
-    double nearest = kFelt;
-    Vec3d towards;
-    for (const collision::Capsule& part : shape.part) {
-      const Vec3d axis = on_segment(at, part.a, part.b);
-      const double between = std::max(length(axis - at) - part.radius - radius, 0.0);
-      if (between >= nearest) continue;
-      nearest = between;
-      towards = normalised(axis - at, {0, 0, 0});
-    }
-    if (nearest < kFelt)
-      push(c, p, (-force * (1 - nearest / kFelt)) * towards, {interactions::Owner::tool_contact, std::int32_t(t), 0});
+    if (!presses(c.state, t)) continue;
+    const PulseTouch touch = pulse_touch(c.work.shapes[t], at, radius);
+    if (touch.share > 0)
+      push(c, p, (-force * touch.share) * touch.towards, {interactions::Owner::tool_contact, std::int32_t(t), 0});
   }
 }
 
@@ -122,8 +101,7 @@ void beat(StepContext& c) noexcept {
       if (p.hold.kind == VesselHold::space) continue;
       const double radius = wide * (segment.radius + segment.taper * p.s);
       push(c, p, (over * portable::pi * radius * radius) * turn_at(vessel.path, x, int(i)));
-      const double stands_for = 0.5 * vessel.path.length * (vessel.path.points[i + 1].s - vessel.path.points[i - 1].s);
-      if (over > 0) push_hands(c, p, x[i], over * 2 * radius * stands_for, radius);
+      if (over > 0) push_hands(c, p, x[i], over * 2 * radius * stands_for(vessel.path, i), radius);
     }
   }
 }

@@ -1,3 +1,4 @@
+#include <trocar/sim/stages/instruments.hpp>
 #include <trocar/sim/stages/reaction_forces.hpp>
 #include <trocar/sim/stages/stage.hpp>
 
@@ -41,6 +42,7 @@ void gather_reaction_forces(StepContext& c) noexcept {
     kind.account(interactions::part_of<decltype(kind)>(c.work.objects), kTick,
                  [&c](interactions::Tag tag, Vec3d force) { account(c, tag, force); });
   });
+  feel_instruments(c);
   const interactions::TissueView view = tissue_of(c);
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     interactions::ToolState& tool = c.state.tools[t];

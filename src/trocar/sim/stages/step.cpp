@@ -8,6 +8,7 @@
 #include <trocar/sim/stages/contacts.hpp>
 #include <trocar/sim/stages/containing.hpp>
 #include <trocar/sim/stages/hands.hpp>
+#include <trocar/sim/stages/instruments.hpp>
 #include <trocar/sim/stages/jaws.hpp>
 #include <trocar/sim/stages/peristalsis.hpp>
 #include <trocar/sim/stages/posing.hpp>
@@ -42,6 +43,7 @@ void sum_up(StepContext& c) noexcept {
 
 constexpr Stage kStages[] = {
     {"move hands", move_hands},
+    {"part instruments", part_instruments},
     {"pose skins", pose_skins},
     {"pose vessels", pose_vessels},
     {"hang organs", hang_organs},

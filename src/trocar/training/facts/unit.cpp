@@ -7,6 +7,7 @@ namespace {
 constexpr Unit kUnits[] = {
     {"", 1, "a plain number"},
     {"mL_min", 1e-6 / 60, "millilitres a minute"},
+    {"per_min", 1.0 / 60, "times a minute"},
     {"mm_s", 1e-3, "millimetres a second"},
     {"N_s", 1, "newton seconds"},
     {"mm2", 1e-6, "square millimetres"},
