@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
+#include <trocar/kinematics/dynamics/dynamics.hpp>
+#include <trocar/kinematics/inverse/inverse.hpp>
 #include <trocar/kinematics/loops/close.hpp>
 #include <trocar/kinematics/loops/conditions.hpp>
 #include <trocar/kinematics/loops/mobility.hpp>
@@ -211,6 +213,25 @@ TEST(Loops, ClosingAllocatesNothing) {
     close(changed, u, work);
   }
   EXPECT_EQ(g_allocations - before, 0);
+}
+
+TEST(Loops, ReachingAndAStepOfDynamicsAllocateNothingEither) {
+  MechanismDescription d = four_bar(0.020, 0.050, 0.045, 0.055, 0.3, 0.5, 1.5);
+  d.frames = {{"knee", "rocker", at(0.045)}};
+  for (Link& l : d.links) l.mass = 0.01, l.centre = {0.01, 0, 0}, l.inertia = {1e-6, 1e-6, 1e-6, 0, 0, 0};
+  const Mechanism m = build(d);
+  InverseWork reaching(m, 6);
+  DynamicsWork moving(m);
+  MotionState s{m.start_u(), std::vector<double>(3, 0.0)};
+  std::vector<double> u = m.start_u();
+  const long before = g_allocations;
+  const Closure goal = reach(m.frames[0], {Mat3d::identity(), {0.05, 0.044, 0}}, kTx);
+  const bool reached = inverse(m, {&goal, 1}, u, reaching).reached();
+  MotionStatus status = project(m, s, moving);
+  for (int k = 0; k < 5 && status == MotionStatus::good; ++k) status = step(m, {}, 1e-4, s, moving);
+  EXPECT_EQ(g_allocations - before, 0);
+  EXPECT_TRUE(reached);
+  EXPECT_EQ(status, MotionStatus::good);
 }
 
 TEST(Loops, ClosingGivesTheSameBitsFromTheSamePose) {

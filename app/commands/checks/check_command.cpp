@@ -8,11 +8,12 @@
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/kinematics/loops/mobility.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/json/json.hpp>
+#include <trocar/scene/mechanisms/mechanism_file.hpp>
 
 #include "commands/checks/check_exercise.hpp"
-#include "commands/checks/check_mechanism.hpp"
 #include "commands/checks/check_mesh.hpp"
 #include "commands/checks/check_scene.hpp"
 #include "commands/checks/check_vessels.hpp"
@@ -76,6 +77,24 @@ void print_tissues(const Json& tissues) {
     for (const auto& [key, figure] : t["figures"].items())
       fmt::print("    {:15} {:>9}  {}\n", key, figure["value"].get<double>(), figure["source"].get<std::string>());
   }
+}
+
+bool is_mechanism_file(const fs::path& path) {
+  if (path.extension() == ".urdf") return true;
+  std::vector<core::Fault> ignored;
+  return path.extension() == ".json" && scene::load_json(path, ignored).root.find("links") != nullptr;
+}
+
+Json describe_mechanism(const fs::path& path) {
+  const kinematics::Mechanism m = kinematics::build(scene::read_mechanism(path));
+  std::vector<double> u = m.start_u();
+  const kinematics::Mobility freedoms = kinematics::mobility(m, u);
+  Json out{{"file", path.string()},         {"kind", "mechanism"},
+           {"links", m.links.size() - 1},   {"coordinates", m.q_count()},
+           {"free", m.u_count()},           {"conditions", m.rows},
+           {"mobility", freedoms.mobility}, {"mobility_words", words(freedoms)}};
+  if (freedoms.poses == 0) out["verdict"] = "its loops do not close where it begins";
+  return out;
 }
 
 /// @param unit  of meshes, in metres

@@ -201,7 +201,8 @@ std::string words(const Mechanism& m, const LoopReport& r) {
     text += fmt::format("; over-constrained but consistent: {} of {} conditions follow from the others", r.redundant(),
                         r.conditions);
   if (r.closed() && r.idle() > 0)
-    text += fmt::format("; {} {} left to itself", r.idle(), r.idle() == 1 ? "freedom is" : "freedoms are");
+    text += fmt::format("; {}", r.idle() == 1 ? std::string("a freedom is left to itself")
+                                              : fmt::format("{} freedoms are left to themselves", r.idle()));
   if (r.limit >= 0) {
     const auto i = std::size_t(r.limit);
     const bool angle = m.measures[i] == Measure::angle;
