@@ -39,5 +39,6 @@ void add_precompute(CLI::App& program, Chosen& chosen);
 void add_compare(CLI::App& program, Chosen& chosen);
 void add_rehearse(CLI::App& program, Chosen& chosen);
 void add_model(CLI::App& program, Chosen& chosen);
+void add_box(CLI::App& program, Chosen& chosen);
 
 }  // namespace trocar::app

@@ -74,6 +74,7 @@ int run_program(int argc, const char* const* argv) {
   add_rehearse(program, chosen);
   add_model(program, chosen);
   add_compare(program, chosen);
+  add_box(program, chosen);
   const std::string first = argv[1];
   if (!first.empty() && first[0] != '-') {
     Chosen check;

@@ -2,16 +2,17 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/attempt_log.hpp>
+#include <trocar/attempt/box/box_source.hpp>
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/attempt/solver_beside.hpp>
 #include <trocar/attempt/sources.hpp>
-#include <trocar/scene/checks/standing.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/pictures/analysis_choice.hpp>
 #include <trocar/pictures/headless.hpp>
 #include <trocar/reports/report_page.hpp>
+#include <trocar/scene/checks/standing.hpp>
 
 #include "commands/command.hpp"
 #include "commands/number_options.hpp"
@@ -70,7 +71,7 @@ attempt::AttemptPlan plan_of(const TrainChoice& o) {
 
 Json train_headless(const TrainChoice& o, const attempt::Lesson& lesson, training::Store* store,
                     pictures::PictureSize size) {
-  const std::unique_ptr<attempt::InputSource> source = attempt::make_source(lesson, o.input);
+  const std::unique_ptr<attempt::InputSource> source = attempt::make_input(lesson, o.input, attempt::BoxPace::stepped);
   attempt::Session session(lesson);
   EventLog events(o.log);
   attempt::AttemptLog log(store, session, plan_of(o));
@@ -121,8 +122,9 @@ WindowOptions window_options(const TrainChoice& o, training::Store* store,
 int train(const TrainChoice& o, bool json) {
   const bool hands = o.input == "mouse" || o.input == "gamepad";
   if (o.headless && hands)
-    throw core::BadInput({{{"--headless", 0, 0},
-                           fmt::format("expected --input demo, motion:FILE or replay:FILE with it, got {}", o.input)}});
+    throw core::BadInput(
+        {{{"--headless", 0, 0},
+          fmt::format("expected --input demo, motion:FILE, replay:FILE or box:PORT with it, got {}", o.input)}});
   if (o.exercise.empty() && (o.headless || !hands))
     throw core::BadInput({{{"train", 0, 0}, "expected an exercise (see trocar list), got none"}});
   // Faults are told before anything is begun.
@@ -163,7 +165,8 @@ void add_train(CLI::App& program, Chosen& chosen) {
                             "shots --json");
   c->add_option("exercise", options->exercise, "a name that `trocar list` shows, or a path; without one: start screen");
   c->add_option("--input", options->input,
-                "mouse | gamepad (hands, by any device) | demo | motion:FILE[#OPERATOR/TRIAL] | replay:FILE")
+                "mouse | gamepad (hands, by any device) | demo | motion:FILE[#OPERATOR/TRIAL] | replay:FILE | "
+                "box:PORT[#FILE]")
       ->capture_default_str();
   c->add_flag("--headless", options->headless, "no window, as fast as it goes");
   c->add_option("--record", options->record, "write the recording to this file");

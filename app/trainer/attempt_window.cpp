@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/attempt/box/box_source.hpp>
 #include <trocar/attempt/hand_names.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/attempt/sources.hpp>
@@ -59,7 +60,7 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
     m_pilot->lead_both(stage.settings.both_hands);
     m_hint = stage.settings.show_hint;
   } else {
-    m_source = attempt::make_source(lesson, plan.input);
+    m_source = attempt::make_input(lesson, plan.input, attempt::BoxPace::live);
   }
   run_beside();
   m_gamepad_used = plan.input == "gamepad";
