@@ -25,7 +25,30 @@ namespace {
 
 using devices::BoxTime;
 
+const char* axis_word(int actor, int axis) {
+  const bool post = devices::BoxActor(actor) == devices::BoxActor::scope && axis == int(devices::BoxAxis::handle);
+  return post ? "post" : devices::kBoxAxisNames[std::size_t(axis)];
+}
+
+/// An axis in the unit that people read.
+std::string value_text(int actor, int axis, double value) {
+  if (devices::BoxAxis(axis) == devices::BoxAxis::depth) return fmt::format("{:7.1f} mm", 1000 * value);
+  if (devices::BoxAxis(axis) == devices::BoxAxis::handle && devices::BoxActor(actor) != devices::BoxActor::scope)
+    return fmt::format("{:7.2f}   ", value);
+  return fmt::format("{:7.2f} deg", value * 57.29577951308232);
+}
+
 // --- simulate ---
+
+/// What the hands do and the box cannot say.
+void warn_of_reach(const devices::BoxAngles& beyond) {
+  for (int actor = 0; actor < devices::kBoxActors; ++actor)
+    for (int axis = 0; axis < devices::kBoxAxes; ++axis)
+      if (const double by = beyond[std::size_t(actor)][std::size_t(axis)]; by > 0)
+        core::log::warn("{} {}: these hands go beyond what its channel reaches, by{}",
+                        devices::kBoxActorNames[std::size_t(actor)], axis_word(actor, axis),
+                        value_text(actor, axis, by));
+}
 
 struct SimulateChoice {
   std::string port, exercise, motion, replay, wiring, clock = "real";
@@ -78,9 +101,7 @@ int simulate(const SimulateChoice& o, bool json) {
   if (!o.exercise.empty()) {
     lesson = attempt::load_lesson(o.exercise, o.seed);
     playback = std::make_unique<attempt::BoxPlayback>(lesson->model, wiring, inputs_of(o, *lesson), o.lead_in);
-    if (playback->beyond() > 0)
-      core::log::warn("these hands go beyond what the box's tables reach, by {:.3g} (rad, m, or of a handle's way)",
-                      playback->beyond());
+    warn_of_reach(playback->beyond());
     motion = [&playback](double seconds) { return playback->at(seconds); };
   }
   devices::SoftwareBox box(settings, std::move(motion));
@@ -105,19 +126,6 @@ struct MonitorChoice {
   int baud = 0;
   double seconds = 0, hz = 0;
 };
-
-const char* axis_word(int actor, int axis) {
-  const bool post = devices::BoxActor(actor) == devices::BoxActor::scope && axis == int(devices::BoxAxis::handle);
-  return post ? "post" : devices::kBoxAxisNames[std::size_t(axis)];
-}
-
-/// An axis in the unit that people read.
-std::string value_text(int actor, int axis, double value) {
-  if (devices::BoxAxis(axis) == devices::BoxAxis::depth) return fmt::format("{:7.1f} mm", 1000 * value);
-  if (devices::BoxAxis(axis) == devices::BoxAxis::handle && devices::BoxActor(actor) != devices::BoxActor::scope)
-    return fmt::format("{:7.2f}   ", value);
-  return fmt::format("{:7.2f} deg", value * 57.29577951308232);
-}
 
 std::string line_text(const devices::BoxStatus& s, double age_ms) {
   return fmt::format(

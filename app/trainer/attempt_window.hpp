@@ -35,6 +35,8 @@ class AttemptWindow {
   void hold(const std::string& why);
   bool stands_still() const;
   void lead(attempt::Live& live, const attempt::Snapshot& now);
+  void listen_to_device(const attempt::Snapshot& now);
+  void note_age();
   void keep_mode();
   void tell(attempt::Live& live);
   void warn_of_pull(const attempt::Snapshot& now);
@@ -77,6 +79,10 @@ class AttemptWindow {
   bool m_was_still = true, m_gamepad_used = false, m_had_focus = false;
   int m_pictures = 0;  ///< since m_rate_since
   double m_rate_since = 0, m_slowest = 1;
+  attempt::DeviceNews m_device;  ///< of the source, as of this picture
+  std::string m_told_device, m_told_device_hint;
+  double m_age = 0, m_age_sum = 0, m_age_most = 0;  ///< of what is on the screen, since it was measured [s]
+  std::uint64_t m_ages = 0;
   int m_asked_for_eye = -1;  ///< hand whose insertion waits to be seen, as told
 };
 

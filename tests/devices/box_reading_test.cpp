@@ -114,9 +114,20 @@ TEST(BoxReader, ReadsPedalsValvesAndAxesWhereTheyAreWired) {
   EXPECT_EQ(pose.valves[0], 1);
   EXPECT_EQ(pose.valves[1], 2);
   EXPECT_NEAR(pose.of(BoxActor::left, BoxAxis::depth), 0.3, 1e-12);
-  EXPECT_NEAR(pose.of(BoxActor::scope, BoxAxis::pitch), 1.0471975512, 1e-9);
+  EXPECT_NEAR(pose.of(BoxActor::left, BoxAxis::pitch), 1.0471975512, 1e-9);
   EXPECT_FALSE(pose.has(BoxActor::third, BoxAxis::yaw));
   EXPECT_TRUE(pose.has(BoxActor::third, BoxAxis::pitch));
+}
+
+TEST(BoxReader, TheLightPostGoesOnOverTheEndOfItsChannel) {
+  BoxWiring wiring = default_wiring();
+  wiring.filter.rest = 0;
+  BoxReader reader(wiring);
+  const double first = reader.read(packet(1, 3600)).of(BoxActor::scope, BoxAxis::handle);
+  const double next = reader.read(packet(2, 460)).of(BoxActor::scope, BoxAxis::handle);
+  EXPECT_GT(next, first);
+  EXPECT_LT(next - first, 0.3);
+  EXPECT_LT(reader.read(packet(3, 3600)).of(BoxActor::scope, BoxAxis::handle), next);
 }
 
 BoxPose moving(unsigned number) {

@@ -93,10 +93,16 @@ void BoxHands::lead(const devices::BoxPose& pose, sim::Input& input) const {
   input.scope = {float(scope.yaw), float(scope.pitch), float(scope.roll), float(scope.depth), input.scope.post};
 }
 
+/// What the box's axis says then; the light post's within one turn.
+double BoxHands::deflection(const sim::Input& input, int hand, BoxActor actor, BoxAxis axis) const {
+  const double value = double(coordinate(input, hand, axis)) - zero(actor, axis);
+  return actor == BoxActor::scope && axis == BoxAxis::handle ? devices::unwrapped(value, 0) : value;
+}
+
 devices::BoxBlock BoxHands::block_of(const sim::Input& input) const {
   devices::BoxBlock block;
   for_wired([&](int hand, BoxActor actor, BoxAxis axis, const devices::WiredAxis& wired) {
-    const double code = wired.table.code(double(coordinate(input, hand, axis)) - zero(actor, axis));
+    const double code = wired.table.code(deflection(input, hand, actor, axis));
     block.codes[std::size_t(wired.channel)] =
         std::uint16_t(std::lround(std::clamp(code, 0.0, double(devices::kBoxTopCode))));
   });
@@ -116,15 +122,16 @@ devices::BoxBlock BoxHands::block_of(const sim::Input& input) const {
   return block;
 }
 
-double BoxHands::beyond(const sim::Input& input) const {
-  double farthest = 0;
+devices::BoxAngles BoxHands::beyond(const sim::Input& input) const {
+  devices::BoxAngles all{};
   for_wired([&](int hand, BoxActor actor, BoxAxis axis, const devices::WiredAxis& wired) {
-    const double value = double(coordinate(input, hand, axis)) - zero(actor, axis);
+    const double value = deflection(input, hand, actor, axis);
     const double code = wired.table.code(value);
-    const double said = wired.table.value(std::clamp(code, 0.0, double(devices::kBoxTopCode)));
-    farthest = std::max(farthest, std::abs(value - said));
+    if (code < 0 || code > devices::kBoxTopCode)
+      all[std::size_t(actor)][std::size_t(axis)] =
+          std::abs(value - wired.table.value(std::clamp(code, 0.0, double(devices::kBoxTopCode))));
   });
-  return farthest > 1e-9 ? farthest : 0;
+  return all;
 }
 
 }  // namespace trocar::attempt

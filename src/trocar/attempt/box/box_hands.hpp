@@ -21,11 +21,11 @@ class BoxHands {
 
   /// What a box whose hands do `input` would measure (without next_instrument and reset).
   devices::BoxBlock block_of(const sim::Input& input) const;
-  /// By how much `input` is beyond what the channels can say, of the axis that is farthest beyond: [rad], [m] or 0 ..
-  /// 1; 0: nothing is.
-  double beyond(const sim::Input& input) const;
+  /// By how much every axis of `input` is beyond what its channel can say: [rad], [m] or 0 .. 1; 0: it is not.
+  devices::BoxAngles beyond(const sim::Input& input) const;
 
  private:
+  double deflection(const sim::Input& input, int hand, devices::BoxActor actor, devices::BoxAxis axis) const;
   double zero(devices::BoxActor actor, devices::BoxAxis axis) const;
   template <class F>
   void for_wired(F&& f) const;

@@ -20,7 +20,12 @@ BoxPlayback::BoxPlayback(const sim::Model& model, const devices::BoxWiring& wiri
                          double lead_in)
     : m_hands(model, wiring), m_inputs(std::move(inputs)), m_lead_in(lead_in) {
   for (const sim::HandModel& hand : model.hands) m_rack.push_back(int(hand.rack.size()));
-  for (const sim::Input& input : m_inputs) m_beyond = std::max(m_beyond, m_hands.beyond(input));
+  for (const sim::Input& input : m_inputs) {
+    const devices::BoxAngles beyond = m_hands.beyond(input);
+    for (std::size_t actor = 0; actor < devices::kBoxActors; ++actor)
+      for (std::size_t axis = 0; axis < devices::kBoxAxes; ++axis)
+        m_beyond[actor][axis] = std::max(m_beyond[actor][axis], beyond[actor][axis]);
+  }
   press_for_changes();
 }
 

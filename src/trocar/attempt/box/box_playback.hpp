@@ -22,8 +22,8 @@ class BoxPlayback {
 
   devices::BoxBlock at(double seconds) const;
   double duration() const;  ///< [s], with what is held before
-  /// By how much the inputs are beyond what the channels can say at most (BoxHands::beyond); 0: they are not.
-  double beyond() const { return m_beyond; }
+  /// By how much the inputs are at most beyond what each channel can say.
+  const devices::BoxAngles& beyond() const { return m_beyond; }
 
   static constexpr double kPress = 0.06;  ///< [s] that a button is down, and up before the next press
 
@@ -38,7 +38,8 @@ class BoxPlayback {
   std::vector<sim::Input> m_inputs;
   std::vector<int> m_rack;  ///< (hands) instruments of each
   std::vector<Press> m_presses;
-  double m_lead_in, m_beyond = 0;
+  double m_lead_in;
+  devices::BoxAngles m_beyond{};
 };
 
 /// What the exercise's demonstration did: it is performed once, without a window, and may have to pass.

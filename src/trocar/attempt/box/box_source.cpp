@@ -112,11 +112,12 @@ void BoxLeader::go_towards(const sim::Input& wanted) {
       command = to;
     command.handle = handle;
   }
-  if (m_scope_catches)
-    m_scope_catches = !approach(m_command.scope, wanted.scope);
-  else
+  if (m_scope_catches) {
+    const float post = approach(m_command.scope.post, wanted.scope.post, kCatchTurn * core::kTick);
+    m_scope_catches = !approach(m_command.scope, wanted.scope) || double(post) > kNearAngle;
+  } else {
     m_command.scope = wanted.scope;
-  m_command.scope.post = wanted.scope.post;
+  }
   m_command.pedals = wanted.pedals;
 }
 

@@ -44,6 +44,10 @@ std::uint32_t Debounce::next(std::uint32_t bits, BoxTime at, bool checked) noexc
   return m_bits;
 }
 
+double unwrapped(double angle, double before) noexcept {
+  return angle + kTwoPi * std::round((before - angle) / kTwoPi);
+}
+
 const BoxPose& BoxReader::read(const BoxPacket& packet) noexcept {
   const double dt = m_pose.number == 0 ? 0 : box_seconds(packet.acquired - m_pose.acquired);
   m_pose.wired = 0;
@@ -51,7 +55,9 @@ const BoxPose& BoxReader::read(const BoxPacket& packet) noexcept {
     for (std::size_t axis = 0; axis < kBoxAxes; ++axis) {
       const WiredAxis& wired = m_wiring.axes[actor][axis];
       if (wired.channel < 0 || (packet.mask >> wired.channel & 1) == 0) continue;
-      const double value = wired.table.value(packet.block.codes[std::size_t(wired.channel)]);
+      double value = wired.table.value(packet.block.codes[std::size_t(wired.channel)]);
+      if (BoxActor(actor) == BoxActor::scope && BoxAxis(axis) == BoxAxis::handle)
+        value = m_post = unwrapped(value, m_post);
       m_pose.axes[actor][axis] =
           m_filters[actor][axis].next(value, dt, m_wiring.filter.rest, m_wiring.filter.per_speed[axis]);
       m_pose.wired |= 1u << (kBoxAxes * actor + axis);

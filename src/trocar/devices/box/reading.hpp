@@ -56,6 +56,10 @@ class Debounce {
   bool m_begun = false;
 };
 
+/// The light post turns without an end: from one end of its channel to the other is a step of a few degrees, not one
+/// back over the whole turn.  @returns `angle`, by whole turns nearer to `before`
+double unwrapped(double angle, double before) noexcept;
+
 class BoxReader {
  public:
   explicit BoxReader(const BoxWiring& wiring) : m_wiring(wiring) {}
@@ -67,6 +71,7 @@ class BoxReader {
 
   BoxWiring m_wiring;
   BoxPose m_pose;
+  double m_post = 0;  ///< before the filter
   std::array<std::array<OneEuro, kBoxAxes>, kBoxActors> m_filters;
   Debounce m_debounce;
   std::uint32_t m_pressed = 0;  ///< bit per hand: its button for another instrument is down

@@ -13,7 +13,7 @@ double interpolated(const std::vector<double>& x, const std::vector<double>& y, 
   return y[i - 1] + (at - x[i - 1]) * (y[i] - y[i - 1]) / (x[i] - x[i - 1]);
 }
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = 3.14159265358979323846, kScopeReach = kPi * 85 / 180;
 
 }  // namespace
 
@@ -59,9 +59,10 @@ const BoxWiring& default_wiring() {
     const std::vector<double> codes = {409, 3686};
     for (int actor = 0; actor < kBoxActors; ++actor) {
       const bool scope = BoxActor(actor) == BoxActor::scope;
+      const double reach = scope ? kScopeReach : kPi / 3;
       const std::array<std::vector<double>, kBoxAxes> spans = {
-          {{-kPi / 3, kPi / 3},
-           {-kPi / 3, kPi / 3},
+          {{-reach, reach},
+           {-reach, reach},
            {-kPi, kPi},
            {0, 0.3},
            scope ? std::vector<double>{-kPi, kPi} : std::vector<double>{0, 1}}};

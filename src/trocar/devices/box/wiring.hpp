@@ -84,8 +84,9 @@ struct BoxWiring {
 };
 
 /// 25 channels in order (left, right, third, fourth hand, endoscope; yaw, pitch, roll, depth, handle or post), each
-/// with 80 % of its codes in use: yaw and pitch +-60 degrees (0.037 degrees a code, 0.13 mm at 200 mm), roll and post
-/// +-180, depth 0 to 300 mm, handle 0 to 1. Bits 0 to 4: the pedals; from 8 on three for each hand.
+/// with 80 % of its codes in use: yaw and pitch +-60 degrees (0.037 degrees a code, 0.13 mm at 200 mm; the endoscope
+/// +-85, as it looks at trocars beside it), roll and post +-180, depth 0 to 300 mm, handle 0 to 1. Bits 0 to 4: the
+/// pedals; from 8 on three for each hand.
 const BoxWiring& default_wiring();
 
 }  // namespace trocar::devices
