@@ -9,7 +9,8 @@
 #include <trocar/attempt/box/box_source.hpp>
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/core/error.hpp>
-#include <trocar/devices/box/serving.hpp>
+
+#include "plugged_box.hpp"
 
 namespace trocar::attempt {
 namespace {
@@ -302,10 +303,7 @@ TEST_F(BoxAtPort, ASourceLeadsTheHandsInStepsAndLive) {
   std::vector<sim::Input> inputs(2, model.start);
   for (sim::Input& i : inputs) i.tools[0].yaw += 0.05f;
   const BoxPlayback playback(model, devices::default_wiring(), inputs, 0);
-  devices::PseudoTerminal terminal(port);
-  devices::SoftwareBox box({}, [&](double seconds) { return playback.at(seconds); });
-  std::atomic<bool> stop{false};
-  std::thread server([&] { devices::serve(box, terminal, [&] { return stop.load(); }); });
+  const PluggedBox box(port, {}, [&](double seconds) { return playback.at(seconds); });
   for (const BoxPace pace : {BoxPace::stepped, BoxPace::live}) {
     const std::unique_ptr<InputSource> source = make_input(scene(), "box:" + port, pace);
     const sim::State state = sim::initial_state(model);
@@ -318,8 +316,6 @@ TEST_F(BoxAtPort, ASourceLeadsTheHandsInStepsAndLive) {
     EXPECT_GT(source->describe()["box"]["blocks"].get<int>(), 10);
     EXPECT_NE(source->device()->text.find("blocks a second"), std::string::npos);
   }
-  stop = true;
-  server.join();
 }
 
 TEST_F(BoxAtPort, WithoutABoxItIsToldWhatToDo) {

@@ -13,6 +13,8 @@ double interpolated(const std::vector<double>& x, const std::vector<double>& y, 
   return y[i - 1] + (at - x[i - 1]) * (y[i] - y[i - 1]) / (x[i] - x[i - 1]);
 }
 
+// Between two rows of a table: what is steeper or flatter is no calibration.
+constexpr double kLeastCodes = 1, kLeastStep = 1e-6;
 constexpr double kPi = 3.14159265358979323846, kScopeReach = kPi * 85 / 180;
 
 }  // namespace
@@ -27,9 +29,9 @@ std::string unfit(const AxisTable& table) {
     if (!(table.codes[i] >= 0 && table.codes[i] <= kBoxTopCode)) return "codes from 0 to 4095";
     if (!std::isfinite(table.values[i])) return "finite values";
     if (i == 0) continue;
-    if (!(table.codes[i] > table.codes[i - 1])) return "codes that rise from row to row";
-    if (rising ? !(table.values[i] > table.values[i - 1]) : !(table.values[i] < table.values[i - 1]))
-      return "values that rise all the way, or fall all the way";
+    if (!(table.codes[i] - table.codes[i - 1] >= kLeastCodes)) return "codes that rise by 1 or more from row to row";
+    const double step = table.values[i] - table.values[i - 1];
+    if (!((rising ? step : -step) >= kLeastStep)) return "values that rise all the way, or fall all the way";
   }
   return {};
 }

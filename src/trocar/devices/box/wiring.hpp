@@ -14,7 +14,8 @@
 
 namespace trocar::devices {
 
-/// Piecewise linear and monotone; beyond its ends the first and the last piece go on.
+/// Piecewise linear and monotone (unfit() says how steep and flat it may be); beyond its ends the first and the last
+/// piece go on.
 struct AxisTable {
   std::vector<double> codes;   ///< rising, at least two
   std::vector<double> values;  ///< strictly rising or strictly falling: [rad], [m] or 0 .. 1
