@@ -142,7 +142,7 @@ std::string table_text(const devices::BoxPose& pose, const devices::BoxWiring& w
     for (int actor = 0; actor < devices::kBoxActors; ++actor) {
       const devices::WiredAxis& wired = wiring.axis(devices::BoxActor(actor), devices::BoxAxis(axis));
       if (wired.channel < 0) continue;
-      text += fmt::format("{:>6} {:<6} {:4} {} |", devices::kBoxActorNames[std::size_t(actor)], axis_word(actor, axis),
+      text += fmt::format(" {:>6} {:<6} {:4} {} |", devices::kBoxActorNames[std::size_t(actor)], axis_word(actor, axis),
                           pose.block.codes[std::size_t(wired.channel)],
                           value_text(actor, axis, pose.axes[std::size_t(actor)][std::size_t(axis)]));
     }
@@ -206,7 +206,8 @@ int monitor(const MonitorChoice& o, bool json) {
       line["hands"] = pose_json(pose);
       fmt::print("{}\n", line.dump());
     } else {
-      fmt::print("{}{}\n{}", screen ? "\033[H\033[J" : "", line_text(status, age), table_text(pose, wiring));
+      fmt::print("{}{}\n{}", screen ? "\033[H\033[J" : "", line_text(status, age),
+                 pose.number > 0 ? table_text(pose, wiring) : "");
     }
     if (std::fflush(stdout) != 0) break;  // nobody reads any more
   }

@@ -274,6 +274,8 @@ void AttemptWindow::listen_to_device(const attempt::Snapshot& now) {
 /// From the hand to the picture that has just been given to the screen. What the screen itself takes is not known here.
 void AttemptWindow::note_age() {
   if (m_device.acquired == 0 || stands_still() || !m_device.warning.empty()) return;
+  constexpr int kFirstPictures = 20;  // they wait for shaders to be compiled
+  if (++m_drawn <= kFirstPictures) return;
   const double age = now_seconds() - 1e-9 * double(m_device.acquired);
   m_age = m_ages == 0 ? age : m_age + 0.05 * (age - m_age);
   m_age_sum += age;

@@ -220,7 +220,8 @@ TEST(BoxLeader, WhenTheBoxFallsSilentInstrumentsStandStillAndThePedalIsUp) {
 TEST(BoxLeader, TheResetPedalIsHeldForASecondToCount) {
   Led led;
   const std::uint32_t reset = 1u << devices::default_wiring().pedals[4];
-  led.rest(scene().model.start, 900, reset);
+  led.rest(scene().model.start, 2000, reset);
+  EXPECT_FALSE(led.leader.wants_reset()) << "it is down still from the time before";
   led.rest(scene().model.start, 50);
   led.rest(scene().model.start, 900, reset);
   EXPECT_FALSE(led.leader.wants_reset());

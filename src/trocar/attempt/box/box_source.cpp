@@ -138,7 +138,9 @@ sim::Input BoxLeader::next(const sim::State& state, BoxTime now) {
     exchange(pose, state, wanted);
     go_towards(wanted);
   }
-  m_reset_ticks = (pose.pedals & devices::kBoxReset) != 0 ? m_reset_ticks + 1 : 0;
+  const bool reset = (pose.pedals & devices::kBoxReset) != 0;
+  m_reset_was_up = m_reset_was_up || (!reset && !frozen);
+  m_reset_ticks = reset && m_reset_was_up ? m_reset_ticks + 1 : 0;
   return m_smooth.step(m_command);
 }
 

@@ -1,5 +1,5 @@
 // What the instrument box measures at one moment, and how it lies in bytes: 48 analogue channels of 12 bits and 32
-// digital bits [KCM99 sec. 2: "up to 48 analog 12-Bit input channels and 32-Bits digital input for foot switches"].
+// digital bits ("up to 48 analog 12-Bit input channels and 32-Bits digital input for foot switches").
 //
 // Packed LSB first: two samples in three bytes, channels rising, then the digital word, low byte first. All channels
 // are 48 * 12 + 32 = 608 bits = 76 bytes; with 10 bits a byte on the line that is 19.79 ms at 38,400 Bd.
