@@ -271,9 +271,11 @@ void AttemptWindow::listen_to_device(const attempt::Snapshot& now) {
   say(m_device.hint, m_told_device_hint, ui::Mark::note);
 }
 
-/// From the hand to the picture that has just been given to the screen. What the screen itself takes is not known here.
+/// From the hand to the first picture that shows what it did, as given to the screen. What the screen itself takes is
+/// not known here.
 void AttemptWindow::note_age() {
-  if (m_device.acquired == 0 || stands_still() || !m_device.warning.empty()) return;
+  if (m_device.acquired == m_shown || stands_still()) return;
+  m_shown = m_device.acquired;
   constexpr int kFirstPictures = 20;  // they wait for shaders to be compiled
   if (++m_drawn <= kFirstPictures) return;
   const double age = now_seconds() - 1e-9 * double(m_device.acquired);

@@ -83,6 +83,7 @@ class AttemptWindow {
   std::string m_told_device, m_told_device_hint;
   double m_age = 0, m_age_sum = 0, m_age_most = 0;  ///< of what is on the screen, since it was measured [s]
   int m_drawn = 0;                                  ///< pictures with what a device leads
+  std::int64_t m_shown = 0;  ///< DeviceNews::acquired of the last of them that showed something newer
   std::uint64_t m_ages = 0;
   int m_asked_for_eye = -1;  ///< hand whose insertion waits to be seen, as told
 };

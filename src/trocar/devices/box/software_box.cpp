@@ -6,7 +6,7 @@
 namespace trocar::devices {
 namespace {
 
-constexpr std::size_t kMostWaiting = 8;        // blocks; who asks for more is not listening
+constexpr std::size_t kMostWaiting = 15;       // blocks: seq tells no more apart; who asks for more is not listening
 constexpr BoxTime kForgotten = 3'000'000'000;  // without a request: somebody else may ask next
 
 /// The sum of twelve even numbers has variance 1.
@@ -99,7 +99,8 @@ void SoftwareBox::answer(std::uint8_t seq, BoxTime now) {
   else
     write_data(frame, sending.bytes);
   corrupt(sending.bytes);
-  sending.start = std::max(m_line_free, now + box_time(m_settings.turnaround));
+  const BoxTime asked = time_on_line(m_settings.raw ? 1 : kPollBytes, m_settings.baud);  // a pseudo-terminal takes none
+  sending.start = std::max(m_line_free, now + asked + box_time(m_settings.turnaround));
   m_line_free = over(sending, sending.bytes.size());
   m_queue.push_back(std::move(sending));
 }
