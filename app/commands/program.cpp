@@ -76,6 +76,7 @@ int run_program(int argc, const char* const* argv) {
   add_model(program, chosen);
   add_mechanism(program, chosen);
   add_compare(program, chosen);
+  add_box(program, chosen);
   const std::string first = argv[1];
   if (!first.empty() && first[0] != '-') {
     Chosen check;

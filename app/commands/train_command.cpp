@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/attempt_log.hpp>
+#include <trocar/attempt/box/box_source.hpp>
 #include <trocar/attempt/haptics/haptic_source.hpp>
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/attempt/paths.hpp>
@@ -77,7 +78,7 @@ attempt::AttemptPlan plan_of(const TrainChoice& o) {
 Json train_headless(const TrainChoice& o, const attempt::Lesson& lesson, training::Store* store,
                     pictures::PictureSize size) {
   std::vector<std::unique_ptr<attempt::InputSource>> sources;  // each around the one before
-  sources.push_back(attempt::make_source(lesson, o.input));
+  sources.push_back(attempt::make_input(lesson, o.input, attempt::BoxPace::stepped));
   std::unique_ptr<attempt::HapticHand> haptic;
   if (!o.haptics.empty()) {
     haptic = std::make_unique<attempt::HapticHand>(
@@ -164,8 +165,9 @@ void check_haptics(const TrainChoice& o, const attempt::Lesson* lesson) {
 int train(const TrainChoice& o, bool json) {
   const bool hands = o.input == "mouse" || o.input == "gamepad";
   if (o.headless && hands)
-    throw core::BadInput({{{"--headless", 0, 0},
-                           fmt::format("expected --input demo, motion:FILE or replay:FILE with it, got {}", o.input)}});
+    throw core::BadInput(
+        {{{"--headless", 0, 0},
+          fmt::format("expected --input demo, motion:FILE, replay:FILE or box:PORT with it, got {}", o.input)}});
   if (o.exercise.empty() && (o.headless || !hands))
     throw core::BadInput({{{"train", 0, 0}, "expected an exercise (see trocar list), got none"}});
   // Faults are told before anything is begun.
@@ -207,7 +209,8 @@ void add_train(CLI::App& program, Chosen& chosen) {
                             "shots --json");
   c->add_option("exercise", options->exercise, "a name that `trocar list` shows, or a path; without one: start screen");
   c->add_option("--input", options->input,
-                "mouse | gamepad (hands, by any device) | demo | motion:FILE[#OPERATOR/TRIAL] | replay:FILE")
+                "mouse | gamepad (hands, by any device) | demo | motion:FILE[#OPERATOR/TRIAL] | replay:FILE | "
+                "box:PORT[#FILE]")
       ->capture_default_str();
   c->add_flag("--headless", options->headless, "no window, as fast as it goes");
   c->add_option("--record", options->record, "write the recording to this file");

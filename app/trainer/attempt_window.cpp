@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/attempt/box/box_source.hpp>
 #include <trocar/attempt/hand_names.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/attempt/sources.hpp>
@@ -64,7 +65,7 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
     m_hands = std::make_unique<attempt::HandsSource>(lesson.model);
     give_parts();
   } else if (!stage.options.member) {
-    m_source = attempt::make_source(lesson, plan.input);
+    m_source = attempt::make_input(lesson, plan.input, attempt::BoxPace::live);
   }
   take_device();
   join_in();
@@ -244,6 +245,7 @@ void AttemptWindow::picture(attempt::Live& live, Choice& choice) {
   live.refresh();
   const attempt::Snapshot& now = live.snapshot();
   lead(now);
+  listen_to_device(now);
   tell(live);
   tell_of_team(now);
   warn_of_pull(now);
@@ -252,6 +254,7 @@ void AttemptWindow::picture(attempt::Live& live, Choice& choice) {
   if (now.finished && !m_over) end(live, Ending::came_to_its_end);
   draw_scene(now);
   draw_over(now, choice);
+  if (m_device.wants_restart && choice == Choice::none && !m_over) choice = Choice::restart;
   if (choice == Choice::finish) {
     end(live, Ending::finished_early);
     choice = Choice::none;
@@ -259,6 +262,7 @@ void AttemptWindow::picture(attempt::Live& live, Choice& choice) {
   std::filesystem::path pictures = m_log.attempt().recording;
   if (pictures.empty()) pictures = "trocar";
   m_stage.end_picture(screen_name(), pictures);
+  note_age();
   m_stage.governor.frame_took(window.picture_time(), crowds_simulation(now));
   log_rate(now);
 }
@@ -280,7 +284,8 @@ void AttemptWindow::log_rate(const attempt::Snapshot& now) {
                                {"pictures_per_second", std::round(10 * double(m_pictures) / took) / 10},
                                {"slowest", std::round(100 * m_slowest) / 100},
                                {"still", stands_still()},
-                               {"level", m_stage.governor.level()}});
+                               {"level", m_stage.governor.level()},
+                               {"hand_to_picture_ms", std::round(10'000 * m_age) / 10}});
   m_rate_since = time;
   m_pictures = 0;
   m_slowest = 1;
@@ -336,6 +341,36 @@ void AttemptWindow::lead(const attempt::Snapshot& now) {
     keep_mode();
   }
   m_was_still = still;
+}
+
+/// What leads may be unplugged, or ask for something.
+void AttemptWindow::listen_to_device(const attempt::Snapshot& now) {
+  const std::optional<attempt::DeviceNews> news = source().device();
+  if (!news) return;
+  m_device = *news;
+  const auto say = [&](const std::string& text, std::string& told, ui::Mark mark) {
+    if (text == told || m_over) return;
+    told = text;
+    if (text.empty()) return;
+    m_feedback.add(mark, text, now.seconds, now_seconds());
+    m_stage.log.event("device", {{"tick", now.state.tick}, {"text", text}});
+  };
+  say(m_device.warning, m_told_device, ui::Mark::warning);
+  say(m_device.hint, m_told_device_hint, ui::Mark::note);
+}
+
+/// From the hand to the first picture that shows what it did, as given to the screen. What the screen itself takes is
+/// not known here.
+void AttemptWindow::note_age() {
+  if (m_device.acquired == m_shown || stands_still()) return;
+  m_shown = m_device.acquired;
+  constexpr int kFirstPictures = 20;  // they wait for shaders to be compiled
+  if (++m_drawn <= kFirstPictures) return;
+  const double age = now_seconds() - 1e-9 * double(m_device.acquired);
+  m_age = m_ages == 0 ? age : m_age + 0.05 * (age - m_age);
+  m_age_sum += age;
+  m_age_most = std::max(m_age_most, age);
+  ++m_ages;
 }
 
 /// One hand or both, as it was chosen last, is what the next attempt begins with.
@@ -473,21 +508,23 @@ void AttemptWindow::draw_scene(const attempt::Snapshot& now) {
   if (!choice.elsewhere) m_stage.settings.views.elsewhere.reset();
   tell_views(choice);
   ui::set_middle(float(width));
-  const PanelContent content{m_lesson,
-                             now,
-                             m_pilot ? &m_pilot->hands() : nullptr,
-                             m_pilot && m_pilot->leads_both() ? &m_pilot->both() : nullptr,
-                             m_plan.input == "demo" ? "the scripted surgeon" : m_plan.input,
-                             m_log.attempt().trainee,
-                             mode_text(),
-                             m_steps,
-                             m_feedback,
-                             stands_still(),
-                             m_gamepad_used && m_stage.window.gamepads().present(),
-                             pull_limit(m_lesson),
-                             m_stage.settings.force_trace ? &m_feel : nullptr,
-                             outlook(now),
-                             team_in_words()};
+  const PanelContent content{
+      m_lesson,
+      now,
+      m_pilot ? &m_pilot->hands() : nullptr,
+      m_pilot && m_pilot->leads_both() ? &m_pilot->both() : nullptr,
+      m_plan.input == "demo" ? "the scripted surgeon" : m_plan.input,
+      m_ages > 0 ? fmt::format("{}, hand to picture {:.0f} ms", m_device.text, 1000 * m_age) : m_device.text,
+      m_log.attempt().trainee,
+      mode_text(),
+      m_steps,
+      m_feedback,
+      stands_still(),
+      m_gamepad_used && m_stage.window.gamepads().present(),
+      pull_limit(m_lesson),
+      m_stage.settings.force_trace ? &m_feel : nullptr,
+      outlook(now),
+      team_in_words()};
   draw_panel(content, float(width), panel, float(height));
   if (!m_told_waits.empty()) draw_waiting(m_told_waits, float(width), float(height));
   if (!stands_still()) draw_notices(m_feedback, now_seconds(), float(width), float(height));
@@ -557,6 +594,8 @@ void AttemptWindow::end(attempt::Live& live, Ending ending) {
   m_result["slow_motion_share"] = live.slow_share();
   m_result.update(source().describe());
   if (m_team) m_team->end(attempt::message::kFinished);
+  if (m_ages > 0)
+    m_result["hand_to_picture_ms"] = {{"mean", 1000 * m_age_sum / double(m_ages)}, {"most", 1000 * m_age_most}};
   m_log.end(m_result, left ? AttemptState::aborted : AttemptState::finished);
   m_stage.log.event("end", {{"interrupted", left}, {"passed", m_result["passed"]}, {"ticks", m_result["ticks"]}});
   if (ending == Ending::came_to_its_end) m_stage.sound.play(Tone::finished);

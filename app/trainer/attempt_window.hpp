@@ -47,6 +47,8 @@ class AttemptWindow {
   void join_in();
   void tell_of_team(const attempt::Snapshot& now);
   std::vector<std::string> team_in_words() const;
+  void listen_to_device(const attempt::Snapshot& now);
+  void note_age();
   void keep_mode();
   void tell(attempt::Live& live);
   int felt_hand(const attempt::Snapshot& now) const;
@@ -102,8 +104,14 @@ class AttemptWindow {
   bool m_was_still = true, m_gamepad_used = false, m_had_focus = false;
   int m_pictures = 0;  ///< since m_rate_since
   double m_rate_since = 0, m_slowest = 1;
-  bool m_device_lost = false;  ///< as told
-  int m_asked_for_eye = -1;    ///< hand whose insertion waits to be seen, as told
+  bool m_device_lost = false;    ///< as told
+  attempt::DeviceNews m_device;  ///< of the source, as of this picture
+  std::string m_told_device, m_told_device_hint;
+  double m_age = 0, m_age_sum = 0, m_age_most = 0;  ///< of what is on the screen, since it was measured [s]
+  int m_drawn = 0;                                  ///< pictures with what a device leads
+  std::int64_t m_shown = 0;  ///< DeviceNews::acquired of the last of them that showed something newer
+  std::uint64_t m_ages = 0;
+  int m_asked_for_eye = -1;  ///< hand whose insertion waits to be seen, as told
 };
 
 }  // namespace trocar::app

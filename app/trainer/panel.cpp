@@ -161,7 +161,11 @@ void draw_hands(const PanelContent& c) {
     draw_slowly(c, h);
     draw_buttons(c, h);
   }
-  if (!c.hands) return ui::text("led by " + c.input, ui::kGrey);
+  if (!c.hands) {
+    ui::text("led by " + c.input, ui::kGrey);
+    if (!c.device.empty()) ui::text(c.device, ui::kGrey);
+    return;
+  }
   const bool scope = c.both ? c.both->looking : c.hands->led == devices::kScope;
   ui::mark(scope ? Mark::now : Mark::note);
   ui::text("0 endoscope", scope ? ui::kWhite : ui::kGrey);

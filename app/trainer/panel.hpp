@@ -20,7 +20,9 @@ struct PanelContent {
   const attempt::Snapshot& now;
   const devices::HandState* hands = nullptr;  ///< null: a source leads, named by `input`
   const devices::BothHands* both = nullptr;   ///< null: not both hands are led
-  std::string input, trainee;
+  std::string input;
+  std::string device;  ///< what the source's device says of itself, or empty
+  std::string trainee;
   std::string mode;                         ///< "familiarisation: no score", or empty
   std::vector<training::StepStatus> steps;  ///< names and hints; done and now come from the snapshot
   const Feedback& feedback;

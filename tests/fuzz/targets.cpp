@@ -13,6 +13,8 @@ std::span<const Target> targets() {
       {"exercise", exercise_file, 8'000, exercise_seeds, json_words, mutate_json, cross_json},
       {"recording", recording_file, 20'000, recording_seeds, nullptr, mutate_recording},
       {"motion", motion_file, 4'000, motion_seeds, motion_words},
+      {"box", box_line, 4'000, box_seeds},
+      {"box_file", box_file, 8'000, box_file_seeds, json_words, mutate_json, cross_json},
       {"display", display_keyframe, 10'000, display_seeds},
       {"settings", settings_file, 4'000, settings_seeds, json_words, mutate_json, cross_json},
       {"trace", trace_bytes, 4'000, trace_seeds, nullptr, mutate_trace},

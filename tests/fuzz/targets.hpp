@@ -20,6 +20,10 @@ std::size_t mutate_recording(std::uint8_t* data, std::size_t size, std::size_t c
 void motion_file(Bytes bytes);
 std::vector<Seed> motion_seeds();
 std::vector<std::string> motion_words();
+void box_line(Bytes bytes);
+std::vector<Seed> box_seeds();
+void box_file(Bytes bytes);
+std::vector<Seed> box_file_seeds();
 void display_keyframe(Bytes bytes);
 std::vector<Seed> display_seeds();
 

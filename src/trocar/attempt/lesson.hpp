@@ -2,6 +2,7 @@
 // without a goal: free practice.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -14,6 +15,14 @@
 #include <trocar/training/exercise/monitor.hpp>
 
 namespace trocar::attempt {
+
+/// What the device behind a source says of itself, for who shows it.
+struct DeviceNews {
+  std::string text;            ///< "box: 50 blocks a second, 0.0 % lost"
+  std::string warning, hint;   ///< for the trainee; empty: none
+  std::int64_t acquired = 0;   ///< when what leads now was measured, on the steady clock [ns]; 0: not known
+  bool wants_restart = false;  ///< who leads wants the exercise from its beginning
+};
 
 /// Where inputs come from when no hand leads: a file, a recording, the scripted surgeon. One per attempt.
 class InputSource {
@@ -30,6 +39,8 @@ class InputSource {
   virtual std::uint64_t behind() const { return 0; }
   /// What the tick made of it.
   virtual void after(const sim::State&, const sim::StepReport&) {}
+  /// From any thread. Nothing: no device is behind it.
+  virtual std::optional<DeviceNews> device() const { return std::nullopt; }
   /// What there is to say about it in the result.
   virtual Json describe() const { return Json::object(); }
 };

@@ -23,6 +23,7 @@ class HapticSource : public InputSource {
     m_own.after(state, report);
     m_hand.after(state);
   }
+  std::optional<DeviceNews> device() const override { return m_own.device(); }
   Json describe() const override {
     Json out = m_own.describe();
     out["haptics"] = m_hand.describe();

@@ -75,6 +75,7 @@ class HostedSource : public InputSource {
   std::string waits_for() const override;
   bool next(const sim::State& state, sim::Input& input) override;
   void after(const sim::State& state, const sim::StepReport& report) override;
+  std::optional<DeviceNews> device() const override { return m_own.device(); }
   Json describe() const override;
 
  private:

@@ -1,0 +1,295 @@
+// trocar box: a box of software at a port, and a look at what a box sends.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <trocar/attempt/box/box_file.hpp>
+#include <trocar/attempt/box/box_playback.hpp>
+#include <trocar/attempt/interrupt.hpp>
+#include <trocar/core/error.hpp>
+#include <trocar/core/json.hpp>
+#include <trocar/core/log.hpp>
+#include <trocar/devices/box/box_thread.hpp>
+#include <trocar/devices/box/serving.hpp>
+#include <trocar/sim/recording/recording.hpp>
+
+#include "commands/command.hpp"
+#include "commands/number_options.hpp"
+
+namespace trocar::app {
+namespace {
+
+using devices::BoxTime;
+
+const char* axis_word(int actor, int axis) {
+  const bool post = devices::BoxActor(actor) == devices::BoxActor::scope && axis == int(devices::BoxAxis::handle);
+  return post ? "post" : devices::kBoxAxisNames[std::size_t(axis)];
+}
+
+/// An axis in the unit that people read.
+std::string value_text(int actor, int axis, double value) {
+  if (devices::BoxAxis(axis) == devices::BoxAxis::depth) return fmt::format("{:7.1f} mm", 1000 * value);
+  if (devices::BoxAxis(axis) == devices::BoxAxis::handle && devices::BoxActor(actor) != devices::BoxActor::scope)
+    return fmt::format("{:7.2f}   ", value);
+  return fmt::format("{:7.2f} deg", value * 57.29577951308232);
+}
+
+// --- simulate ---
+
+/// What the hands do and the box cannot say.
+void warn_of_reach(const devices::BoxAngles& beyond) {
+  for (int actor = 0; actor < devices::kBoxActors; ++actor)
+    for (int axis = 0; axis < devices::kBoxAxes; ++axis)
+      if (const double by = beyond[std::size_t(actor)][std::size_t(axis)]; by > 0)
+        core::log::warn("{} {}: these hands go beyond what its channel reaches, by{}",
+                        devices::kBoxActorNames[std::size_t(actor)], axis_word(actor, axis),
+                        value_text(actor, axis, by));
+}
+
+struct SimulateChoice {
+  std::string port, exercise, motion, replay, wiring, clock = "real";
+  std::uint64_t seed = 0;
+  bool raw = false, framed = false, wave = false;
+  double hz = 0, noise = 0, drop = 0, corrupt = 0, latency_ms = 0, lead_in = 1, seconds = 0;
+  int baud = 0;
+};
+
+devices::BoxWiring wiring_of(const std::string& file, bool raw, bool framed, int baud) {
+  devices::BoxWiring wiring = attempt::load_wiring(file);
+  if (raw || framed) wiring.raw = raw;
+  if (baud != 0) wiring.baud = baud;
+  return wiring;
+}
+
+std::vector<sim::Input> inputs_of(const SimulateChoice& o, const attempt::Lesson& lesson) {
+  if (!o.motion.empty()) return attempt::inputs_of_motion(lesson, o.motion);
+  if (!o.replay.empty()) {
+    std::vector<sim::Input> inputs = sim::read_recording(o.replay).inputs;
+    if (inputs.empty()) throw core::BadInput({{{o.replay, 0, 0}, "expected a recording with at least one tick"}});
+    return inputs;
+  }
+  if (o.wave || !lesson.exercise) return attempt::waving_inputs(lesson.model);
+  core::log::info("the demonstration is performed first");
+  double next = 0;
+  return attempt::inputs_of_demonstration(lesson, [&next](double seconds) {
+    if (seconds >= next) core::log::info("{:.0f} s performed", seconds), next += 20;
+    return !attempt::interrupted();
+  });
+}
+
+int simulate(const SimulateChoice& o, bool json) {
+  const devices::BoxWiring wiring = wiring_of(o.wiring, o.raw, o.framed, o.baud);
+  if (o.exercise.empty() && (!o.motion.empty() || !o.replay.empty() || o.wave))
+    throw core::BadInput({{{"--exercise", 0, 0}, "expected the exercise in whose scene these hands move, got none"}});
+  attempt::catch_interrupts();
+  devices::SoftwareBoxSettings settings;
+  settings.raw = wiring.raw;
+  settings.baud = wiring.baud;
+  settings.stream_rate = o.hz;
+  settings.latency = o.latency_ms / 1000;
+  settings.noise = o.noise;
+  settings.drop = o.drop;
+  settings.corrupt = o.corrupt;
+  if (o.clock == "requests") settings.per_request = 1 / wiring.rate;
+  std::unique_ptr<attempt::Lesson> lesson;
+  std::unique_ptr<attempt::BoxPlayback> playback;
+  devices::SoftwareBox::Motion motion = [&wiring](double seconds) { return attempt::waving_block(wiring, seconds); };
+  if (!o.exercise.empty()) {
+    lesson = attempt::load_lesson(o.exercise, o.seed);
+    playback = std::make_unique<attempt::BoxPlayback>(lesson->model, wiring, inputs_of(o, *lesson), o.lead_in);
+    warn_of_reach(playback->beyond());
+    motion = [&playback](double seconds) { return playback->at(seconds); };
+  }
+  devices::SoftwareBox box(settings, std::move(motion));
+  devices::PseudoTerminal terminal(o.port);
+  fmt::print(json ? stderr : stdout, "box at {} ({}), {} at {} Bd; Ctrl-C ends it\n", o.port, terminal.name(),
+             wiring.raw ? "raw blocks" : "frames", wiring.baud);
+  std::fflush(json ? stderr : stdout);
+  const BoxTime end = o.seconds > 0 ? devices::box_now() + devices::box_time(o.seconds) : INT64_MAX;
+  devices::serve(box, terminal, [end] { return attempt::interrupted() || devices::box_now() >= end; });
+  if (json)
+    print({{"port", o.port}, {"sent", box.sent()}, {"dropped", box.dropped()}});
+  else
+    fmt::print("{} blocks sent, {} dropped\n", box.sent(), box.dropped());
+  return core::kDone;
+}
+
+// --- monitor ---
+
+struct MonitorChoice {
+  std::string port, wiring;
+  bool raw = false, framed = false, all = false;
+  int baud = 0;
+  double seconds = 0, hz = 0;
+};
+
+std::string line_text(const devices::BoxStatus& s, double age_ms) {
+  return fmt::format(
+      "{}  {:5.1f} blocks/s  {} blocks  {} missed ({:.2f} %)  {} bad  round trip {:.1f} ms ({:.1f} at "
+      "most)  newest {:.0f} ms old",
+      s.open ? "open " : "CLOSED", s.rate, s.counts.blocks, s.counts.missed, 100 * s.counts.missed_share(),
+      s.counts.bad, 1000 * devices::box_seconds(s.counts.round_trip), 1000 * devices::box_seconds(s.longest_trip),
+      age_ms);
+}
+
+std::string table_text(const devices::BoxPose& pose, const devices::BoxWiring& wiring) {
+  std::string text;
+  for (int axis = 0; axis < devices::kBoxAxes; ++axis) {
+    for (int actor = 0; actor < devices::kBoxActors; ++actor) {
+      const devices::WiredAxis& wired = wiring.axis(devices::BoxActor(actor), devices::BoxAxis(axis));
+      if (wired.channel < 0) continue;
+      text += fmt::format(" {:>6} {:<6} {:4} {} |", devices::kBoxActorNames[std::size_t(actor)], axis_word(actor, axis),
+                          pose.block.codes[std::size_t(wired.channel)],
+                          value_text(actor, axis, pose.axes[std::size_t(actor)][std::size_t(axis)]));
+    }
+    text += '\n';
+  }
+  text += fmt::format("channels");
+  for (std::size_t i = 0; i < devices::kBoxChannels; ++i)
+    text += fmt::format("{}{:5}", i % 16 == 0 ? "\n" : "", pose.block.codes[i]);
+  text += fmt::format("\nbits {:032b}  pedals:", pose.block.digital);
+  for (std::size_t p = 0; p < devices::kBoxPedals; ++p)
+    if ((pose.pedals >> p & 1) != 0) text += fmt::format(" {}", devices::kBoxPedalNames[p]);
+  return text + '\n';
+}
+
+Json pose_json(const devices::BoxPose& pose) {
+  Json all = Json::object();
+  for (int actor = 0; actor < devices::kBoxActors; ++actor) {
+    Json one = Json::object();
+    for (int axis = 0; axis < devices::kBoxAxes; ++axis)
+      if (pose.has(devices::BoxActor(actor), devices::BoxAxis(axis)))
+        one[axis_word(actor, axis)] = pose.of(devices::BoxActor(actor), devices::BoxAxis(axis));
+    if (!one.empty()) all[devices::kBoxActorNames[std::size_t(actor)]] = one;
+  }
+  return all;
+}
+
+Json status_json(const devices::BoxStatus& s, double age_ms) {
+  return {{"open", s.open},
+          {"rate_hz", s.rate},
+          {"blocks", s.counts.blocks},
+          {"missed", s.counts.missed},
+          {"bad", s.counts.bad},
+          {"round_trip_ms", 1000 * devices::box_seconds(s.counts.round_trip)},
+          {"round_trip_most_ms", 1000 * devices::box_seconds(s.longest_trip)},
+          {"age_ms", age_ms}};
+}
+
+int monitor(const MonitorChoice& o, bool json) {
+  devices::BoxWiring wiring = wiring_of(o.wiring, o.raw, o.framed, o.baud);
+  const devices::ChannelMask mask = o.all ? devices::kAllBoxChannels : wiring.mask();
+  const std::size_t bytes = wiring.raw ? devices::kRawBlockBytes : devices::data_size(mask);
+  const double most = 1 / devices::box_seconds(devices::time_on_line(bytes, wiring.baud));
+  wiring.rate = std::min(o.hz > 0 ? o.hz : wiring.rate, most);
+  attempt::catch_interrupts();
+  devices::BoxThread box(o.port, wiring, mask);
+  const bool screen = !json && isatty(STDOUT_FILENO) != 0;
+  const auto pause = std::chrono::milliseconds(json || screen ? 100 : 1000);
+  const BoxTime end = o.seconds > 0 ? devices::box_now() + devices::box_time(o.seconds) : INT64_MAX;
+  devices::BoxPose pose;
+  if (screen) fmt::print("\033[2J");
+  while (!attempt::interrupted() && devices::box_now() < end) {
+    std::this_thread::sleep_for(pause);
+    box.take(pose);
+    const devices::BoxStatus status = box.status();
+    const double age = pose.number > 0 ? 1000 * devices::box_seconds(devices::box_now() - pose.acquired) : 0;
+    if (json) {
+      Json line = status_json(status, age);
+      line["codes"] = pose.block.codes;
+      line["digital"] = pose.block.digital;
+      line["pedals"] = pose.pedals;
+      line["hands"] = pose_json(pose);
+      fmt::print("{}\n", line.dump());
+    } else {
+      fmt::print("{}{}\n{}", screen ? "\033[H\033[J" : "", line_text(status, age),
+                 pose.number > 0 ? table_text(pose, wiring) : "");
+    }
+    if (std::fflush(stdout) != 0) break;  // nobody reads any more
+  }
+  if (pose.number == 0)
+    throw core::EnvironmentLacks(fmt::format(
+        "nothing came from {}: is the box switched on? Try --raw or --framed, and another --baud (now {} at {} Bd)",
+        o.port, wiring.raw ? "raw" : "framed", wiring.baud));
+  return core::kDone;
+}
+
+void add_simulate(CLI::App& box, Chosen& chosen) {
+  auto o = std::make_shared<SimulateChoice>();
+  CLI::App* c = add_command(box, chosen, "simulate", "A box of software at a pseudo-terminal that is found as PORT",
+                            "trocar box simulate /tmp/box --exercise gynaecology/sterilisation");
+  c->add_option("port", o->port, "name of the link to the pseudo-terminal")->required();
+  c->add_option("--exercise", o->exercise,
+                "its hands do this exercise's demonstration (performed first); without: every channel waves slowly");
+  CLI::Option* motion =
+      c->add_option("--motion", o->motion, "its hands do FILE[#OPERATOR/TRIAL] in the exercise's scene");
+  CLI::Option* replay = c->add_option("--replay", o->replay, "its hands do what this recording's did");
+  CLI::Option* wave = c->add_flag("--wave", o->wave, "its hands wave slowly around where the scene places them");
+  motion->excludes(replay)->excludes(wave);
+  replay->excludes(wave);
+  c->add_option("--seed", o->seed, "of the anatomy")->capture_default_str()->transform(whole_number(0, kLargestSeed));
+  c->add_option("--wiring", o->wiring, "the box's file; default: box.json in the data folder, or the built-in wiring");
+  CLI::Option* raw = c->add_flag("--raw", o->raw, "blocks of 76 bytes without frames");
+  c->add_flag("--framed", o->framed, "frames with checksums")->excludes(raw);
+  c->add_option("--baud", o->baud, "of the line; default: the wiring's")->check(CLI::Range(300, 4'000'000));
+  c->add_option("--hz", o->hz, "it sends so many blocks a second by itself; default: on request")
+      ->check(CLI::Range(0.0, 5000.0));
+  c->add_option("--noise", o->noise, "of every channel, standard deviation in codes")->check(CLI::Range(0.0, 1000.0));
+  c->add_option("--drop", o->drop, "share of blocks that are lost")->check(CLI::Range(0.0, 1.0));
+  c->add_option("--corrupt", o->corrupt, "share of bytes that arrive as others")->check(CLI::Range(0.0, 1.0));
+  c->add_option("--latency", o->latency_ms, "that the line adds [ms]")->check(CLI::Range(0.0, 1000.0));
+  c->add_option("--clock", o->clock,
+                "real: its hands move as time passes | requests: by a period a request, for who simulates slower")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"real", "requests"}));
+  c->add_option("--lead-in", o->lead_in, "its hands rest so long at first [s]")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 60.0));
+  c->add_option("--seconds", o->seconds, "ends it after so long")->check(number_above(0, kLongestRun, "s"));
+  c->callback([o, &chosen] { chosen.run = [o, &chosen] { return simulate(*o, chosen.json); }; });
+}
+
+void add_monitor(CLI::App& box, Chosen& chosen) {
+  auto o = std::make_shared<MonitorChoice>();
+  CLI::App* c = add_command(box, chosen, "monitor", "What a box sends: channels, rate, losses, latency",
+                            "trocar box monitor /dev/ttyUSB0");
+  c->add_option("port", o->port, "a serial port")->required();
+  c->add_option("--wiring", o->wiring, "the box's file; default: box.json in the data folder, or the built-in wiring");
+  CLI::Option* raw = c->add_flag("--raw", o->raw, "blocks of 76 bytes without frames");
+  c->add_flag("--framed", o->framed, "frames with checksums")->excludes(raw);
+  c->add_option("--baud", o->baud, "of the line; default: the wiring's")->check(CLI::Range(300, 4'000'000));
+  c->add_flag("--all", o->all, "all 48 channels, not only those that are wired");
+  c->add_option("--hz", o->hz, "blocks a second that are asked for; default: the wiring's")
+      ->check(CLI::Range(attempt::kLeastBoxRate, attempt::kMostBoxRate));
+  c->add_option("--seconds", o->seconds, "ends it after so long")->check(number_above(0, kLongestRun, "s"));
+  c->callback([o, &chosen] { chosen.run = [o, &chosen] { return monitor(*o, chosen.json); }; });
+}
+
+void add_file(CLI::App& box, Chosen& chosen) {
+  auto file = std::make_shared<std::string>();
+  CLI::App* c = add_command(box, chosen, "file", "The wiring and calibration in use, as a file to be changed",
+                            "trocar box file > ~/.local/share/trocar/box.json");
+  c->add_option("--wiring", *file, "checked and written anew; default: what is in use");
+  c->callback([file, &chosen] {
+    chosen.run = [file] {
+      fmt::print("{}", attempt::box_file_text(attempt::load_wiring(*file)));
+      return int(core::kDone);
+    };
+  });
+}
+
+}  // namespace
+
+void add_box(CLI::App& program, Chosen& chosen) {
+  CLI::App* box = program.add_subcommand("box", "An instrument box at a serial port: simulate one, look at one");
+  box->require_subcommand(1);
+  add_simulate(*box, chosen);
+  add_monitor(*box, chosen);
+  add_file(*box, chosen);
+}
+
+}  // namespace trocar::app

@@ -1,0 +1,26 @@
+// Time on a steady clock in nanoseconds: what codec, dialogue and software box reckon with, so that tests hand them a
+// clock of their own.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace trocar::devices {
+
+using BoxTime = std::int64_t;  ///< [ns]
+
+constexpr BoxTime box_time(double seconds) noexcept { return BoxTime(seconds * 1e9); }
+constexpr double box_seconds(BoxTime time) noexcept { return double(time) * 1e-9; }
+
+inline BoxTime box_now() noexcept {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+inline constexpr int kBitsPerByte = 10;  ///< on the line: start bit, eight, stop bit
+/// How long the line needs for so many bytes.
+constexpr BoxTime time_on_line(std::size_t bytes, int baud) noexcept {
+  return BoxTime(bytes) * kBitsPerByte * 1'000'000'000 / baud;
+}
+
+}  // namespace trocar::devices

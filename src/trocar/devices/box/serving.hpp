@@ -1,0 +1,15 @@
+// The software box at its pseudo-terminal, paced by the clock: a terminal would pass a hundred blocks in the time that
+// a line needs for the first byte.
+#pragma once
+
+#include <functional>
+
+#include <trocar/devices/box/pseudo_terminal.hpp>
+#include <trocar/devices/box/software_box.hpp>
+
+namespace trocar::devices {
+
+/// Until `stop` says so, which is asked some fifty times a second.
+void serve(SoftwareBox& box, PseudoTerminal& terminal, const std::function<bool()>& stop);
+
+}  // namespace trocar::devices
