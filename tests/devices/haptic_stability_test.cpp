@@ -13,7 +13,7 @@ using namespace trocar::devices;
 
 namespace {
 
-constexpr double kPeriod = 1e-3;
+constexpr double kHapticPeriod = 1e-3;
 
 LocalModel floor_of(double stiffness) {
   LocalModel m;
@@ -24,7 +24,7 @@ LocalModel floor_of(double stiffness) {
 }
 
 ForceRenderer::Settings settings_of(bool passivity) {
-  return {.period = kPeriod, .passivity = passivity, .limit_stiffness = false, .rate_max = 1e9};
+  return {.period = kHapticPeriod, .passivity = passivity, .limit_stiffness = false, .rate_max = 1e9};
 }
 
 struct Press {
@@ -131,8 +131,8 @@ TEST(HapticWall, ColgatesConditionIsTheStiffnessAtWhichAnUndampedSpringStopsComi
   HapticCapabilities device;
   for (const double damping : {1.0, 2.0, 4.0}) {
     device.own_damping = damping;
-    const double limit = stiffest_passive(device, kPeriod, 0);
-    EXPECT_DOUBLE_EQ(limit, 2 * damping / kPeriod);
+    const double limit = stiffest_passive(device, kHapticPeriod, 0);
+    EXPECT_DOUBLE_EQ(limit, 2 * damping / kHapticPeriod);
     const auto grows = [damping](double k) { return swing(k, damping, false, 1500) / swing(k, damping, false, 750); };
     EXPECT_LT(grows(0.95 * limit), 1) << damping;
     EXPECT_GT(grows(1.05 * limit), 1) << damping;
@@ -144,20 +144,20 @@ TEST(HapticWall, StiffnessIsLimitedByTheMechanismsFrictionPerStepOfItsPosition) 
   device.own_damping = 5;
   device.own_friction = 0.01;
   device.resolution = 1e-5;
-  EXPECT_DOUBLE_EQ(stiffest_passive(device, kPeriod, 0), 2000);  // [Abbott & Okamura 2005] 2 f_c / resolution
-  EXPECT_DOUBLE_EQ(stiffest_passive(device, kPeriod, 4.5), 1000);
-  EXPECT_EQ(stiffest_passive(device, kPeriod, 6), 0);
+  EXPECT_DOUBLE_EQ(stiffest_passive(device, kHapticPeriod, 0), 2000);  // [Abbott & Okamura 2005] 2 f_c / resolution
+  EXPECT_DOUBLE_EQ(stiffest_passive(device, kHapticPeriod, 4.5), 1000);
+  EXPECT_EQ(stiffest_passive(device, kHapticPeriod, 6), 0);
 }
 
 TEST(HapticGuard, FadesInIsBoundedAndIsGoneATenthOfASecondAfterEitherSideFellSilent) {
   ForceGuard guard({.force_max = 3, .rate_max = 1e9, .patience = 0.05, .fade = 0.1});
-  EXPECT_LT(length(guard.guard({9, 0, 0}, 0, kPeriod)), 0.2);
-  for (int i = 0; i < 200; ++i) guard.guard({9, 0, 0}, 0, kPeriod);
-  EXPECT_DOUBLE_EQ(guard.guard({9, 0, 0}, 0, kPeriod).x, 3);
-  EXPECT_DOUBLE_EQ(guard.guard({9, 0, 0}, 0.049, kPeriod).x, 3);
+  EXPECT_LT(length(guard.guard({9, 0, 0}, 0, kHapticPeriod)), 0.2);
+  for (int i = 0; i < 200; ++i) guard.guard({9, 0, 0}, 0, kHapticPeriod);
+  EXPECT_DOUBLE_EQ(guard.guard({9, 0, 0}, 0, kHapticPeriod).x, 3);
+  EXPECT_DOUBLE_EQ(guard.guard({9, 0, 0}, 0.049, kHapticPeriod).x, 3);
   double silence = 0.051, force = 3;
-  for (int i = 0; i < 101; ++i, silence += kPeriod) {
-    const double now = guard.guard({2, 0, 0}, silence, kPeriod).x;
+  for (int i = 0; i < 101; ++i, silence += kHapticPeriod) {
+    const double now = guard.guard({2, 0, 0}, silence, kHapticPeriod).x;
     EXPECT_LE(now, force);
     force = now;
   }
@@ -168,13 +168,13 @@ TEST(HapticGuard, GrowsNoFasterThanItsRateAndEndsAtOnce) {
   ForceGuard guard({.force_max = 10, .rate_max = 500, .patience = 0.05, .fade = 1e-9});
   double last = 0;
   for (int i = 0; i < 10; ++i) {
-    const double now = guard.guard({0, 4, 0}, 0, kPeriod).y;
+    const double now = guard.guard({0, 4, 0}, 0, kHapticPeriod).y;
     EXPECT_LE(now - last, 0.5 + 1e-12);
     last = now;
   }
   EXPECT_DOUBLE_EQ(last, 4);
-  EXPECT_EQ(guard.guard({0, 0, 0}, 0, kPeriod).y, 0);
-  EXPECT_EQ(length(guard.guard({std::nan(""), 0, 0}, 0, kPeriod)), 0);
+  EXPECT_EQ(guard.guard({0, 0, 0}, 0, kHapticPeriod).y, 0);
+  EXPECT_EQ(length(guard.guard({std::nan(""), 0, 0}, 0, kHapticPeriod)), 0);
 }
 
 TEST(HapticRenderer, WhatIsHeldPullsBothWaysAndASealHoldsBackWithItsFrictionWhicheverWay) {

@@ -115,7 +115,9 @@ TEST_P(DigestiveAbuse, LeavesNumbersFiniteTheAccountExactAndNoBodyInAKnot) {
     ASSERT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
     EXPECT_LT(r.most_energy, kMostEnergy) << "[J]";
     EXPECT_FALSE(r.held);  // what was torn off may lie on an instrument: that is told, not refused
-    if (r.let_go) EXPECT_LE(drawn.share, kMostPull) << drawn.worst << ", " << drawn.most;
+    if (r.let_go) {
+      EXPECT_LE(drawn.share, kMostPull) << drawn.worst << ", " << drawn.most;
+    }
     ASSERT_EQ(abuse::broken(model, attack.state()), "");
   }
   EXPECT_GT(done, 3) << "hands that never hold or tear anything prove nothing";
