@@ -287,6 +287,7 @@ void add_file(CLI::App& box, Chosen& chosen) {
 void add_box(CLI::App& program, Chosen& chosen) {
   CLI::App* box = program.add_subcommand("box", "An instrument box at a serial port: simulate one, look at one");
   box->require_subcommand(1);
+  box->footer("Example:\n  trocar box simulate /tmp/box\n  trocar box monitor /tmp/box");
   add_simulate(*box, chosen);
   add_monitor(*box, chosen);
   add_file(*box, chosen);

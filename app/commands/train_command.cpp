@@ -37,6 +37,7 @@ struct TrainChoice {
 };
 
 constexpr std::uint64_t kLogTimeEvery = 250;  ///< ticks
+constexpr std::uint64_t kAftermath = 1500;    ///< ticks that hands lead on when the exercise is done
 
 int exit_code(const Json& result, const std::string& input) {
   if (result.contains("log_failure")) return core::kEnvironment;  // told already
@@ -106,10 +107,13 @@ Json train_headless(const TrainChoice& o, const attempt::Lesson& lesson, trainin
       .look = {pictures::parse_stereo(o.stereo), pictures::parse_show(o.show), pictures::parse_analysis(o.analysis)},
       .seconds = o.seconds,
       .real_time = team != nullptr};
+  const bool hands = source.device().has_value();  // they do not come to an end by themselves
+  std::uint64_t aftermath = 0;
   const pictures::Leftovers left = pictures::run_headless(session, source, what, [&] {
     for (const attempt::Moment& m : session.moments()) events.moment(lesson.model, m);
     if (session.state().tick % kLogTimeEvery == 0) events.event("time", {{"tick", session.state().tick}});
-    return true;
+    if (hands && session.finished()) ++aftermath;
+    return aftermath < kAftermath;
   });
   if (team) team->end(attempt::interrupted() ? "the host has ended it" : attempt::message::kFinished);
   const bool aborted = attempt::interrupted() && !(session.monitor() && session.monitor()->finished());

@@ -50,7 +50,7 @@ class Program : public testing::Test {
 };
 
 const std::vector<std::string> kCommands{"train", "replay", "check",      "gallery", "list",
-                                         "bench", "report", "precompute", "compare"};
+                                         "bench", "report", "precompute", "compare", "box"};
 
 TEST_F(Program, EveryCommandHasHelpWithAnExample) {
   for (const std::string& command : kCommands) {
