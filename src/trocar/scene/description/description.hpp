@@ -263,8 +263,8 @@ struct Port {
   std::string name;
   Vec3d position;
   double diameter = 0.005;
-  double seal_friction = 0.5;  ///< along a shaft [N]
   core::Location at;
+  double seal_friction = 0.5;  ///< along a shaft [N]
 };
 
 /// Fluids of a scene: where they gather.
