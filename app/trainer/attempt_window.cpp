@@ -98,7 +98,7 @@ void AttemptWindow::join_in() {
   if (!m_stage.options.team || m_stage.options.member) return;
   m_team = std::make_unique<attempt::TeamHost>(m_lesson, *m_stage.options.team);
   m_hosted = std::make_unique<attempt::HostedSource>(*m_team, source());
-  for (const std::string& line : team_in_words()) core::log::info("{}", line);
+  for (const std::string& line : how_to_join()) core::log::info("{}", line);
 }
 
 attempt::InputSource& AttemptWindow::source() const {
@@ -117,7 +117,7 @@ void AttemptWindow::put(const sim::Input& command, float dt, const attempt::Snap
     m_hands->put(all);
 }
 
-/// Who is here, and how old what comes from them is; how to join for who is not.
+/// Who takes part, and how old what comes from them is.
 std::vector<std::string> AttemptWindow::team_in_words() const {
   std::vector<std::string> lines = m_parts ? m_parts->in_words() : std::vector<std::string>();
   if (const auto& member = m_stage.options.member)
@@ -125,8 +125,18 @@ std::vector<std::string> AttemptWindow::team_in_words() const {
   if (!m_team) return lines;
   for (const attempt::TeamSeat& seat : m_team->seats())
     lines.push_back(seat.here ? fmt::format("{}: {:.0f} ms", seat.role, 1000 * seat.latency)
-                              : fmt::format("{}: trocar join {}:{} --role {} --token {}", seat.role,
-                                            m_stage.options.team->address, m_team->port(), seat.role, m_team->token()));
+                              : fmt::format("{}: away", seat.role));
+  return lines;
+}
+
+/// What those who are away have to type.
+std::vector<std::string> AttemptWindow::how_to_join() const {
+  std::vector<std::string> lines;
+  if (!m_team) return lines;
+  for (const attempt::TeamSeat& seat : m_team->seats())
+    if (!seat.here)
+      lines.push_back(fmt::format("trocar join {}:{} --role {} --token {}", m_stage.options.team->address,
+                                  m_team->port(), seat.role, m_team->token()));
   return lines;
 }
 
@@ -526,7 +536,7 @@ void AttemptWindow::draw_scene(const attempt::Snapshot& now) {
       outlook(now),
       team_in_words()};
   draw_panel(content, float(width), panel, float(height));
-  if (!m_told_waits.empty()) draw_waiting(m_told_waits, float(width), float(height));
+  if (!m_told_waits.empty()) draw_waiting(m_told_waits, how_to_join(), float(width), float(height));
   if (!stands_still()) draw_notices(m_feedback, now_seconds(), float(width), float(height));
 }
 

@@ -47,6 +47,7 @@ class AttemptWindow {
   void join_in();
   void tell_of_team(const attempt::Snapshot& now);
   std::vector<std::string> team_in_words() const;
+  std::vector<std::string> how_to_join() const;
   void listen_to_device(const attempt::Snapshot& now);
   void note_age();
   void keep_mode();

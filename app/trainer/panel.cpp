@@ -331,10 +331,12 @@ void draw_notices(const Feedback& feedback, double now, float picture_width, flo
   ImGui::End();
 }
 
-void draw_waiting(const std::string& why, float picture_width, float picture_height) {
+void draw_waiting(const std::string& why, const std::vector<std::string>& help, float picture_width,
+                  float picture_height) {
   begin_box("waiting", {0.5f * picture_width, 0.4f * picture_height}, {0.5f, 0.5f}, picture_width, picture_height);
   ui::mark(Mark::warning);
   ui::text("Time stands still: " + why, ui::colour_of(Mark::warning));
+  for (const std::string& line : help) ui::text(line, ui::kWhite);
   ImGui::End();
 }
 

@@ -38,7 +38,8 @@ float panel_width(float width, float scale);
 void draw_panel(const PanelContent& content, float left, float width, float height);
 /// Fresh notices over the lower part of the picture.
 void draw_notices(const Feedback& feedback, double now, float picture_width, float picture_height);
-/// Why time stands still, though nobody paused it, in the picture's middle.
-void draw_waiting(const std::string& why, float picture_width, float picture_height);
+/// Why time stands still, though nobody paused it, and what helps, in the picture's middle.
+void draw_waiting(const std::string& why, const std::vector<std::string>& help, float picture_width,
+                  float picture_height);
 
 }  // namespace trocar::app
