@@ -45,7 +45,7 @@ TEST(ShapeDistance, OfBoxesAndRodsIsWhatOneMeasures) {
               3 - std::sqrt(2.0), 1e-7);
   EXPECT_LT(clearance(box({0, 0, 0}, {10, 0.2, 0.2}), box({0, 0, 0}, {0.2, 10, 0.2})), 0);  // a cross
   EXPECT_NEAR(clearance(box({0, 0, 0}, {2, 2, 2}), box({1.9, 0, 0}, {2, 2, 2})), -0.1, 1e-12);
-  EXPECT_LT(clearance(box({0, 0, 0}, {10, 10, 10}), box({0, 0, 0}, {1, 1, 1})), 0);         // one in the other
+  EXPECT_LT(clearance(box({0, 0, 0}, {10, 10, 10}), box({0, 0, 0}, {1, 1, 1})), 0);  // one in the other
 }
 
 TEST(Clearance, OfTheCollidingGraspersBarIsThatOfItsElbowAndTheWall) {

@@ -76,7 +76,8 @@ struct Misfit {
 class ToleranceStudy {
  public:
   /// @param handles (drives) where the drives stand
-  /// @throws std::invalid_argument where the pose does not close, is singular or beyond limits, or drives leave a freedom open
+  /// @throws std::invalid_argument where the pose does not close, is singular or beyond limits, or drives leave a
+  /// freedom open
   ToleranceStudy(const kinematics::Mechanism& m, std::span<const double> handles, const Measured& what,
                  const std::vector<Toleranced>& tolerances, Distribution distribution = Distribution::normal);
 
