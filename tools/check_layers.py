@@ -35,7 +35,8 @@ ALLOWED = {
     "render": GEOMETRY,
     "view": SIM_BELOW + ["sim", "render"],
     "pictures": SIM_BELOW + ["sim", "scene", "training", "devices", "attempt", "render", "view"],
-    "reports": SIM_BELOW + ["sim", "scene", "training", "devices", "attempt", "render", "view", "pictures"],
+    "reports": SIM_BELOW + ["sim", "scene", "training", "devices", "attempt", "render", "view", "pictures",
+                          "studies"],
     "modeller": SIM_BELOW + ["sim", "scene", "render", "view", "volumes"],
 }
 APP_MAY = sorted(set(ALLOWED))
@@ -53,6 +54,7 @@ FOREIGN = [
     (re.compile(r"^zlib\.h"), ["geometry", "volumes"]),
     (re.compile(r"^gdcm"), ["volumes"]),
     (re.compile(r"^(Eigen|suitesparse)/|^(cholmod|umfpack)\.h"), ["numerics", "studies", "app"]),
+    (re.compile(r"^mpi\.h"), ["app"]),
     (re.compile(r"^(xxhash\.h|spdlog/)"), ["core", "app"]),
 ]
 

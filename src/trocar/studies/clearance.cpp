@@ -24,11 +24,23 @@ std::vector<int> parts_of(const Mechanism& m) {
   return part;
 }
 
+/// Without drives and loops coordinates with limits are what leads.
+Mechanism led(const Mechanism& m) {
+  Mechanism out = m;
+  for (int u = 0; u < m.u_count() && m.drives.empty() && m.rows == 0; ++u) {
+    const auto q = std::size_t(m.independent[std::size_t(u)]);
+    if (std::isfinite(m.low[q]) && std::isfinite(m.high[q]))
+      out.drives.push_back({m.coordinates[q], u, 0, m.low[q], m.high[q]});
+  }
+  return out;
+}
+
 class ClearanceSweep {
  public:
   ClearanceSweep(const Mechanism& mechanism, const ClearanceOptions& options, int follow)
-      : m(mechanism), m_options(options), m_follow(follow), m_work(mechanism), m_u(mechanism.start_u()) {
+      : m(led(mechanism)), m_options(options), m_follow(follow), m_work(mechanism), m_u(mechanism.start_u()) {
     list_pairs();
+    for (const Drive& d : m.drives) m_out.drives.push_back(d.name);
   }
 
   ClearanceReport run() {
@@ -188,7 +200,7 @@ class ClearanceSweep {
     return std::move(m_out);
   }
 
-  const Mechanism& m;
+  const Mechanism m;
   const ClearanceOptions& m_options;
   int m_follow;
   LoopWork m_work;

@@ -5,7 +5,7 @@
 //
 // Links that joints without freedom keep together are one part. Parts that a joint or a closure connects are
 // neighbours, and meant to touch: they are not looked at. A pair that overlaps in every pose is modelled so (hinged on
-// one pin) and is told apart.
+// one pin) and is told apart. A mechanism with neither drives nor loops is led by all coordinates that have limits.
 #pragma once
 
 #include <string>
@@ -37,6 +37,7 @@ struct ClearanceReport {
   double least = 0;                   ///< of `pairs`; without any: infinite
   int poses = 0, reached = 0;         ///< looked at; of them closed and within limits
   double path = 0;                    ///< of the frame that is followed, with one drive [m]
+  std::vector<std::string> drives;    ///< what leads, by name
   std::vector<double> handles;        ///< (poses) with one drive
   double reached_share() const noexcept { return poses > 0 ? double(reached) / poses : 0; }
 };

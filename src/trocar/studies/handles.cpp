@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <trocar/studies/handles.hpp>
 
 namespace trocar::studies {
@@ -17,6 +19,11 @@ std::vector<double> start_handles(const Mechanism& m) {
 void set_handles(const Mechanism& m, std::span<const double> handles, std::span<double> u) noexcept {
   for (std::size_t k = 0; k < m.drives.size(); ++k)
     u[std::size_t(m.drives[k].independent)] = m.drives[k].value(handles[k]);
+}
+
+void hold_for_study(const Mechanism& m, LoopWork& work) noexcept {
+  hold_drives(m, work);
+  if (m.rows == 0) std::fill(work.held.begin(), work.held.end(), static_cast<unsigned char>(1));
 }
 
 MoveReport move_handles(const Mechanism& m, std::span<const double> handles, std::span<double> u, const Branch& branch,

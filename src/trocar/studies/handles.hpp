@@ -15,6 +15,9 @@ std::vector<double> start_handles(const kinematics::Mechanism& m);
 /// Sets the driven coordinates. @param handles (drives)  @param u (u_count)
 void set_handles(const kinematics::Mechanism& m, std::span<const double> handles, std::span<double> u) noexcept;
 
+/// Holds what is driven; of a mechanism without loops everything, as nothing else says where the rest stands.
+void hold_for_study(const kinematics::Mechanism& m, kinematics::LoopWork& work) noexcept;
+
 /// From the closed pose u along the branch to these handles, everything driven being held.
 kinematics::MoveReport move_handles(const kinematics::Mechanism& m, std::span<const double> handles,
                                     std::span<double> u, const kinematics::Branch& branch, kinematics::LoopWork& work);

@@ -82,7 +82,7 @@ std::vector<Toleranced> everywhere(const Mechanism& m, double length, double ang
 /// What one thread works with.
 struct ToleranceStudy::Lane {
   explicit Lane(const ToleranceStudy& s) : changed(s.m), work(s.m), values(s.m.parameter_values), u(s.m_start) {
-    hold_drives(s.m, work);
+    hold_for_study(s.m, work);
     options.rank = s.m_rank;
   }
   Mechanism changed;
@@ -100,7 +100,7 @@ ToleranceStudy::ToleranceStudy(const Mechanism& mechanism, std::span<const doubl
   m.shapes.clear();  // no place depends on them
   m_start = m.start_u();
   LoopWork work(m);
-  hold_drives(m, work);
+  hold_for_study(m, work);
   LoopReport report = close(m, m_start, work);
   if (!report.closed()) throw std::invalid_argument("the start: " + words(m, report));
   const MoveReport moved = move_handles(m, m_handles, m_start, branch_at(m, m_start, work), work);
