@@ -10,6 +10,7 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/reports/design_page.hpp>
 #include <trocar/scene/files/library.hpp>
+#include <trocar/scene/json/shape.hpp>
 #include <trocar/studies/clearance.hpp>
 #include <trocar/studies/optimise.hpp>
 
