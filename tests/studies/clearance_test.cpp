@@ -78,6 +78,10 @@ TEST(Clearance, NeighboursAreNotLookedAtAndWhatIsIgnoredIsNot) {
     return all;
   };
   EXPECT_EQ(names(clearance_over_motion(m, {})), std::vector<std::string>{"jaw_upper jaw_lower"});
+  EXPECT_TRUE(clearance_over_motion(m, {}).pairs.empty());  // hinged on one pin: in each other in every pose
+  ClearanceOptions strict;
+  strict.strict = true;
+  EXPECT_LT(clearance_over_motion(m, strict).least, 0);
   ClearanceOptions options;
   options.ignored = {{m.link("jaw_lower"), m.link("jaw_upper")}};
   EXPECT_TRUE(names(clearance_over_motion(m, options)).empty());

@@ -78,6 +78,7 @@ ClearanceOptions sweep_of(const Mechanism& m, const DesignOptions& o) {
   ClearanceOptions out;
   out.steps = o.steps;
   out.samples = o.poses;
+  out.strict = o.strict;
   const auto link = [&](const std::string& name) {
     const int index = m.link(name);
     if (index < 0) refuse_words(name, scene::unknown_name("link", name, m.links));
@@ -137,6 +138,7 @@ const char* file_unit(const Parameter& p) {
 void add_design_options(CLI::App& c, DesignOptions& o) {
   add_study_options(c, o.study);
   c.add_option("--ignore", o.ignored, "clearance, optimise: a pair of links that may touch, as LINK:LINK");
+  c.add_flag("--strict", o.strict, "clearance, optimise: pairs that overlap in every pose count, too");
   c.add_option("--steps", o.steps, "clearance: poses of a single drive's way")
       ->transform(whole_number(2, 100'000))
       ->capture_default_str();

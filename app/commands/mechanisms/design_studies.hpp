@@ -15,6 +15,7 @@ struct DesignOptions {
   std::vector<std::string> ignored;  ///< "LINK:LINK"
   int steps = 200, poses = 2000;
   double clearance_um = 100, keep = 0.95;
+  bool strict = false;
   bool follows = false;  ///< a frame was named
   std::string report;    ///< folder; empty: none
 };

@@ -193,7 +193,8 @@ class ClearanceSweep {
   ClearanceReport sorted() {
     m_out.least = kFar;
     for (Pair& p : m_pairs)
-      if (std::isfinite(p.out.least)) (p.out.always() ? m_out.joined : m_out.pairs).push_back(std::move(p.out));
+      if (std::isfinite(p.out.least))
+        (p.out.always() && !m_options.strict ? m_out.joined : m_out.pairs).push_back(std::move(p.out));
     std::stable_sort(m_out.pairs.begin(), m_out.pairs.end(),
                      [](const PairClearance& a, const PairClearance& b) { return a.least < b.least; });
     if (!m_out.pairs.empty()) m_out.least = m_out.pairs.front().least;

@@ -20,6 +20,7 @@ struct ClearanceOptions {
   int steps = 200;                           ///< of a single drive's way
   int samples = 2000;                        ///< with several drives: poses, of Halton's sequence [Halton 1960]
   bool refine = true;                        ///< look about the nearest pose of each pair for a nearer one
+  bool strict = false;                       ///< pairs that overlap in every pose count, too
   std::vector<std::pair<int, int>> ignored;  ///< links (into Mechanism::links)
 };
 

@@ -22,7 +22,6 @@ class PatternSearch {
  public:
   PatternSearch(const Mechanism& mechanism, const OptimiseOptions& options, const ClearanceOptions& judge)
       : m(mechanism), m_options(options), m_judge(judge), m_changed(mechanism) {
-    m_options.sweep.ignored = judge.ignored;
     for (int i = 0; i < m.named_parameters; ++i)
       if (m.parameters[std::size_t(i)].low < m.parameters[std::size_t(i)].high) m_out.parameters.push_back(i);
     if (m_out.parameters.empty())
@@ -31,6 +30,9 @@ class PatternSearch {
 
   OptimiseResult run() {
     m_out.before = clearance_over_motion(m, m_judge, m_options.follow);
+    for (const PairClearance& p : m_out.before.joined) m_judge.ignored.emplace_back(p.first, p.second);
+    m_judge.strict = m_options.sweep.strict = true;
+    m_options.sweep.ignored = m_judge.ignored;
     m_sweep_before = clearance_over_motion(m, m_options.sweep, m_options.follow);
     m_out.range_before = range(m, m_out.before);
     m_sweep_range = range(m, m_sweep_before);
@@ -150,7 +152,7 @@ class PatternSearch {
 
   const Mechanism& m;
   OptimiseOptions m_options;
-  const ClearanceOptions& m_judge;
+  ClearanceOptions m_judge;
   Mechanism m_changed;
   ClearanceReport m_sweep_before;
   double m_sweep_range = 0, m_least = 0;

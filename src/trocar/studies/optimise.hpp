@@ -14,13 +14,13 @@
 namespace trocar::studies {
 
 struct OptimiseOptions {
-  double clearance = 2e-4;                        ///< wished for [m]
-  int follow = -1;                                ///< frame whose range is kept; -1: none is
-  double keep = 0.95;                             ///< share of its range as it was, at least
-  double most = 1e300;                            ///< and at most
-  int starts = 6;                                 ///< at most
-  int evaluations = 4000;                         ///< at most, of all starts
-  ClearanceOptions sweep = {60, 400, false, {}};  ///< while searching
+  double clearance = 2e-4;                              ///< wished for [m]
+  int follow = -1;                                      ///< frame whose range is kept; -1: none is
+  double keep = 0.95;                                   ///< share of its range as it was, at least
+  double most = 1e300;                                  ///< and at most
+  int starts = 6;                                       ///< at most
+  int evaluations = 4000;                               ///< at most, of all starts
+  ClearanceOptions sweep = {60, 400, false, true, {}};  ///< while searching
 };
 
 struct OptimiseResult {
