@@ -32,6 +32,7 @@ void tolerance_samples(benchmark::State& bench, const char* name, const char* fr
 BENCHMARK_CAPTURE(tolerance_samples, four_bar, "four_bar", "tip")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(tolerance_samples, grasper, "grasper", "tip_upper")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(tolerance_samples, needle_holder, "needle_holder", "tip_upper")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tolerance_samples, claw_grasper, "claw_grasper", "tip_upper")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(tolerance_samples, clip_applier, "clip_applier", "tip_upper")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(tolerance_samples, dvrk_arm, "dvrk_arm", "tip")->Unit(benchmark::kMillisecond);
 

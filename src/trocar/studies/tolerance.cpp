@@ -81,14 +81,15 @@ std::vector<Toleranced> everywhere(const Mechanism& m, double length, double ang
 
 /// What one thread works with.
 struct ToleranceStudy::Lane {
-  explicit Lane(const ToleranceStudy& s) : changed(s.m), work(s.m), values(s.m.parameter_values), u(s.m_start) {
+  explicit Lane(const ToleranceStudy& s)
+      : changed(s.m), work(s.m), values(s.m.parameter_values), u(s.m_start), response(s.m_start) {
     hold_for_study(s.m, work);
     options.rank = s.m_rank;
   }
   Mechanism changed;
   LoopWork work;
   LoopOptions options;
-  std::vector<double> values, u;
+  std::vector<double> values, u, response;  ///< response: d u / d parameter, of slope_of
   LoopReport report;
 };
 
@@ -114,10 +115,9 @@ ToleranceStudy::ToleranceStudy(const Mechanism& mechanism, std::span<const doubl
   differentiate(tolerances);
 }
 
-/// The quantity with the lane's parameters, from the nominal pose on.
+/// The quantity with the lane's parameters, closed from the lane's pose on.
 double ToleranceStudy::value_with(Lane& lane) const noexcept {
   lane.changed.assign(lane.values);
-  std::copy(m_start.begin(), m_start.end(), lane.u.begin());
   set_handles(lane.changed, m_handles, lane.u);
   lane.report = close(lane.changed, lane.u, lane.work, lane.options);
   if (lane.report.status != LoopStatus::closed) return kNone;
@@ -132,7 +132,10 @@ double ToleranceStudy::slope_of(Lane& lane, const Toleranced& t, double& gap) co
   gap = 0;
   for (int k = 0; k < 2; ++k) {
     p = here + (k ? step : -step);
+    std::copy(m_start.begin(), m_start.end(), lane.u.begin());
     value[k] = value_with(lane);
+    for (std::size_t i = 0; i < lane.u.size(); ++i)
+      lane.response[i] = k ? (lane.u[i] - lane.response[i]) / (2 * step) : lane.u[i];
     if (!lane.report.closed()) gap = std::max({gap, lane.report.metres, lane.report.radians});
   }
   p = here;
@@ -151,6 +154,7 @@ void ToleranceStudy::differentiate(const std::vector<Toleranced>& tolerances) {
       continue;
     }
     m_varied.push_back(t);
+    m_response.insert(m_response.end(), lane.response.begin(), lane.response.end());
     const Sensitivity s{t.parameter, t.plus_minus, slope};
     m_linear.ranked.push_back(s);
     m_linear.worst += std::fabs(s.effect());
@@ -177,9 +181,12 @@ void ToleranceStudy::sample(std::uint64_t seed, std::int64_t first, std::span<do
     for (std::int64_t block = k; block < blocks; block += lanes)
       for (std::int64_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
         Errors errors(seed, first + i);
+        std::copy(m_start.begin(), m_start.end(), lane.u.begin());
+        const double* response = m_response.data();
         for (const Toleranced& t : m_varied) {
           const double e = m_distribution == Distribution::normal ? errors.normal() / 3 : errors.uniform();
           lane.values[std::size_t(t.parameter)] = m.parameter_values[std::size_t(t.parameter)] + t.plus_minus * e;
+          for (double& u : lane.u) u += *response++ * t.plus_minus * e;
         }
         values[std::size_t(i)] = value_with(lane);
       }

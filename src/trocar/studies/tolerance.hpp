@@ -102,6 +102,7 @@ class ToleranceStudy {
   kinematics::Frame m_nominal;
   LinearTolerance m_linear;
   std::vector<Toleranced> m_varied;  ///< in the order of parameters: what samples draw
+  std::vector<double> m_response;    ///< (varied x u_count) d u / d parameter: where samples are begun from
   std::vector<Misfit> m_misfits;
 };
 
