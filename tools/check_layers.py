@@ -35,7 +35,8 @@ ALLOWED = {
     "render": GEOMETRY,
     "view": SIM_BELOW + ["sim", "render"],
     "pictures": SIM_BELOW + ["sim", "scene", "training", "devices", "attempt", "render", "view"],
-    "reports": SIM_BELOW + ["sim", "scene", "training", "devices", "attempt", "render", "view", "pictures"],
+    "reports": SIM_BELOW + ["sim", "scene", "training", "devices", "attempt", "render", "view", "pictures",
+                          "studies"],
     "modeller": SIM_BELOW + ["sim", "scene", "render", "view", "volumes"],
 }
 APP_MAY = sorted(set(ALLOWED))
@@ -53,11 +54,12 @@ FOREIGN = [
     (re.compile(r"^zlib\.h"), ["geometry", "volumes"]),
     (re.compile(r"^gdcm"), ["volumes"]),
     (re.compile(r"^(Eigen|suitesparse)/|^(cholmod|umfpack)\.h"), ["numerics", "studies", "app"]),
+    (re.compile(r"^mpi\.h"), ["app"]),
     (re.compile(r"^(xxhash\.h|spdlog/)"), ["core", "app"]),
 ]
 
 STEP = NUMERICS[1:] + ["geometry"] + BODIES + ["interactions", "sim"]
-DETERMINISTIC = STEP + ["scene", "training"]  # the scene compiler and the scripted surgeon count too
+DETERMINISTIC = STEP + ["scene", "studies", "training"]  # the scene compiler and the scripted surgeon count too
 
 LIBM = ("sin|cos|tan|sincos|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh|exp|exp2|expm1|log|log2|log10|log1p"
         "|pow|cbrt|hypot|erf|erfc|tgamma|lgamma|fma|lerp")

@@ -44,6 +44,7 @@ test=(
 soak=(
   clang                # the same bits from a second compiler
   libclang-rt-14-dev   # its fuzzer and sanitizers
+  libopenmpi-dev openmpi-bin  # tolerance studies on many machines; 53 MB, so not with the quick tests
 )
 dev=(
   clang-format clang-tidy libc++-dev libc++abi-dev

@@ -62,6 +62,54 @@ TEST(Mechanism, WrongWordsExitWithTwoAndSayWhatThereIs) {
   EXPECT_EQ(trocar({"mechanism", "four_bar", "workspace", "--frame", "toe"}).exit, 2);
 }
 
+TEST(Mechanism, AToleranceStudySaysFirstOrderAndSamplesAndLeavesAPage) {
+  const std::string folder = testing::TempDir() + "trocar_tolerance_page";
+  const Outcome o =
+      trocar({"mechanism", "grasper", "tolerance", "--frame", "tip_upper", "--drive", "handle=0.5", "--plus-minus-um",
+              "10", "--within", "60", "--samples", "20000", "--report", folder, "--json"});
+  ASSERT_EQ(o.exit, 0) << o.err;
+  const Json study = o.json();
+  EXPECT_NEAR(study["deviation"].get<double>() / study["linear"]["deviation"].get<double>(), 1, 0.02);
+  EXPECT_GT(study["yield"], 0.5);
+  EXPECT_LT(study["yield"], 0.8);
+  EXPECT_EQ(study["open"], 0);
+  std::ifstream page(study["page"].get<std::string>());
+  const std::string html{std::istreambuf_iterator<char>(page), {}};
+  EXPECT_NE(html.find("histogram"), std::string::npos);
+  EXPECT_NE(html.find("slot_offset"), std::string::npos);
+  EXPECT_NE(html.find("Yield: "), std::string::npos);
+}
+
+TEST(Mechanism, AnInternalCollisionIsToldAndOptimisedAway) {
+  const Outcome before = trocar({"mechanism", "colliding_grasper", "clearance", "--json"});
+  EXPECT_EQ(before.exit, 1);
+  EXPECT_LT(before.json()["least_mm"], 0);
+  EXPECT_EQ(before.json()["pairs"][0]["second"], "bar_upper");
+  const std::string folder = testing::TempDir() + "trocar_optimise_page";
+  const Outcome after =
+      trocar({"mechanism", "colliding_grasper", "optimise", "--frame", "tip_upper", "--report", folder, "--json"});
+  EXPECT_EQ(after.exit, 0) << after.err;
+  EXPECT_EQ(after.json()["free"], true);
+  EXPECT_GE(after.json()["after"]["least_mm"], 0.1);
+  EXPECT_GE(after.json()["range_share"], 0.95);
+  EXPECT_TRUE(std::ifstream(folder + "/index.html").good());
+}
+
+TEST(Mechanism, WrongWordsOfAStudyExitWithTwo) {
+  EXPECT_EQ(trocar({"mechanism", "grasper", "tolerance", "--frame", "toe"}).exit, 2);
+  EXPECT_EQ(trocar({"mechanism", "grasper", "tolerance", "--frame", "tip_upper", "--along", "1,2"}).exit, 2);
+  EXPECT_EQ(trocar({"mechanism", "grasper", "tolerance", "--frame", "tip_upper", "--along", "0,0,0"}).exit, 2);
+  EXPECT_EQ(trocar({"mechanism", "grasper", "tolerance", "--frame", "tip_upper", "--distance"}).exit, 2);
+  EXPECT_EQ(trocar({"mechanism", "grasper", "tolerance", "--frame", "tip_upper", "--set", "rod=3"}).exit, 2);
+  EXPECT_EQ(trocar({"mechanism", "grasper", "clearance", "--ignore", "jaw_upper"}).exit, 2);
+  EXPECT_EQ(trocar({"mechanism", "grasper", "clearance", "--ignore", "jaw_upper:hand"}).exit, 2);
+  EXPECT_EQ(trocar({"mechanism", "bricard", "tolerance", "--frame", "tip"}).exit, 2);
+  const Outcome far =
+      trocar({"mechanism", "grasper", "tolerance", "--frame", "tip_upper", "--drive", "handle=50", "--json"});
+  EXPECT_EQ(far.exit, 1);
+  EXPECT_EQ(far.json()["closed"], false);
+}
+
 TEST(Mechanism, CheckSaysWhatAFileHolds) {
   const Outcome o = trocar({"check", TROCAR_SOURCE_DIR "/scenes/mechanisms/bricard.json", "--json"});
   ASSERT_EQ(o.exit, 0) << o.err;

@@ -1,4 +1,4 @@
-// trocar mechanism: what a mechanism does: a pose of it, and where it can get to.
+// trocar mechanism: what a mechanism does: a pose of it, where it can get to, and studies of its design.
 #include <algorithm>
 #include <cmath>
 
@@ -13,12 +13,12 @@
 #include <trocar/scene/mechanisms/mechanism_file.hpp>
 
 #include "commands/command.hpp"
+#include "commands/mechanisms/design_studies.hpp"
 #include "commands/number_options.hpp"
 
 namespace trocar::app {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace kinematics;
 
 struct MechanismWords {
@@ -26,29 +26,8 @@ struct MechanismWords {
   std::vector<std::string> sets, drives;
   int samples = 100'000;
   double cell_mm = 0;
+  DesignOptions design;
 };
-
-[[noreturn]] void refuse_words(const std::string& word, const std::string& message) {
-  throw core::BadInput({{{word, 0, 0}, message}});
-}
-
-/// A file, or the name of one under scenes/mechanisms.
-fs::path mechanism_file(const std::string& name) {
-  std::error_code error;
-  const auto scenes = scene::found_scenes_folder();
-  if (fs::exists(name, error) || !scenes) return name;
-  const fs::path shipped = *scenes / "mechanisms" / (name + ".json");
-  return fs::exists(shipped, error) ? shipped : fs::path(name);
-}
-
-/// "NAME=NUMBER"
-std::pair<std::string, double> assignment(const std::string& word) {
-  const std::size_t at = word.find('=');
-  const std::string number = at == word.npos ? "" : word.substr(at + 1);
-  if (at == word.npos || at == 0 || !core::is_decimal(number) || !(std::fabs(core::to_double(number)) <= 1e4))
-    refuse_words(word, fmt::format("expected NAME=NUMBER, at most 10000 either way, got \"{}\"", word));
-  return {word.substr(0, at), core::to_double(number)};
-}
 
 double in_file(const Mechanism& m, int q, double value) {
   return m.measures[std::size_t(q)] == Measure::angle ? value * 180 / portable::pi : 1e3 * value;
@@ -228,29 +207,44 @@ int show_workspace(const Mechanism& m, const MechanismWords& given, bool json) {
 
 int run_mechanism(const MechanismWords& given, bool json) {
   const Mechanism m = build(scene::read_mechanism(mechanism_file(given.file)));
-  return given.what == "pose" ? show_pose(m, given, json) : show_workspace(m, given, json);
+  if (given.what == "pose") return show_pose(m, given, json);
+  if (given.what == "workspace") return show_workspace(m, given, json);
+  if (!given.sets.empty()) refuse_words(given.sets[0], "expected --drive with a study, got --set");
+  DesignOptions design = given.design;
+  design.study.file = given.file;
+  design.study.frame = given.frame;
+  design.study.drives = given.drives;
+  design.study.samples = given.samples;
+  if (given.what == "tolerance") return show_tolerance(m, design, json);
+  return given.what == "clearance" ? show_clearance(m, design, json) : show_optimised(m, design, json);
 }
 
 }  // namespace
 
 void add_mechanism(CLI::App& program, Chosen& chosen) {
   auto given = std::make_shared<MechanismWords>();
-  CLI::App* c = add_command(program, chosen, "mechanism", "Move a mechanism: a pose of it, or where it can get to",
-                            "trocar mechanism grasper pose --drive handle=0.5");
+  CLI::App* c =
+      add_command(program, chosen, "mechanism", "Move a mechanism, and study its design: tolerances, clearance",
+                  "trocar mechanism grasper pose --drive handle=0.5");
   c->add_option("file", given->file, "a mechanism's file (.json, .urdf), or its name under scenes/mechanisms")
       ->required();
-  c->add_option("what", given->what, "pose or workspace")
-      ->check(CLI::IsMember({"pose", "workspace"}))
+  c->add_option("what", given->what, "pose, workspace, tolerance, clearance or optimise")
+      ->check(CLI::IsMember({"pose", "workspace", "tolerance", "clearance", "optimise"}))
       ->capture_default_str();
   c->add_option("--set", given->sets, "a free coordinate, as NAME=DEGREES or NAME=MM; what is not set follows");
   c->add_option("--drive", given->drives, "an actuator, as NAME=0..1");
-  c->add_option("--frame", given->frame, "workspace: of which frame")->capture_default_str();
-  c->add_option("--samples", given->samples, "workspace: how many poses within limits")
+  CLI::Option* frame =
+      c->add_option("--frame", given->frame, "workspace, tolerance, optimise: of which frame")->capture_default_str();
+  c->add_option("--samples", given->samples, "workspace: how many poses within limits; tolerance: how many mechanisms")
       ->transform(whole_number(100, 10'000'000))
       ->capture_default_str();
   c->add_option("--cell-mm", given->cell_mm, "workspace: edge of a cell, default a fortieth of what is reached")
       ->check(number_between(0.01, 1000, "mm"));
-  c->callback([=, &chosen] { chosen.run = [=, &chosen] { return run_mechanism(*given, chosen.json); }; });
+  add_design_options(*c, given->design);
+  c->callback([=, &chosen] {
+    given->design.follows = frame->count() > 0;
+    chosen.run = [=, &chosen] { return run_mechanism(*given, chosen.json); };
+  });
 }
 
 }  // namespace trocar::app
