@@ -429,6 +429,7 @@ TEST(Fields, EveryFieldOfAModelThatIsListedCountsInItsSeal) {
       Model model = *m;
       model.vessels.bleeder.vessel = 0;  // what no scene has is hashed as well where it is there
       model.wet.pool_at_start.saline = 1;
+      model.instruments_push = true;
       model.bonds.emplace_back().bonds.emplace_back();
       model.bonds.back().breaches = true;
       if (m == &small::model()) model.solids[0].skin.more = model.solids[0].skin.weights;

@@ -10,7 +10,7 @@
 namespace trocar::sim {
 namespace {
 
-constexpr int kLeft = 0, kRight = 1;
+constexpr int kLeft = 1, kRight = 2;
 
 const Model& model(bool push) {
   const auto made = [](bool on) {
@@ -42,21 +42,20 @@ struct Met {
   double crossed = 0;            ///< how far one tip is beyond the other at the end [m]
 };
 
-/// Both tips swap places beside each other, high above everything, and press on for a while.
+/// High above everything two shafts that cross each other, seen from the side, go against each other and press on.
 Met meet(bool push, double speed) {
   const Model& m = model(push);
   State s = initial_state(m);
   Work w = make_work(m);
   Input in = m.start;
-  const Vec3d pa = m.hands[kLeft].port, pb = m.hands[kRight].port;
-  const Vec3d way = normalised(Vec3d{pb.x - pa.x, pb.y - pa.y, 0});
-  const Vec3d middle = 0.5 * (pa + pb) + Vec3d{0, 0, -0.055};
+  const Vec3d pa = m.hands[kLeft].port, pb = m.hands[kRight].port, middle = 0.5 * (pa + pb) + Vec3d{0, 0, -0.055};
+  const Vec3d way{1, 0, 0}, over{0, pa.y > 0 ? -0.02 : 0.02, 0};
   Met met;
   double at = -0.03;
   for (int t = 0; t < 3000; ++t) {
-    at = std::min(at + speed * kTick, 0.015);
-    in.tools[kLeft] = tool_input(kinematics::inverse(pa, middle + at * way, 0), 1);
-    in.tools[kRight] = tool_input(kinematics::inverse(pb, middle - at * way + Vec3d{0, 0, 0.004}, 0), 1);
+    if (t > 500) at = std::min(at + speed * kTick, 0.015);
+    in.tools[kLeft] = tool_input(kinematics::inverse(pa, middle + at * way + over, 0), 1);
+    in.tools[kRight] = tool_input(kinematics::inverse(pb, middle - at * way - over, 0), 1);
     step(m, in, s, w);
     met.overlap = std::max(met.overlap, overlap(m, s));
     const double(&f)[3] = s.tools[kLeft].contact_force;
