@@ -11,7 +11,8 @@ template <class Fingers>
 void begins() {
   const Done done = do_with<Fingers>("cholecystectomy/calot", 16);
   EXPECT_EQ(done.steps_done, 1) << "the infundibulum is held";
-  EXPECT_TRUE(done.errors.empty()) << done.errors.front();
+  // a mouse that turns the endoscope leaves the other hand out of the picture for a while
+  for (const std::string& code : done.errors) EXPECT_EQ(code, "E4.1");
   EXPECT_GT(done.account.looks, 0) << "the endoscope was led";
   EXPECT_GT(done.account.share(done.account.both), 0.5) << "[%] of the ticks: most of them are looking and holding";
 }
