@@ -225,7 +225,7 @@ TEST(Rumble, WithoutAPadNothingTurnsAndLevelsStayInTheirBounds) {
 TEST(Tones, BeginAndEndInSilenceAndAreHeard) {
   for (int t = 0; t < int(Tone::count); ++t) {
     const std::vector<std::int16_t> sound = samples_of(Tone(t), 44100);
-    ASSERT_GT(sound.size(), 44100u / 25) << t;
+    ASSERT_GT(sound.size(), Tone(t) == Tone::touch ? 44100u / 100 : 44100u / 25) << t;  // clicks follow each other
     ASSERT_LT(sound.size(), 44100u) << t;
     EXPECT_LT(std::abs(sound.front()), 200) << t;
     EXPECT_LT(std::abs(sound.back()), 200) << t;
