@@ -203,10 +203,11 @@ TEST(Reader, NanAndNegativeMassAreFaultsWhereTheyStand) {
 TEST(Reader, UnknownKeysAreFaultsWithAGuess) {
   EXPECT_EQ(faults_of({{19, R"("ports": [{"name": "navel", @"positoin_mm": [0, 0, 0], "position_mm": [0, 0, 0], )"
                             R"("diameter_mm": 10}],)"}}),
-            one("expected a known key of a port (name, position_mm, diameter_mm), got \"positoin_mm\" (did you mean "
+            one("expected a known key of a port (name, position_mm, diameter_mm, seal_friction_N), got \"positoin_mm\" "
+                "(did you mean "
                 "\"position_mm\"?)"));
   EXPECT_EQ(faults_of({{19, R"("ports": [{"name": "navel", "position_mm": [0, 0, 0], "diameter_mm": 10, @"q": 0}],)"}}),
-            one("expected a known key of a port (name, position_mm, diameter_mm), got \"q\""));
+            one("expected a known key of a port (name, position_mm, diameter_mm, seal_friction_N), got \"q\""));
 }
 
 TEST(Reader, DanglingNamesAreFaultsWithTheKnownOnes) {
@@ -363,7 +364,8 @@ TEST(Reader, AllFaultsComeInOnePassInTheOrderOfTheFile) {
                  {20, R"("tools": [{"instrument": "stick", "port": @"none", "tip_mm": @[0, 0]}],)"}}),
       (Faults{"expected a known key of a scene ($schema, format, name, like, title, gravity_m_s2, tissues, organs, "
               "vessels, "
-              "fluids, bleeder, energy, peristalsis, breathing, detail, marks, variation, variant, instruments, ports, tools, "
+              "fluids, bleeder, energy, peristalsis, breathing, detail, marks, variation, variant, instruments, ports, "
+              "instruments_push, tools, "
               "scope, rigids, fat, bags), got "
               "\"titel\" (did "
               "you mean \"title\"?)",
