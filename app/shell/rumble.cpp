@@ -15,7 +15,7 @@ constexpr int kMostDevices = 64;       // /dev/input/event0 ...
 constexpr std::uint16_t kLasts = 300;  // [ms] of an effect: a program that dies leaves no motor running
 constexpr double kAgain = 0.15;        // [s] after which it is sent anew
 constexpr double kChange = 0.02;       // [s] between changes
-constexpr int kLevelStep = 2000;            // of the level, that is a change
+constexpr int kLevelStep = 2000;       // of the level, that is a change
 
 int digit_of(char c) {
   if (c >= '0' && c <= '9') return c - '0';

@@ -80,7 +80,7 @@ std::vector<std::int16_t> samples_of(Tone tone, int rate) {
       s.snap(0.06, 0.06, 0.9);
       break;
     case Tone::touch:
-      s.snap(0, 0.016, 0.5);
+      s.snap(0, 0.045, 0.5);
       break;
     case Tone::beat:
       s.note(0, 0.12, 80, 0.9);
