@@ -7,15 +7,12 @@
 
 #include <fmt/format.h>
 
-#include <trocar/attempt/box/box_source.hpp>
 #include <trocar/attempt/hand_names.hpp>
 #include <trocar/attempt/paths.hpp>
-#include <trocar/attempt/sources.hpp>
 #include <trocar/attempt/team/message.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/core/tick.hpp>
-#include <trocar/devices/haptics/choose_device.hpp>
 
 #include "shell/display_panel.hpp"
 #include "shell/layout_panel.hpp"
@@ -36,8 +33,6 @@ constexpr double kSlowest = 0.05;
 constexpr double kLagging = 0.95;
 constexpr double kFullRate = 62, kYieldingRate = 24;  // [pictures/s] at most; the second while the simulation lags
 
-bool by_hand(const std::string& input) { return input == "mouse" || input == "gamepad"; }
-
 double pull_limit(const attempt::Lesson& lesson) {
   return lesson.exercise ? lesson.exercise->limit("pull_limit_N", 5.0) : 5.0;
 }
@@ -55,94 +50,22 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
       m_plan(plan),
       m_session(lesson),
       m_log(stage.options.store, m_session, plan),
+      m_crew(stage, lesson, plan.input),
+      m_pilot(m_crew.pilot()),
       m_feeler(lesson.model),
       m_panes(lesson.model) {
-  if (by_hand(plan.input)) {
-    m_pilot = std::make_unique<attempt::HandPilot>(lesson.model);
-    m_pilot->set(hand_settings(stage.settings, 0));
-    m_pilot->lead_both(stage.settings.both_hands);
-    m_hint = stage.settings.show_hint;
-    m_hands = std::make_unique<attempt::HandsSource>(lesson.model);
-    give_parts();
-  } else if (!stage.options.member) {
-    m_source = attempt::make_input(lesson, plan.input, attempt::BoxPace::live);
-  }
-  take_device();
-  join_in();
+  m_hint = m_pilot && !stage.options.member && stage.settings.show_hint;
   run_beside();
   m_gamepad_used = plan.input == "gamepad";
   if (m_session.monitor()) m_steps = m_session.monitor()->steps();
   stage.window.set_title(window_title(lesson));
 }
 
-AttemptWindow::~AttemptWindow() {
-  m_stage.window.gamepads().leave_out({});
-  m_stage.close_elsewhere();
-}
-
-/// Several devices, each with what it leads.
-void AttemptWindow::give_parts() {
-  if (!m_stage.options.map) return;
-  m_parts = std::make_unique<attempt::DeviceParts>(*m_stage.options.map, m_lesson.model);
-  m_stage.window.gamepads().leave_out([this](const devices::DeviceReading& reading) {
-    return m_parts->claims(reading, m_stage.window.gamepads().all());
-  });
-}
-
-/// Others take part, or this is a part of somebody else's attempt.
-void AttemptWindow::join_in() {
-  if (const auto& member = m_stage.options.member; member && m_pilot) {
-    m_hint = false;
-    m_pilot->choose(first_of(member->duty()));
-  }
-  if (!m_stage.options.team || m_stage.options.member) return;
-  m_team = std::make_unique<attempt::TeamHost>(m_lesson, *m_stage.options.team);
-  m_hosted = std::make_unique<attempt::HostedSource>(*m_team, source());
-  for (const std::string& line : how_to_join()) core::log::info("{}", line);
-}
-
-attempt::InputSource& AttemptWindow::source() const {
-  if (m_hosted) return *m_hosted;
-  if (m_felt) return *m_felt;
-  if (m_stage.options.member) return *m_stage.options.member;
-  return m_hands ? static_cast<attempt::InputSource&>(*m_hands) : *m_source;
-}
-
-/// Where the hands command everything to be.
-void AttemptWindow::put(const sim::Input& command, float dt, const attempt::Snapshot& now) {
-  const sim::Input& all = m_parts ? m_parts->lead(command, m_stage.window.gamepads().all(), dt, now.state) : command;
-  if (const auto& member = m_stage.options.member)
-    member->put(all);
-  else
-    m_hands->put(all);
-}
-
-/// Who takes part, and how old what comes from them is.
-std::vector<std::string> AttemptWindow::team_in_words() const {
-  std::vector<std::string> lines = m_parts ? m_parts->in_words() : std::vector<std::string>();
-  if (const auto& member = m_stage.options.member)
-    lines.push_back(fmt::format("your part is the {}: {:.0f} ms", member->role(), 1000 * member->latency()));
-  if (!m_team) return lines;
-  for (const attempt::TeamSeat& seat : m_team->seats())
-    lines.push_back(seat.here ? fmt::format("{}: {:.0f} ms", seat.role, 1000 * seat.latency)
-                              : fmt::format("{}: away", seat.role));
-  return lines;
-}
-
-/// What those who are away have to type.
-std::vector<std::string> AttemptWindow::how_to_join() const {
-  std::vector<std::string> lines;
-  if (!m_team) return lines;
-  for (const attempt::TeamSeat& seat : m_team->seats())
-    if (!seat.here)
-      lines.push_back(fmt::format("trocar join {}:{} --role {} --token {}", m_stage.options.team->address,
-                                  m_team->port(), seat.role, m_team->token()));
-  return lines;
-}
+AttemptWindow::~AttemptWindow() { m_stage.close_elsewhere(); }
 
 /// Time stands still while somebody is away.
 void AttemptWindow::tell_of_team(const attempt::Snapshot& now) {
-  const std::string waits = m_over ? "" : source().waits_for();
+  const std::string waits = m_over ? "" : m_crew.source().waits_for();
   if (waits == m_told_waits) return;
   m_told_waits = waits;
   m_stage.log.event("waits", {{"tick", now.state.tick}, {"for", waits}});
@@ -156,20 +79,6 @@ void AttemptWindow::run_beside() {
   m_session.run_beside(m_beside.get());
   m_panes.cameras.analysis.solvers = true;
   m_panes.cameras.analysis.strain = m_panes.cameras.analysis.forces = false;
-}
-
-/// The device leads its hand from now on, whatever leads the others.
-void AttemptWindow::take_device() {
-  const std::string& name = m_stage.options.haptics;
-  if (name.empty()) return;
-  const bool there = m_lesson.model.hand_index(m_stage.options.haptics_hand) >= 0;
-  std::unique_ptr<devices::HapticDevice> device = devices::choose_haptic_device(name, "--haptics");
-  device->open();
-  const int hand =
-      attempt::haptic_hand_of(m_lesson.model, there ? m_stage.options.haptics_hand : std::string(), "--haptics-hand");
-  m_haptic = std::make_unique<attempt::HapticHand>(m_lesson.model, hand, std::move(device),
-                                                   attempt::HapticHand::Pace::own_loop, attempt::HapticHand::Feel{});
-  m_felt = std::make_unique<attempt::HapticSource>(source(), *m_haptic);
 }
 
 void AttemptWindow::show_beside(const attempt::Snapshot& now) {
@@ -223,7 +132,8 @@ Choice AttemptWindow::run() {
                                 {"trainee", m_log.attempt().trainee},
                                 {"recording", m_log.attempt().recording}});
   const double seconds = m_stage.options.seconds;
-  attempt::Live live(m_session, source(), seconds > 0 ? std::uint64_t(double(core::kTicksPerSecond) * seconds) : 0);
+  attempt::Live live(m_session, m_crew.source(),
+                     seconds > 0 ? std::uint64_t(double(core::kTicksPerSecond) * seconds) : 0);
   Choice choice = Choice::none;
   const auto goes_on = [&] {
     return choice != Choice::restart && choice != Choice::start_screen && choice != Choice::quit;
@@ -272,7 +182,7 @@ void AttemptWindow::picture(attempt::Live& live, Choice& choice) {
   std::filesystem::path pictures = m_log.attempt().recording;
   if (pictures.empty()) pictures = "trocar";
   m_stage.end_picture(screen_name(), pictures);
-  note_age();
+  if (!stands_still()) m_age.shown(m_device.acquired, now_seconds());
   m_stage.governor.frame_took(window.picture_time(), crowds_simulation(now));
   log_rate(now);
 }
@@ -295,7 +205,7 @@ void AttemptWindow::log_rate(const attempt::Snapshot& now) {
                                {"slowest", std::round(100 * m_slowest) / 100},
                                {"still", stands_still()},
                                {"level", m_stage.governor.level()},
-                               {"hand_to_picture_ms", std::round(10'000 * m_age) / 10}});
+                               {"hand_to_picture_ms", std::round(10'000 * m_age.smoothed()) / 10}});
   m_rate_since = time;
   m_pictures = 0;
   m_slowest = 1;
@@ -305,9 +215,8 @@ void AttemptWindow::look_at_keys() {
   const Window& window = m_stage.window;
   if (window.gamepads().lost() && m_gamepad_used)
     hold("The gamepad is gone: plug it in again, or go on with mouse and keyboard.");
-  if (m_parts && !stands_still())
-    if (const std::string missing = m_parts->missing(window.gamepads().all()); !missing.empty())
-      hold(missing + ": plug it in, and go on.");
+  if (const std::string missing = stands_still() ? "" : m_crew.missing(); !missing.empty())
+    hold(missing + ": plug it in, and go on.");
   if (m_had_focus && !window.focused() && m_pilot && !stands_still()) hold("Another window came to the front.");
   m_had_focus = window.focused();
   m_gamepad_used |= touched(window.gamepads().state());
@@ -338,15 +247,10 @@ void AttemptWindow::lead(const attempt::Snapshot& now) {
   sample.dt *= float(std::clamp(now.speed, kSlowest, 1.0));  // where time is slow, held keys and sticks are as slow
   const bool still = stands_still() || m_rack;
   if (still) {
-    if (m_rack && !stands_still()) put(m_pilot->rest(sample.dt, now.state), sample.dt, now);
+    if (m_rack && !stands_still()) m_crew.put(m_pilot->rest(sample.dt, now.state), sample.dt, now.state);
   } else {
-    if (m_was_still) {
-      m_pilot->set(hand_settings(m_stage.settings, 0));
-      m_pilot->lead_both(m_stage.settings.both_hands);
-      m_pilot->take_up(sample);
-      if (m_parts) m_parts->take_up(m_stage.window.gamepads().all());
-    }
-    put(m_pilot->lead(sample, now.state), sample.dt, now);
+    if (m_was_still) m_crew.take_up(sample);
+    m_crew.put(m_pilot->lead(sample, now.state), sample.dt, now.state);
     if (m_pilot->asks_for_rack()) m_rack = true;
     keep_mode();
   }
@@ -355,7 +259,7 @@ void AttemptWindow::lead(const attempt::Snapshot& now) {
 
 /// What leads may be unplugged, or ask for something.
 void AttemptWindow::listen_to_device(const attempt::Snapshot& now) {
-  const std::optional<attempt::DeviceNews> news = source().device();
+  const std::optional<attempt::DeviceNews> news = m_crew.source().device();
   if (!news) return;
   m_device = *news;
   const auto say = [&](const std::string& text, std::string& told, ui::Mark mark) {
@@ -367,20 +271,6 @@ void AttemptWindow::listen_to_device(const attempt::Snapshot& now) {
   };
   say(m_device.warning, m_told_device, ui::Mark::warning);
   say(m_device.hint, m_told_device_hint, ui::Mark::note);
-}
-
-/// From the hand to the first picture that shows what it did, as given to the screen. What the screen itself takes is
-/// not known here.
-void AttemptWindow::note_age() {
-  if (m_device.acquired == m_shown || stands_still()) return;
-  m_shown = m_device.acquired;
-  constexpr int kFirstPictures = 20;  // they wait for shaders to be compiled
-  if (++m_drawn <= kFirstPictures) return;
-  const double age = now_seconds() - 1e-9 * double(m_device.acquired);
-  m_age = m_ages == 0 ? age : m_age + 0.05 * (age - m_age);
-  m_age_sum += age;
-  m_age_most = std::max(m_age_most, age);
-  ++m_ages;
 }
 
 /// One hand or both, as it was chosen last, is what the next attempt begins with.
@@ -409,7 +299,7 @@ void AttemptWindow::tell(attempt::Live& live) {
 
 /// The hand whose force is told: the device's, the led one, or, where a source leads, that which feels most.
 int AttemptWindow::felt_hand(const attempt::Snapshot& now) const {
-  if (m_haptic) return m_haptic->hand();
+  if (m_crew.haptic()) return m_crew.haptic()->hand();
   if (m_pilot) return m_pilot->hands().led == devices::kScope ? m_pilot->hands().last_instrument : m_pilot->hands().led;
   int most = 0;
   double force = -1;
@@ -421,7 +311,7 @@ int AttemptWindow::felt_hand(const attempt::Snapshot& now) const {
 }
 
 void AttemptWindow::feel(const attempt::Snapshot& now) {
-  const bool lost = m_haptic && m_haptic->lost();
+  const bool lost = m_crew.haptic() && m_crew.haptic()->lost();
   if (lost != std::exchange(m_device_lost, lost) && lost)
     m_feedback.add(ui::Mark::warning, "The haptic device is silent: its force is off until it speaks again.",
                    now.seconds, now_seconds());
@@ -518,25 +408,26 @@ void AttemptWindow::draw_scene(const attempt::Snapshot& now) {
   if (!choice.elsewhere) m_stage.settings.views.elsewhere.reset();
   tell_views(choice);
   ui::set_middle(float(width));
-  const PanelContent content{
-      m_lesson,
-      now,
-      m_pilot ? &m_pilot->hands() : nullptr,
-      m_pilot && m_pilot->leads_both() ? &m_pilot->both() : nullptr,
-      m_plan.input == "demo" ? "the scripted surgeon" : m_plan.input,
-      m_ages > 0 ? fmt::format("{}, hand to picture {:.0f} ms", m_device.text, 1000 * m_age) : m_device.text,
-      m_log.attempt().trainee,
-      mode_text(),
-      m_steps,
-      m_feedback,
-      stands_still(),
-      m_gamepad_used && m_stage.window.gamepads().present(),
-      pull_limit(m_lesson),
-      m_stage.settings.force_trace ? &m_feel : nullptr,
-      outlook(now),
-      team_in_words()};
+  const PanelContent content{m_lesson,
+                             now,
+                             m_pilot ? &m_pilot->hands() : nullptr,
+                             m_pilot && m_pilot->leads_both() ? &m_pilot->both() : nullptr,
+                             m_plan.input == "demo" ? "the scripted surgeon" : m_plan.input,
+                             m_age.known()
+                                 ? fmt::format("{}, hand to picture {:.0f} ms", m_device.text, 1000 * m_age.smoothed())
+                                 : m_device.text,
+                             m_log.attempt().trainee,
+                             mode_text(),
+                             m_steps,
+                             m_feedback,
+                             stands_still(),
+                             m_gamepad_used && m_stage.window.gamepads().present(),
+                             pull_limit(m_lesson),
+                             m_stage.settings.force_trace ? &m_feel : nullptr,
+                             outlook(now),
+                             m_crew.in_words()};
   draw_panel(content, float(width), panel, float(height));
-  if (!m_told_waits.empty()) draw_waiting(m_told_waits, how_to_join(), float(width), float(height));
+  if (!m_told_waits.empty()) draw_waiting(m_told_waits, m_crew.how_to_join(), float(width), float(height));
   if (!stands_still()) draw_notices(m_feedback, now_seconds(), float(width), float(height));
 }
 
@@ -602,10 +493,9 @@ void AttemptWindow::end(attempt::Live& live, Ending ending) {
   }
   m_result["input"] = m_plan.input;
   m_result["slow_motion_share"] = live.slow_share();
-  m_result.update(source().describe());
-  if (m_team) m_team->end(attempt::message::kFinished);
-  if (m_ages > 0)
-    m_result["hand_to_picture_ms"] = {{"mean", 1000 * m_age_sum / double(m_ages)}, {"most", 1000 * m_age_most}};
+  m_result.update(m_crew.source().describe());
+  if (m_crew.team()) m_crew.team()->end(attempt::message::kFinished);
+  if (m_age.known()) m_result["hand_to_picture_ms"] = {{"mean", 1000 * m_age.mean()}, {"most", 1000 * m_age.most()}};
   m_log.end(m_result, left ? AttemptState::aborted : AttemptState::finished);
   m_stage.log.event("end", {{"interrupted", left}, {"passed", m_result["passed"]}, {"ticks", m_result["ticks"]}});
   if (ending == Ending::came_to_its_end) m_stage.sound.play(Tone::finished);

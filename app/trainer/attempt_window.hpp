@@ -6,19 +6,16 @@
 #pragma once
 
 #include <trocar/attempt/attempt_log.hpp>
-#include <trocar/attempt/hand_pilot.hpp>
-#include <trocar/attempt/haptics/haptic_source.hpp>
-#include <trocar/attempt/inputs/device_parts.hpp>
 #include <trocar/attempt/live.hpp>
-#include <trocar/attempt/sources.hpp>
-#include <trocar/attempt/team/host.hpp>
 #include <trocar/training/exercise/outlook.hpp>
 
 #include "shell/panes.hpp"
 #include "shell/rumble.hpp"
 #include "trainer/choice.hpp"
+#include "trainer/crew.hpp"
 #include "trainer/feedback.hpp"
 #include "trainer/force_feel.hpp"
+#include "trainer/picture_age.hpp"
 #include "trainer/trainer_window.hpp"
 
 namespace trocar::app {
@@ -41,15 +38,8 @@ class AttemptWindow {
   void hold(const std::string& why);
   bool stands_still() const;
   void lead(const attempt::Snapshot& now);
-  void put(const sim::Input& command, float dt, const attempt::Snapshot& now);
-  attempt::InputSource& source() const;
-  void give_parts();
-  void join_in();
   void tell_of_team(const attempt::Snapshot& now);
-  std::vector<std::string> team_in_words() const;
-  std::vector<std::string> how_to_join() const;
   void listen_to_device(const attempt::Snapshot& now);
-  void note_age();
   void keep_mode();
   void tell(attempt::Live& live);
   int felt_hand(const attempt::Snapshot& now) const;
@@ -61,7 +51,6 @@ class AttemptWindow {
   void draw_scene(const attempt::Snapshot& now);
   void draw_panes(const attempt::Snapshot& now);
   void run_beside();
-  void take_device();
   void show_beside(const attempt::Snapshot& now);
   void tell_views(const LayoutChoice& choice);
   void draw_over(const attempt::Snapshot& now, Choice& choice);
@@ -80,14 +69,8 @@ class AttemptWindow {
   std::unique_ptr<attempt::SolverBeside> m_beside;  ///< null: no other solver runs beside
   attempt::Session m_session;
   attempt::AttemptLog m_log;
-  std::unique_ptr<attempt::HandPilot> m_pilot;
-  std::unique_ptr<attempt::DeviceParts> m_parts;    ///< null: all devices lead the same
-  std::unique_ptr<attempt::HandsSource> m_hands;    ///< null: something else leads
-  std::unique_ptr<attempt::TeamHost> m_team;        ///< null: nobody else takes part
-  std::unique_ptr<attempt::InputSource> m_source;   ///< not the hands themselves
-  std::unique_ptr<attempt::HapticHand> m_haptic;    ///< null: no device leads a hand
-  std::unique_ptr<attempt::HapticSource> m_felt;    ///< with its hand
-  std::unique_ptr<attempt::HostedSource> m_hosted;  ///< with the team's
+  Crew m_crew;
+  attempt::HandPilot* m_pilot;  ///< the crew's; null: a source leads
   std::vector<training::StepStatus> m_steps;
   std::unique_ptr<training::Outlook> m_outlook;  ///< made when it is first asked
   Feedback m_feedback;
@@ -108,10 +91,7 @@ class AttemptWindow {
   bool m_device_lost = false;    ///< as told
   attempt::DeviceNews m_device;  ///< of the source, as of this picture
   std::string m_told_device, m_told_device_hint;
-  double m_age = 0, m_age_sum = 0, m_age_most = 0;  ///< of what is on the screen, since it was measured [s]
-  int m_drawn = 0;                                  ///< pictures with what a device leads
-  std::int64_t m_shown = 0;  ///< DeviceNews::acquired of the last of them that showed something newer
-  std::uint64_t m_ages = 0;
+  PictureAge m_age;          ///< of what a device leads
   int m_asked_for_eye = -1;  ///< hand whose insertion waits to be seen, as told
 };
 
