@@ -1,4 +1,4 @@
-// trocar box: a box of software at a port, and a look at what a box sends.
+// trocar box: a box of software at a port, a look at what a box sends, and its calibration.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +10,7 @@
 #include <trocar/attempt/box/box_file.hpp>
 #include <trocar/attempt/box/box_playback.hpp>
 #include <trocar/attempt/interrupt.hpp>
+#include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/log.hpp>
@@ -17,6 +18,7 @@
 #include <trocar/devices/box/serving.hpp>
 #include <trocar/sim/recording/recording.hpp>
 
+#include "box/calibration_window.hpp"
 #include "commands/command.hpp"
 #include "commands/number_options.hpp"
 
@@ -282,14 +284,46 @@ void add_file(CLI::App& box, Chosen& chosen) {
   });
 }
 
+void add_calibrate(CLI::App& box, Chosen& chosen) {
+  struct CalibrateChoice {
+    std::string port, wiring, log;
+    bool raw = false, framed = false;
+    int baud = 0;
+    std::filesystem::path output = attempt::data_folder() / "box.json";
+  };
+  auto o = std::make_shared<CalibrateChoice>();
+  CLI::App* c =
+      add_command(box, chosen, "calibrate", "A window that asks what is wired where, and writes the box's file",
+                  "trocar box calibrate /dev/ttyUSB0");
+  c->add_option("port", o->port, "a serial port")->required();
+  c->add_option("--wiring", o->wiring,
+                "its line and filter are kept; default: box.json in the data folder, or built-in");
+  CLI::Option* raw = c->add_flag("--raw", o->raw, "blocks of 76 bytes without frames; default: what the box speaks");
+  c->add_flag("--framed", o->framed, "frames with checksums")->excludes(raw);
+  c->add_option("--baud", o->baud, "of the line; default: what the box speaks")->check(CLI::Range(300, 4'000'000));
+  c->add_option("--output", o->output, "where the file goes")->capture_default_str();
+  c->add_option("--log", o->log, "JSON lines of what happens in the window");
+  c->callback([o, &chosen] {
+    chosen.run = [o, &chosen] {
+      const bool settled = o->raw || o->framed || o->baud != 0;
+      const bool written =
+          calibrate_in_window({o->port, wiring_of(o->wiring, o->raw, o->framed, o->baud), settled, o->output, o->log});
+      if (chosen.json) print({{"written", written}, {"file", o->output.generic_string()}});
+      return int(core::kDone);
+    };
+  });
+}
+
 }  // namespace
 
 void add_box(CLI::App& program, Chosen& chosen) {
-  CLI::App* box = program.add_subcommand("box", "An instrument box at a serial port: simulate one, look at one");
+  CLI::App* box =
+      program.add_subcommand("box", "An instrument box at a serial port: simulate one, look at one, calibrate it");
   box->require_subcommand(1);
   box->footer("Example:\n  trocar box simulate /tmp/box\n  trocar box monitor /tmp/box");
   add_simulate(*box, chosen);
   add_monitor(*box, chosen);
+  add_calibrate(*box, chosen);
   add_file(*box, chosen);
 }
 

@@ -563,7 +563,7 @@ class Room:
     environment  of every program that is to find that data
     """
 
-    def __init__(self, program, folder, gamepad, words):
+    def __init__(self, program, folder, gamepad, words, command=("train", "--size", "1000x640")):
         self.program, self.folder = program, folder
         log, pipe = os.path.join(folder, "log.jsonl"), os.path.join(folder, "pad")
         self.environment = dict(os.environ, TROCAR_DATA=os.path.join(folder, "data"), BROWSER="true")
@@ -573,7 +573,7 @@ class Room:
             if not os.path.exists(pipe):
                 os.mkfifo(pipe)
             self.environment["TROCAR_GAMEPAD"] = pipe
-        self.process = subprocess.Popen([program, "train", "--size", "1000x640", "--log", log, *words], cwd=folder,
+        self.process = subprocess.Popen([program, *command, "--log", log, *words], cwd=folder,
                                         env=self.environment, stdout=subprocess.PIPE if "--json" in words else None,
                                         text=True)
         self.eyes = Eyes(log, self.process)
@@ -585,8 +585,9 @@ class Room:
         self.process.wait()
 
 
-def in_a_room(usage, work, words):
-    """Does work(room) with the words of the command line: PROGRAM [--gamepad] [FOLDER]. `words` go to the program.
+def in_a_room(usage, work, words, **command):
+    """Does work(room) with the words of the command line: PROGRAM [--gamepad] [FOLDER]. `words` go to the program,
+    `command`, where it is given, in place of `train`.
 
     Returns the exit status: 0 passed, 1 failed, 77 something to run it with is missing."""
     gamepad = "--gamepad" in sys.argv
@@ -601,7 +602,7 @@ def in_a_room(usage, work, words):
     os.makedirs(folder, exist_ok=True)
     room = None
     try:
-        room = Room(os.path.abspath(given[0]), folder, gamepad, words)
+        room = Room(os.path.abspath(given[0]), folder, gamepad, words, **command)
         work(room)
     except (Failed, subprocess.TimeoutExpired) as failure:
         for event in room.eyes.events[-25:] if room else []:
