@@ -42,5 +42,6 @@ void add_join(CLI::App& program, Chosen& chosen);
 void add_model(CLI::App& program, Chosen& chosen);
 void add_mechanism(CLI::App& program, Chosen& chosen);
 void add_box(CLI::App& program, Chosen& chosen);
+void add_tracker(CLI::App& program, Chosen& chosen);
 
 }  // namespace trocar::app

@@ -9,6 +9,7 @@
 #include <trocar/attempt/solver_beside.hpp>
 #include <trocar/attempt/sources.hpp>
 #include <trocar/attempt/team/message.hpp>
+#include <trocar/attempt/tracker/tracked_source.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/log.hpp>
@@ -29,7 +30,7 @@ namespace {
 
 struct TrainChoice {
   std::string exercise, input = "mouse", record, shots, video, report, data, size, stereo = "off", show, analysis,
-                        trainee, log, beside, map, haptics, haptics_hand;
+                        trainee, log, beside, map, haptics, haptics_hand, tracker;
   double seconds = 0, data_rate = pictures::kDataRate;
   std::uint64_t seed = 0;
   bool headless = false, familiarisation = false, no_store = false;
@@ -88,6 +89,9 @@ Json train_headless(const TrainChoice& o, const attempt::Lesson& lesson, trainin
         attempt::HapticHand::Feel{});
     sources.push_back(std::make_unique<attempt::HapticSource>(*sources.back(), *haptic));
   }
+  if (!o.tracker.empty())
+    sources.push_back(
+        std::make_unique<attempt::TrackedSource>(*sources.back(), lesson.model, attempt::read_tracker_plan(o.tracker)));
   std::unique_ptr<attempt::TeamHost> team;
   if (!o.team.roles.empty()) {
     team = std::make_unique<attempt::TeamHost>(lesson, team_plan(o.team));
@@ -106,7 +110,7 @@ Json train_headless(const TrainChoice& o, const attempt::Lesson& lesson, trainin
       .size = size,
       .look = {pictures::parse_stereo(o.stereo), pictures::parse_show(o.show), pictures::parse_analysis(o.analysis)},
       .seconds = o.seconds,
-      .real_time = team != nullptr};
+      .real_time = team != nullptr || !o.tracker.empty()};
   const bool hands = source.device().has_value();  // they do not come to an end by themselves
   std::uint64_t aftermath = 0;
   const pictures::Leftovers left = pictures::run_headless(session, source, what, [&] {
@@ -144,6 +148,7 @@ WindowOptions window_options(const TrainChoice& o, training::Store* store,
   w.store = store;
   w.beside = o.beside;
   if (!o.map.empty()) w.map = attempt::read_input_map(o.map);
+  if (!o.tracker.empty()) w.tracker = attempt::read_tracker_plan(o.tracker);
   if (!o.team.roles.empty()) w.team = team_plan(o.team);
   w.haptics = o.haptics;
   w.haptics_hand = o.haptics_hand;
@@ -239,6 +244,8 @@ void add_train(CLI::App& program, Chosen& chosen) {
   c->add_option("--haptics", options->haptics,
                 std::string("a device that leads a hand, and pushes back: ") + devices::kHapticDevices);
   c->add_option("--haptics-hand", options->haptics_hand, "that it leads, by its trocar; default: the right one");
+  c->add_option("--tracker", options->tracker,
+                "a file that says which tools of a tracker lead what (docs/trackers.md)");
   c->add_flag("--no-store", options->no_store, "leave nothing in the session store");
   c->add_option("--seconds", options->seconds, "stop after so much simulated time")
       ->check(number_above(0, kLongestRun, "s"));

@@ -20,6 +20,8 @@ Crew::Crew(TrainerWindow& stage, const attempt::Lesson& lesson, const std::strin
     m_source = attempt::make_input(lesson, input, attempt::BoxPace::live);
   }
   take_device();
+  if (const auto& tracker = stage.options.tracker)
+    m_tracked = std::make_unique<attempt::TrackedSource>(source(), lesson.model, *tracker);
   join_in();
 }
 
@@ -59,6 +61,7 @@ void Crew::join_in() {
 
 attempt::InputSource& Crew::source() const {
   if (m_hosted) return *m_hosted;
+  if (m_tracked) return *m_tracked;
   if (m_felt) return *m_felt;
   if (m_stage.options.member) return *m_stage.options.member;
   return m_hands ? static_cast<attempt::InputSource&>(*m_hands) : *m_source;

@@ -15,6 +15,7 @@
 #include <trocar/attempt/inputs/device_parts.hpp>
 #include <trocar/attempt/sources.hpp>
 #include <trocar/attempt/team/host.hpp>
+#include <trocar/attempt/tracker/tracked_source.hpp>
 
 #include "trainer/trainer_window.hpp"
 
@@ -56,13 +57,14 @@ class Crew {
   TrainerWindow& m_stage;
   const attempt::Lesson& m_lesson;
   std::unique_ptr<attempt::HandPilot> m_pilot;
-  std::unique_ptr<attempt::DeviceParts> m_parts;    ///< null: all devices lead the same
-  std::unique_ptr<attempt::HandsSource> m_hands;    ///< null: something else leads
-  std::unique_ptr<attempt::TeamHost> m_team;        ///< null: nobody else takes part
-  std::unique_ptr<attempt::InputSource> m_source;   ///< not the hands themselves
-  std::unique_ptr<attempt::HapticHand> m_haptic;    ///< null: no device leads a hand
-  std::unique_ptr<attempt::HapticSource> m_felt;    ///< with its hand
-  std::unique_ptr<attempt::HostedSource> m_hosted;  ///< with the team's
+  std::unique_ptr<attempt::DeviceParts> m_parts;      ///< null: all devices lead the same
+  std::unique_ptr<attempt::HandsSource> m_hands;      ///< null: something else leads
+  std::unique_ptr<attempt::TeamHost> m_team;          ///< null: nobody else takes part
+  std::unique_ptr<attempt::InputSource> m_source;     ///< not the hands themselves
+  std::unique_ptr<attempt::HapticHand> m_haptic;      ///< null: no device leads a hand
+  std::unique_ptr<attempt::HapticSource> m_felt;      ///< with its hand
+  std::unique_ptr<attempt::TrackedSource> m_tracked;  ///< with what tracked tools lead
+  std::unique_ptr<attempt::HostedSource> m_hosted;    ///< with the team's
 };
 
 }  // namespace trocar::app

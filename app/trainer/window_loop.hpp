@@ -9,6 +9,7 @@
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/attempt/team/host.hpp>
 #include <trocar/attempt/team/member.hpp>
+#include <trocar/attempt/tracker/tracker_file.hpp>
 #include <trocar/pictures/picture_size.hpp>
 #include <trocar/training/store/store.hpp>
 
@@ -28,6 +29,7 @@ struct WindowOptions {
   std::string beside;                                   ///< organ whose other solver runs beside; empty: none
   std::shared_ptr<const attempt::Lesson> other_solver;  ///< the exercise with it
   std::optional<attempt::InputMap> map;                 ///< what several devices lead; nothing: one person leads all
+  std::optional<attempt::TrackerPlan> tracker;          ///< whose tools lead some of it; nothing: there is none
   std::optional<attempt::TeamPlan> team;                ///< whoever plays along; nothing: nobody
   std::shared_ptr<attempt::TeamMember> member;          ///< this is a part in somebody else's attempt; null: it is not
   std::string haptics;       ///< device that leads a hand (devices/haptics/choose_device.hpp); empty: none

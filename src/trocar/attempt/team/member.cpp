@@ -7,7 +7,6 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <netdb.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -15,6 +14,7 @@
 #include <trocar/attempt/team/member.hpp>
 #include <trocar/attempt/team/sealed_link.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/devices/tcp_client.hpp>
 #include <trocar/sim/recording/recording.hpp>
 
 namespace trocar::attempt {
@@ -32,28 +32,6 @@ constexpr seconds kFirstPatience{10};                          // with a host th
 constexpr seconds kPatience{60};                               // with a host that is gone
 constexpr double kNewest = 0.05;                               // what the newest latency counts in the mean
 constexpr std::size_t kMostWaiting = 8 * message::kMostTicks;  // ticks not made yet
-
-/// A connection to there, or -1 and why.
-int connected_to(const std::string& address, int port, std::string& why) {
-  addrinfo wanted{};
-  wanted.ai_family = AF_INET;
-  wanted.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  if (const int fault = getaddrinfo(address.c_str(), std::to_string(port).c_str(), &wanted, &found); fault != 0) {
-    why = gai_strerror(fault);
-    return -1;
-  }
-  int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const timeval limit{2, 0};
-  if (socket >= 0) setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);  // of connect(), too
-  if (socket < 0 || connect(socket, found->ai_addr, found->ai_addrlen) != 0) {
-    why = std::strerror(errno);
-    if (socket >= 0) close(socket);
-    socket = -1;
-  }
-  freeaddrinfo(found);
-  return socket;
-}
 
 std::uint64_t microseconds() {
   return std::uint64_t(std::chrono::duration_cast<std::chrono::microseconds>(Clock::now().time_since_epoch()).count());
@@ -95,7 +73,7 @@ struct TeamMember::Desk {
   /// One try; a while later when it fails.
   bool connect_again() {
     std::string why;
-    const int socket = connected_to(plan.address, plan.port, why);
+    const int socket = devices::connect_tcp(plan.address, plan.port, why);
     const std::lock_guard hold(lock);
     if (socket >= 0) {
       link = std::make_unique<SealedLink>(socket, SealedLink::Side::member, plan.token);

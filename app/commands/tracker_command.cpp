@@ -1,0 +1,92 @@
+// trocar tracker: a look at what a tracker's server sends.
+#include <thread>
+
+#include <fmt/format.h>
+
+#include <trocar/attempt/interrupt.hpp>
+#include <trocar/core/error.hpp>
+#include <trocar/devices/tracker/tracker_thread.hpp>
+
+#include "commands/command.hpp"
+#include "commands/number_options.hpp"
+#include "commands/team_options.hpp"
+
+namespace trocar::app {
+namespace {
+
+using devices::TrackerThread;
+
+struct TrackerChoice {
+  std::string place;
+  double seconds = 0;
+};
+
+std::int64_t steady_nanoseconds() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+Json seen_json(const TrackerThread& tracker) {
+  Json tools = Json::object(), sensors = Json::object();
+  for (const auto& heard : tracker.poses()) {
+    const Vec3d at = heard.what.place;
+    tools[heard.what.name] = {{"at_mm", {1000 * at.x, 1000 * at.y, 1000 * at.z}},
+                              {"age_ms", 1e-6 * double(steady_nanoseconds() - heard.at)},
+                              {"times", heard.times}};
+  }
+  for (const auto& heard : tracker.all_values()) sensors[heard.what.name] = heard.what.values;
+  const TrackerThread::Status status = tracker.status();
+  return {{"connected", status.connected},
+          {"messages", status.messages},
+          {"damaged", status.damaged},
+          {"tools", tools},
+          {"sensors", sensors}};
+}
+
+void show_seen(const TrackerThread& tracker) {
+  const TrackerThread::Status status = tracker.status();
+  fmt::print("{}  {} messages, {} damaged\n", status.connected ? "connected" : "GONE", status.messages, status.damaged);
+  for (const auto& heard : tracker.poses())
+    fmt::print("  {:20} {:9.1f} {:9.1f} {:9.1f} mm  {:5.0f} ms old  {} times\n", heard.what.name,
+               1000 * heard.what.place.x, 1000 * heard.what.place.y, 1000 * heard.what.place.z,
+               1e-6 * double(steady_nanoseconds() - heard.at), heard.times);
+  for (const auto& heard : tracker.all_values()) {
+    fmt::print("  {:20}", heard.what.name);
+    for (const double value : heard.what.values) fmt::print(" {:9.3f}", value);
+    fmt::print("\n");
+  }
+}
+
+int monitor_tracker(const TrackerChoice& o, bool json) {
+  const Place place = parse_place(o.place, "tracker");
+  attempt::catch_interrupts();
+  const TrackerThread tracker(place.address, place.port);
+  const std::int64_t end = o.seconds > 0 ? steady_nanoseconds() + std::int64_t(1e9 * o.seconds) : INT64_MAX;
+  while (!attempt::interrupted() && steady_nanoseconds() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(json ? 100 : 1000));
+    if (json)
+      fmt::print("{}\n", seen_json(tracker).dump());
+    else
+      show_seen(tracker);
+    if (std::fflush(stdout) != 0) break;  // nobody reads any more
+  }
+  if (tracker.status().messages == 0)
+    throw core::EnvironmentLacks(fmt::format(
+        "nothing that can be read came from {}: does it send TRANSFORM, POSITION or TDATA (OpenIGTLink)?", o.place));
+  return core::kDone;
+}
+
+}  // namespace
+
+void add_tracker(CLI::App& program, Chosen& chosen) {
+  CLI::App* tracker = program.add_subcommand("tracker", "A tracker's server (OpenIGTLink): look at what it sends");
+  tracker->require_subcommand(1);
+  auto o = std::make_shared<TrackerChoice>();
+  CLI::App* c = add_command(*tracker, chosen, "monitor", "Names, places and ages of tools, and values of sensors",
+                            "trocar tracker monitor 127.0.0.1:18944");
+  c->add_option("place", o->place, "ADDRESS:PORT of the server")->required();
+  c->add_option("--seconds", o->seconds, "ends it after so long")->check(number_above(0, kLongestRun, "s"));
+  c->callback([o, &chosen] { chosen.run = [o, &chosen] { return monitor_tracker(*o, chosen.json); }; });
+}
+
+}  // namespace trocar::app

@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <trocar/attempt/hand_names.hpp>
+#include <trocar/attempt/tracker/tracked_source.hpp>
+#include <trocar/core/error.hpp>
+#include <trocar/numerics/portable.hpp>
+
+namespace trocar::attempt {
+namespace {
+
+constexpr std::int64_t kUnseen = 500'000'000;  // [ns] a tool that was not seen for so long is away
+
+std::int64_t steady_now() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+/// By whole turns nearest to `before`.
+double unwrapped_roll(double roll, double before) {
+  const double turns = (before - roll) / portable::two_pi;
+  return roll + portable::two_pi * std::floor(turns + 0.5);
+}
+
+}  // namespace
+
+kinematics::FulcrumPose TrackedTool::follow(const devices::TrackedPose& seen, Vec3d port,
+                                            const kinematics::FulcrumPose& placed) {
+  const Mat3d stands = m_plan.axes * seen.turned;
+  const Vec3d tip = m_plan.scale * (m_plan.axes * (seen.place + seen.turned * m_tool.tip));
+  if (!m_seen) {
+    m_seen = true;
+    const kinematics::TipFrame frame = kinematics::forward(port, placed);
+    m_from = m_plan.origin ? Vec3d{} : tip;
+    m_to = m_plan.origin ? *m_plan.origin : frame.tip;
+    m_first = transposed(stands);
+    m_opening = frame.opening();
+    m_roll = placed.roll;
+  }
+  const kinematics::FulcrumPose straight = kinematics::inverse(port, m_to + (tip - m_from), 0);
+  const kinematics::TipFrame frame = kinematics::forward(port, straight);
+  const Vec3d opens = stands * (m_first * m_opening);
+  const double across = dot(opens, frame.normal()), along = dot(opens, frame.opening());
+  kinematics::FulcrumPose pose = straight;
+  // Seen from its end, a tool that points along where the jaws opened says nothing of the roll.
+  if (across * across + along * along > 0.01) m_roll = unwrapped_roll(portable::atan2(across, along), m_roll);
+  pose.roll = m_roll;
+  return pose;
+}
+
+TrackedSource::TrackedSource(InputSource& own, const sim::Model& model, const TrackerPlan& plan)
+    : m_own(own), m_model(model), m_plan(plan), m_wanted(model.start), m_tracker(plan.address, plan.port) {
+  for (const TrackerPlan::Tool& tool : m_plan.tools) {
+    Duty duty = duty_of(tool.role, model, m_plan.file);
+    duty.pedals = false;
+    for (const Led& other : m_led)
+      if (duty.overlaps(other.duty))
+        throw core::BadInput(
+            {{{m_plan.file, 0, 0}, fmt::format("expected tools that lead different things, got {} twice", tool.role)}});
+    m_led.push_back({&tool, duty, first_of(duty), TrackedTool(m_plan, tool)});
+  }
+}
+
+/// What the tracker does not see now, in words.
+std::string TrackedSource::missing() const {
+  const std::string place = m_tracker.place();
+  if (!m_tracker.status().connected) return fmt::format("the tracker at {}: it has hung up", place);
+  const std::int64_t now = steady_now();
+  for (const Led& led : m_led) {
+    const auto seen = m_tracker.pose(led.tool->transform);
+    if (!seen) return fmt::format("the tracked tool {}: it has not been seen yet", led.tool->transform);
+    if (seen->at + kUnseen < now) return fmt::format("the tracked tool {}: it is not seen", led.tool->transform);
+  }
+  return {};
+}
+
+std::string TrackedSource::waits_for() const {
+  const std::string own = m_own.waits_for();
+  return own.empty() ? missing() : own;
+}
+
+void TrackedSource::follow(Led& led, const sim::State& state, const sim::Input& given) {
+  const auto seen = m_tracker.pose(led.tool->transform);
+  if (led.hand < 0) {
+    const kinematics::FulcrumPose pose = led.pose.follow(seen->what, m_model.scope.port, sim::pose_of(given.scope));
+    sim::ScopeInput& scope = m_wanted.scope;
+    scope = given.scope;
+    scope.yaw = float(pose.yaw), scope.pitch = float(pose.pitch), scope.roll = float(pose.roll);
+    scope.depth = float(pose.depth);
+    return;
+  }
+  sim::ToolInput& tool = m_wanted.tools[led.hand];
+  const sim::ToolInput& theirs = given.tools[led.hand];
+  const Vec3d port = m_model.tool(state, std::size_t(led.hand)).port;
+  tool = sim::tool_input(led.pose.follow(seen->what, port, sim::pose_of(theirs)), theirs.handle, theirs.instrument);
+  if (!led.tool->grip) return;
+  const TrackerPlan::Grip& grip = *led.tool->grip;
+  const auto values = m_tracker.values(grip.sensor);
+  if (!values || std::size_t(grip.index) >= values->what.values.size()) return;
+  const double closed = (values->what.values[std::size_t(grip.index)] - grip.open) / (grip.closed - grip.open);
+  tool.handle = float(std::clamp(closed, 0.0, 1.0));
+}
+
+bool TrackedSource::next(const sim::State& state, sim::Input& input) {
+  if (!m_own.next(state, input)) return false;
+  for (Led& led : m_led) {
+    if (!m_tracker.pose(led.tool->transform)) continue;
+    follow(led, state, input);
+  }
+  if (!m_smooth) m_smooth = std::make_unique<SmoothInput>(input);
+  const sim::Input smooth = m_smooth->step(m_wanted);
+  for (const Led& led : m_led) copy(led.duty, smooth, input);
+  return true;
+}
+
+std::optional<DeviceNews> TrackedSource::device() const {
+  if (const std::optional<DeviceNews> own = m_own.device()) return own;
+  DeviceNews news;
+  const devices::TrackerThread::Status status = m_tracker.status();
+  news.text = fmt::format("tracker: {} tools, {} messages", m_led.size(), status.messages);
+  for (const Led& led : m_led)
+    if (const auto seen = m_tracker.pose(led.tool->transform)) news.acquired = std::max(news.acquired, seen->at);
+  return news;
+}
+
+Json TrackedSource::describe() const {
+  Json out = m_own.describe();
+  const devices::TrackerThread::Status status = m_tracker.status();
+  Json tools = Json::object();
+  for (const Led& led : m_led) tools[led.tool->role] = led.tool->transform;
+  out["tracker"] = {{"place", m_tracker.place()},
+                    {"tools", tools},
+                    {"messages", status.messages},
+                    {"damaged", status.damaged},
+                    {"connections", status.connections}};
+  return out;
+}
+
+}  // namespace trocar::attempt

@@ -1,0 +1,137 @@
+#include <array>
+#include <cerrno>
+#include <chrono>
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/devices/tcp_client.hpp>
+#include <trocar/devices/tracker/tracker_thread.hpp>
+
+namespace trocar::devices {
+namespace {
+
+constexpr int kLookEvery = 50;  // whether it is over [ms]
+constexpr auto kTryAgain = std::chrono::milliseconds(300);
+
+std::int64_t steady_now() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+/// The newest of each name; who sends ever new names is heard with the first ones only.
+template <class T>
+void note(std::map<std::string, TrackerThread::Heard<T>>& all, const T& what) {
+  const auto found = all.find(what.name);
+  if (found == all.end() && all.size() >= IgtlReader::kMostTools) return;
+  TrackerThread::Heard<T>& heard = found == all.end() ? all[what.name] : found->second;
+  heard = {what, steady_now(), heard.times + 1};
+}
+
+template <class T>
+std::optional<TrackerThread::Heard<T>> newest(const std::map<std::string, TrackerThread::Heard<T>>& all,
+                                              const std::string& name) {
+  const auto found = all.find(name);
+  if (found == all.end()) return std::nullopt;
+  return found->second;
+}
+
+}  // namespace
+
+TrackerThread::TrackerThread(std::string address, int port) : m_address(std::move(address)), m_port(port) {
+  std::string why;
+  m_socket = connect_tcp(m_address, m_port, why);
+  if (m_socket < 0)
+    throw core::EnvironmentLacks(
+        fmt::format("nobody listens at {} ({}): start the tracker's server (OpenIGTLink), or give its place in the "
+                    "file's \"server\"",
+                    place(), why));
+  m_status.connected = true, m_status.connections = 1;
+  m_thread = std::thread([this] { loop(); });
+}
+
+TrackerThread::~TrackerThread() {
+  m_stop = true;
+  m_thread.join();
+  if (m_socket >= 0) close(m_socket);
+}
+
+void TrackerThread::loop() {
+  while (!m_stop) {
+    if (m_socket >= 0) {
+      listen();
+      continue;
+    }
+    std::string ignored;
+    m_socket = connect_tcp(m_address, m_port, ignored);
+    if (m_socket < 0) {
+      std::this_thread::sleep_for(kTryAgain);
+      continue;
+    }
+    const std::lock_guard lock(m_lock);
+    m_status.connected = true;
+    ++m_status.connections;
+  }
+}
+
+void TrackerThread::listen() {
+  pollfd who{m_socket, POLLIN, 0};
+  if (poll(&who, 1, kLookEvery) <= 0) return;
+  std::array<std::uint8_t, 4096> bytes;
+  const ssize_t got = recv(m_socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
+  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (got <= 0) return hang_up();
+  bool sound = true;
+  {
+    const std::lock_guard lock(m_lock);
+    sound = m_reader.hear(
+        std::span(bytes).first(std::size_t(got)), [this](const TrackedPose& pose) { note(m_poses, pose); },
+        [this](const SensorValues& values) { note(m_values, values); });
+    m_status.messages = m_messages_before + m_reader.messages();
+    m_status.damaged = m_damaged_before + m_reader.damaged();
+  }
+  if (!sound) hang_up();
+}
+
+void TrackerThread::hang_up() {
+  close(m_socket);
+  m_socket = -1;
+  const std::lock_guard lock(m_lock);
+  m_messages_before = m_status.messages, m_damaged_before = m_status.damaged;
+  m_reader = IgtlReader();
+  m_status.connected = false;
+}
+
+std::optional<TrackerThread::Heard<TrackedPose>> TrackerThread::pose(const std::string& name) const {
+  const std::lock_guard lock(m_lock);
+  return newest(m_poses, name);
+}
+
+std::optional<TrackerThread::Heard<SensorValues>> TrackerThread::values(const std::string& name) const {
+  const std::lock_guard lock(m_lock);
+  return newest(m_values, name);
+}
+
+std::vector<TrackerThread::Heard<TrackedPose>> TrackerThread::poses() const {
+  const std::lock_guard lock(m_lock);
+  std::vector<Heard<TrackedPose>> all;
+  for (const auto& [name, heard] : m_poses) all.push_back(heard);
+  return all;
+}
+
+std::vector<TrackerThread::Heard<SensorValues>> TrackerThread::all_values() const {
+  const std::lock_guard lock(m_lock);
+  std::vector<Heard<SensorValues>> all;
+  for (const auto& [name, heard] : m_values) all.push_back(heard);
+  return all;
+}
+
+TrackerThread::Status TrackerThread::status() const {
+  const std::lock_guard lock(m_lock);
+  return m_status;
+}
+
+}  // namespace trocar::devices
