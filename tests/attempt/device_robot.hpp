@@ -18,6 +18,7 @@
 
 #include <trocar/attempt/hand_names.hpp>
 #include <trocar/attempt/hand_pilot.hpp>
+#include <trocar/attempt/inputs/device_parts.hpp>
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/attempt/session.hpp>
 #include <trocar/sim/stages/visibility.hpp>
@@ -40,14 +41,45 @@ struct RobotAccount {
   double share(std::uint64_t part) const { return ticks > 0 ? 100.0 * double(part) / double(ticks) : 0; }
 };
 
+/// Two more people at the same machine, each with a gamepad of their own: one leads the endoscope, one the third
+/// instrument.
+class Others {
+ public:
+  explicit Others(const sim::Model& model)
+      : m_parts(read_input_map_text(R"({"format": 1, "parts": [{"role": "camera", "device": "gamepad 1"},
+                                       {"role": "assistant", "device": "gamepad 2"}]})",
+                                    "three_pads.json"),
+                model),
+        m_pads(2) {
+    for (devices::DeviceReading& pad : m_pads) pad.is_pad = true;
+    m_parts.take_up(m_pads);
+  }
+  static constexpr int kHand = 2;  ///< the assistant's
+  const sim::Input& lead(const sim::Input& operators, const ScopeWish& scope, const HandWish& hand,
+                         const sim::State& state) {
+    m_pads[0].pad = m_camera.play({}, scope);
+    m_pads[1].pad = m_tool.play({}, hand);
+    return m_parts.lead(operators, m_pads, float(kPicture), state);
+  }
+
+ private:
+  DeviceParts m_parts;
+  std::vector<devices::DeviceReading> m_pads;
+  CameraFingers m_camera;
+  OneToolFingers m_tool;
+};
+
 template <class Fingers>
 class DeviceRobot {
  public:
   /// @param sway  so far the left hand draws what it holds, and eases it, while the right one works [m]
-  DeviceRobot(const Lesson& lesson, double sway)
+  /// @param alone  false: others lead the endoscope and the third instrument
+  DeviceRobot(const Lesson& lesson, double sway, bool alone = true)
       : m_model(lesson.model), m_pilot(lesson.model), m_smooth(lesson.model.start), m_sway(sway) {
     m_pilot.lead_both(true);
     m_side = m_pilot.both().pair;
+    m_led.assign(m_side.begin(), m_side.end());
+    if (!alone) m_others = std::make_unique<Others>(m_model), m_led.push_back(Others::kHand);
     m_brain = std::make_unique<training::Performer>(
         m_model, training::read_demonstration(*lesson.exercise, m_model, lesson.seed));
     m_commanded = m_wanted = m_model.start;
@@ -160,7 +192,7 @@ class DeviceRobot {
     constexpr double kThere = 0.0015, kSquare = 0.2;                           // [m] [rad]
     constexpr int kPatience = 8000, kSettles = 1500;                           // ticks
     bool behind = m_menu != Menu::closed, off = false;
-    for (const int h : m_side) {
+    for (const int h : m_led) {
       behind |= m_pilot.inserting(h) || (m_inserts[std::size_t(h)] && !exchanges(h, state));
       const Lag lag = lag_of(h, state);
       behind |= lag.way > kFar || lag.turn > kTurned || lag.handle > (m_wanted.tools[h].handle > 0.8f ? kShut : kHalf);
@@ -175,13 +207,13 @@ class DeviceRobot {
     }
     const sim::Input was = m_wanted;
     m_wanted = m_brain->next(m_model, state);
-    for (const int h : m_side)
+    for (const int h : m_led)
       if (m_wanted.tools[h].handle > was.tools[h].handle && !m_squeezing[std::size_t(h)] && off) {
         m_closing = m_wanted;
         m_wanted.tools[h].handle = was.tools[h].handle;
         m_settles = kSettles;
       }
-    for (const int h : m_side)
+    for (const int h : m_led)
       m_squeezing[std::size_t(h)] = m_wanted.tools[h].handle > was.tools[h].handle || m_settles > 0;
   }
 
@@ -212,8 +244,9 @@ class DeviceRobot {
     const Vec3d port = m_model.hands[h].port;
     wish.grip = grip_of(hand, state);
     wish.handle = double(wanted.handle);
-    wish.handle_seen = m_pilot.hands().handle[h];  // fingers feel the handle
-    wish.locked = m_pilot.hands().ratchet[h];
+    const bool own = !m_others || hand != Others::kHand;
+    wish.handle_seen = own ? m_pilot.hands().handle[h] : double(m_commanded.tools[hand].handle);  // fingers feel it
+    wish.locked = own && m_pilot.hands().ratchet[h];
     const std::uint32_t pedals = m_old.wanted.pedals;
     wish.squeeze = wish.grip == Grip::electrode ? (pedals & sim::kBlue) != 0
                                                 : wish.grip == Grip::valves && (pedals & sim::sucks(hand)) != 0;
@@ -293,7 +326,7 @@ class DeviceRobot {
     Wish wish;
     wish.scope = scope_wish(state);
     for (const int s : {kLeft, kRight}) wish.side[std::size_t(s)] = wish_of(m_side[std::size_t(s)], state);
-    decide_look(wish.scope);
+    if (!m_others) decide_look(wish.scope);
     wish.look = m_looks;
     wish.declare = (m_old.wanted.pedals & sim::kDeclare) != 0 || m_declares > 0;
     m_declares = (m_old.wanted.pedals & sim::kDeclare) != 0 ? 12 : std::max(0, m_declares - 1);
@@ -305,12 +338,15 @@ class DeviceRobot {
         if (wants_another(m_side[std::size_t(s)], state)) wish.menu = s;
     bring_in(state, wish);
     const devices::HandSample sample = m_fingers.play(m_pilot.settings(), wish);
-    m_commanded = m_pilot.lead(sample, state);
+    m_commanded = with_others(m_pilot.lead(sample, state), state);
     if (m_pilot.asks_for_rack()) {
       m_menu = Menu::open;
       m_chosen = wish.menu >= 0 ? m_side[std::size_t(wish.menu)] : -1;
       m_reading = 0;
     }
+  }
+  const sim::Input& with_others(const sim::Input& own, const sim::State& state) {
+    return m_others ? m_others->lead(own, scope_wish(state), wish_of(Others::kHand, state), state) : own;
   }
   /// Who has another instrument asks for it to come into the view, and turns the endoscope to it.
   void bring_in(const sim::State& state, Wish& wish) {
@@ -328,7 +364,7 @@ class DeviceRobot {
   /// The rack is on the screen: time goes on, and it is read and chosen from.
   void choose(const sim::State& state) {
     constexpr double kReads = 1.5;  // [s]
-    m_commanded = m_pilot.rest(float(kPicture), state);
+    m_commanded = with_others(m_pilot.rest(float(kPicture), state), state);
     if ((m_reading += kPicture) < kReads) return;
     if (m_chosen >= 0) {
       m_pilot.choose(m_chosen);
@@ -360,7 +396,9 @@ class DeviceRobot {
   HandPilot m_pilot;
   SmoothInput m_smooth;
   Fingers m_fingers;
-  std::array<int, 2> m_side{};  ///< hands
+  std::array<int, 2> m_side{};       ///< hands
+  std::vector<int> m_led;            ///< all of them that are led
+  std::unique_ptr<Others> m_others;  ///< null: all is the operator's
   std::unique_ptr<training::Performer> m_brain;
   sim::Input m_wanted, m_commanded, m_closing;
   double m_sway = 0, m_swayed = 0;  ///< [m] [s]
@@ -391,12 +429,12 @@ struct Done {
 /// Does an exercise with that device, for `longest` seconds at most, and says on stdout how. TROCAR_ROBOT_TRACE in the
 /// environment tells a line a second on the way, TROCAR_ROBOT_SEED has another anatomy.
 template <class Fingers>
-Done do_with(const std::string& exercise, double longest) {
+Done do_with(const std::string& exercise, double longest, double sway = 0.003, bool alone = true) {
   const bool trace = std::getenv("TROCAR_ROBOT_TRACE") != nullptr;
   const char* seed = std::getenv("TROCAR_ROBOT_SEED");
   const std::unique_ptr<Lesson> lesson = load_lesson(exercise, seed ? std::strtoull(seed, nullptr, 10) : 0);
   Session session(*lesson);
-  DeviceRobot<Fingers> robot(*lesson, 0.003);
+  DeviceRobot<Fingers> robot(*lesson, sway, alone);
   sim::Input input;
   while (!session.finished() && double(session.state().tick) * sim::kTick < longest &&
          robot.next(session.state(), input)) {

@@ -21,5 +21,12 @@ TEST(DeviceRobot, DissectsTheTriangleWithOneGamepadBothHandsAtOnce) { dissects<P
 
 TEST(DeviceRobot, DissectsTheTriangleWithMouseAndKeyboardBothHandsAtOnce) { dissects<MouseAndKeysFingers>(); }
 
+TEST(DeviceRobot, SterilisesWithThreePadsInThreeRolesAtOneMachine) {
+  const Done done = do_with<PadFingers>("gynaecology/sterilisation", kLongest, 0, false);
+  EXPECT_TRUE(done.finished);
+  EXPECT_TRUE(done.score.passed) << done.score.total;
+  EXPECT_EQ(done.account.looks, 0) << "the operator never leads the endoscope";
+}
+
 }  // namespace
 }  // namespace trocar::attempt::robots

@@ -68,6 +68,20 @@ inline double pace(double way, double still, double most) {
 inline constexpr double kStill = 0.0003, kStillIn = 0.0004, kStillRoll = 0.04,
                         kStillView = 0.01;  // [m] [m] [rad] [rad]
 
+inline constexpr double kStillPost = 0.06;  // [rad]
+inline constexpr double kFinger = 6;        // [1/s] of a trigger's way
+
+/// The stick's way for a share of its full speed, in the 8 bits of most pads.
+inline float tilt(const devices::HandSettings& settings, double share) {
+  if (share == 0) return 0;
+  const double dead = double(settings.stick_dead);
+  const double way = dead + (1 - dead) * std::sqrt(std::min(1.0, std::fabs(share)));
+  return float(std::copysign(std::round(127 * way) / 127, share));
+}
+inline float stick_share(const devices::HandSettings& settings, double way, double still, double full) {
+  return tilt(settings, pace(way, still, full) / full);
+}
+
 class PadFingers {
  public:
   static constexpr const char* kName = "gamepad";
@@ -106,17 +120,6 @@ class PadFingers {
   static constexpr devices::Button kCross[2] = {devices::Button::left, devices::Button::right};
   static constexpr int kRestPictures = 9, kDwell = 12;  // 0.15 s, 0.2 s on a shoulder at least
 
-  /// The stick's way for a share of its full speed, in the 8 bits of most pads.
-  static float tilt(const devices::HandSettings& settings, double share) {
-    if (share == 0) return 0;
-    const double dead = double(settings.stick_dead);
-    const double way = dead + (1 - dead) * std::sqrt(std::min(1.0, std::fabs(share)));
-    return float(std::copysign(std::round(127 * way) / 127, share));
-  }
-  static float share(const devices::HandSettings& settings, double way, double still, double full) {
-    return tilt(settings, pace(way, still, full) / full);
-  }
-
   void squeeze(int s, const HandWish& wish, bool leads, devices::Gamepad& pad) {
     float& trigger = s == kLeft ? pad.left_trigger : pad.right_trigger;
     if (wish.grip != Grip::jaws) {
@@ -144,13 +147,13 @@ class PadFingers {
     m_shifted = -1;
     pad.set(kShoulder[0]), pad.set(kShoulder[1]);
     const double view = double(settings.stick_view);
-    pad.right_y = -share(settings, scope.in, 0.001, double(settings.stick_speed));
-    pad.right_x = share(settings, scope.head, 0.03, double(settings.stick_roll));
+    pad.right_y = -stick_share(settings, scope.in, 0.001, double(settings.stick_speed));
+    pad.right_x = stick_share(settings, scope.head, 0.03, double(settings.stick_roll));
     if (std::fabs(scope.post) > kStillPost)  // the left thumb on the cross
       pad.set(scope.post > 0 ? devices::Button::right : devices::Button::left);
     else
-      pad.left_x = share(settings, scope.right, kStillView, view),
-      pad.left_y = -share(settings, scope.up, kStillView, view);
+      pad.left_x = stick_share(settings, scope.right, kStillView, view),
+      pad.left_y = -stick_share(settings, scope.up, kStillView, view);
   }
 
   /// The side whose stick goes deeper and rolls: whoever has farther to go that way than in the picture.
@@ -185,25 +188,60 @@ class PadFingers {
       float& x = s == kLeft ? pad.left_x : pad.right_x;
       float& y = s == kLeft ? pad.left_y : pad.right_y;
       if (m_shifted == s) {
-        x = share(settings, h.roll, kStillRoll, double(settings.stick_roll));
-        y = -share(settings, h.in, kStillIn, speed);
+        x = stick_share(settings, h.roll, kStillRoll, double(settings.stick_roll));
+        y = -stick_share(settings, h.in, kStillIn, speed);
       } else {
-        x = share(settings, h.right, kStill, speed);
-        y = -share(settings, h.up, kStill, speed);
+        x = stick_share(settings, h.right, kStill, speed);
+        y = -stick_share(settings, h.up, kStill, speed);
       }
     }
     if (pad.has(kCross[0]) || pad.has(kCross[1])) pad.left_x = pad.left_y = 0;
   }
 
-  static constexpr double kFinger = 6;        // [1/s] of a trigger's way
-  static constexpr int kHeldLong = 90;        // 1.5 s before one locks
-  static constexpr int kStuck = 30;           // 0.5 s before one wonders and pulls anew
-  static constexpr double kStillPost = 0.06;  // [rad]
+  static constexpr int kHeldLong = 90;  // 1.5 s before one locks
+  static constexpr int kStuck = 30;     // 0.5 s before one wonders and pulls anew
   std::array<double, 2> m_pull{};
   std::array<int, 2> m_held{}, m_stuck{};
   std::array<Tap, 2> m_cross{};
   Tap m_menu, m_bring;
   int m_rest = 0, m_shifted = -1, m_since = kDwell;
+};
+
+/// A pad that leads one instrument: tip by the left stick, deeper and roll by the right one, jaws by the right trigger.
+class OneToolFingers {
+ public:
+  devices::Gamepad play(const devices::HandSettings& settings, const HandWish& wish) {
+    devices::Gamepad pad;
+    const double speed = double(settings.stick_speed);
+    pad.left_x = stick_share(settings, wish.right, kStill, speed);
+    pad.left_y = -stick_share(settings, wish.up, kStill, speed);
+    pad.right_y = -stick_share(settings, wish.in, kStillIn, speed);
+    pad.right_x = stick_share(settings, wish.roll, kStillRoll, double(settings.stick_roll));
+    m_pull += std::clamp(wish.handle - m_pull, -kFinger * kPicture, kFinger * kPicture);
+    pad.right_trigger = float(std::round(255 * m_pull) / 255);
+    return pad;
+  }
+
+ private:
+  double m_pull = 0;
+};
+
+/// A pad that leads the endoscope: where it looks by the left stick, in and the picture's turn by the right one, the
+/// light post by the triggers.
+class CameraFingers {
+ public:
+  devices::Gamepad play(const devices::HandSettings& settings, const ScopeWish& wish) const {
+    devices::Gamepad pad;
+    const double view = double(settings.stick_view);
+    pad.left_x = stick_share(settings, wish.right, kStillView, view);
+    pad.left_y = -stick_share(settings, wish.up, kStillView, view);
+    pad.right_y = -stick_share(settings, wish.in, 0.001, double(settings.stick_speed));
+    pad.right_x = stick_share(settings, wish.head, 0.03, double(settings.stick_roll));
+    const double turn =
+        pace(wish.post, kStillPost, double(settings.post_per_second)) / double(settings.post_per_second);
+    (turn > 0 ? pad.right_trigger : pad.left_trigger) = float(std::round(255 * std::fabs(turn)) / 255);
+    return pad;
+  }
 };
 
 class MouseAndKeysFingers {
