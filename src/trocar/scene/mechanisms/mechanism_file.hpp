@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,11 @@ kinematics::MechanismDescription read_mechanism(const std::filesystem::path& pat
 /// JSON text.
 kinematics::MechanismDescription parse_mechanism(std::string_view text, const std::string& file,
                                                  std::vector<core::Fault>& faults);
+
+/// JSON text of a mechanism with other values of its named parameters; whatever else its author wrote stays, and so do
+/// values that it says already. @param values (named parameters, more are not looked at) [m, rad, 1]
+/// @throws std::invalid_argument for a text that has faults
+std::string mechanism_text_with(std::string_view text, std::span<const double> values);
 
 /// The table of keys, from which scenes/schema/mechanism.schema.json is written.
 const Shape& mechanism_shape();
