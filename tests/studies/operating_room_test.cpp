@@ -144,7 +144,9 @@ TEST(OperatingRoom, ARedundantArmGoesAsideAlongWhatItsGoalLeavesFree) {
     return d;
   };
   const double before = least();
-  m.clear(pose, arm, goal, 40);
+  EXPECT_NEAR(m.clear(pose, arm, goal, 0), before, 1e-12);
+  EXPECT_NEAR(m.clear(pose, arm, goal, 40), least(), 1e-12);
+  for (const Near& n : m.nearest(pose)) printf("%s %s %g\n", n.first.c_str(), n.second.c_str(), n.distance);
   EXPECT_GT(least(), before + 0.003);
   EXPECT_LT(length(m.tip(pose, arm).p - goal.tip), 1e-9);
   EXPECT_LT(port_gap(m.shaft(pose, arm), m.arms()[std::size_t(arm)].port), 1e-9);

@@ -146,7 +146,7 @@ class Going {
         r.least_pair = n.first + " and " + n.second;
       }
       if (n.distance < m.room().margin)
-        fault(MotionFaultKind::collision, n.arm, n.second.substr(0, n.second.find(':')), n.distance, n.where,
+        fault(MotionFaultKind::collision, n.arm, n.second.substr(0, n.second.find(':')), n.distance, n.where(),
               n.distance < 0
                   ? fmt::format("\"{}\" and \"{}\" are {:.1f} mm in each other", n.first, n.second, -1e3 * n.distance)
                   : fmt::format("\"{}\" and \"{}\" are {:.1f} mm apart, less than the margin of {:.1f}", n.first,

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kAttempts = 12;  // of inverse kinematics: a motion goes on from where it stood
 constexpr int kGoalRows = 6;
-constexpr double kBesidePort = 0.04;              // of a shaft: nearer to its port it may touch the skin [m]
+constexpr double kBesidePort = 0.08;              // of a shaft: nearer to its port it is by the skin anyway [m]
 constexpr double kColumn = 0.045, kBeam = 0.040;  // radii of stands [m]
 constexpr double kGravity = 9.81;
 
@@ -62,7 +62,44 @@ PlacedShape as_rod(const PlacedShape& s) {
   return rod(s.a - half * s.axes.column(longest), s.a + half * s.axes.column(longest), radius);
 }
 
-Vec3d middle_of(const PlacedShape& s) { return s.box ? s.a : 0.5 * (s.a + s.b); }
+/// The place of a shape's middle line, or of a box, that is nearest to p.
+Vec3d nearest_in(const PlacedShape& s, Vec3d p) {
+  if (s.box) {
+    const Vec3d q = transposed(s.axes) * (p - s.a);
+    return s.a + s.axes * Vec3d{std::clamp(q.x, -s.b.x, s.b.x), std::clamp(q.y, -s.b.y, s.b.y),
+                                std::clamp(q.z, -s.b.z, s.b.z)};
+  }
+  const Vec3d way = s.b - s.a;
+  const double whole = dot(way, way);
+  return s.a + (whole > 0 ? std::clamp(dot(p - s.a, way) / whole, 0.0, 1.0) : 0) * way;
+}
+
+/// Where two things are nearest: looked for along the first in turns [projections onto each other].
+void find_place(Near& n, const PlacedShape& first, const PlacedShape& second) {
+  n.from = nearest_in(first, second.box ? second.a : 0.5 * (second.a + second.b));
+  for (int round = 0; round < 30; ++round) {
+    n.to = nearest_in(second, n.from);
+    n.from = nearest_in(first, n.to);
+  }
+}
+
+/// The same on a figure: along a rod, then against the slope of the distance.
+void find_place(Near& n, const PlacedShape& rod, const geometry::Figure& figure) {
+  constexpr int kPlaces = 24;
+  constexpr double kStep = 1e-4;
+  double least = 1e9;
+  for (int k = 0; k <= kPlaces; ++k) {
+    const Vec3d p = rod.a + (double(k) / kPlaces) * (rod.b - rod.a);
+    if (const double d = figure.distance(p); d < least) least = d, n.from = p;
+  }
+  Vec3d slope;
+  for (int k = 0; k < 3; ++k) {
+    Vec3d a = n.from, b = n.from;
+    a[k] += kStep, b[k] -= kStep;
+    slope[k] = figure.distance(a) - figure.distance(b);
+  }
+  n.to = length(slope) > 0 ? n.from - least / length(slope) * slope : n.from;
+}
 
 /// Shoulder, elbow, hand: the elbow lower and outwards.
 Vec3d elbow_between(Vec3d shoulder, Vec3d hand, double upper, double fore, Vec3d out) {
@@ -403,17 +440,28 @@ std::vector<RoomPart> RoomModel::other_parts(const scene::RoomTilt& tilt) const 
 
 std::vector<Near> RoomModel::nearest(const RoomPose& pose, int arm, const std::vector<RoomPart>& others) const {
   const ArmModel& a = m_arms[std::size_t(arm)];
-  std::vector<Near> out;
-  const auto note = [&](const std::string& mine, const std::string& its, int other, double distance, Vec3d where) {
-    const std::string about = its.substr(0, its.find(':'));
-    for (Near& n : out)
-      if (n.second.substr(0, n.second.find(':')) == about) {
-        if (distance < n.distance) n = {mine, its, arm, other, distance, where};
+  struct Pair {
+    std::string about;
+    const std::string *first, *second;
+    int other = -1;
+    double distance = 0;
+    PlacedShape mine, its;
+  };
+  static const std::string kPatient = "patient";
+  std::vector<Pair> pairs;
+  const auto note = [&](const RoomPart& mine, const std::string& its, int other, double distance,
+                        const PlacedShape& a_shape, const PlacedShape& b_shape) {
+    const std::string_view about = std::string_view(its).substr(0, its.find(':'));
+    for (Pair& p : pairs)
+      if (p.about == about) {
+        if (distance < p.distance)
+          p.first = &mine.name, p.second = &its, p.distance = distance, p.mine = a_shape, p.its = b_shape;
         return;
       }
-    out.push_back({mine, its, arm, other, distance, where});
+    pairs.push_back({std::string(about), &mine.name, &its, other, distance, a_shape, b_shape});
   };
-  for (const RoomPart& p : arm_parts(pose, arm)) {
+  const std::vector<RoomPart> own = arm_parts(pose, arm);
+  for (const RoomPart& p : own) {
     if (p.link < -1) continue;  // in the body
     PlacedShape s = p.shape;
     if (p.shaft) {  // what is out of the body of it
@@ -428,13 +476,22 @@ std::vector<Near> RoomModel::nearest(const RoomPose& pose, int arm, const std::v
     }
     const PlacedShape thick = as_rod(s);
     if (!(p.stand && a.described->on_table))  // clamped beside the patient by whoever sets up
-      note(p.name, "patient", -1, m_figure.distance(thick.a, thick.b, thick.radius), middle_of(thick));
+      note(p, kPatient, -1, m_figure.distance(thick.a, thick.b, thick.radius), thick, {});
     for (const RoomPart& o : others) {
       if (o.arm == arm || o.link < -1) continue;
       if (p.stand && o.name == "table") continue;
       if (o.shaft) continue;  // two shafts out of the body are as near as their carriages are
-      note(p.name, o.name, o.arm, clearance(s, o.shape), 0.5 * (middle_of(s) + middle_of(o.shape)));
+      note(p, o.name, o.arm, clearance(s, o.shape), s, o.shape);
     }
+  }
+  std::vector<Near> out;
+  for (const Pair& p : pairs) {
+    Near n{*p.first, *p.second, arm, p.other, p.distance, {}, {}};
+    if (p.second == &kPatient)
+      find_place(n, p.mine, m_figure);
+    else
+      find_place(n, p.mine, p.its);
+    out.push_back(std::move(n));
   }
   std::stable_sort(out.begin(), out.end(), [](const Near& x, const Near& y) { return x.distance < y.distance; });
   return out;

@@ -72,7 +72,8 @@ struct Near {
   std::string first, second;
   int arm = -1, other = -1;  ///< of arms
   double distance = 0;       ///< [m], below 0: in each other
-  Vec3d where;               ///< between them [m]
+  Vec3d from, to;            ///< where they are nearest, on the middle line of the first and at the second [m]
+  Vec3d where() const noexcept { return 0.5 * (from + to); }
 };
 
 /// Where a shaft is beside a port [m].

@@ -1,0 +1,23 @@
+#include "rooms/room_camera.hpp"
+
+namespace trocar::app {
+
+RoomCamera::RoomCamera(const view::Scenery& scenery, pictures::PictureSize size)
+    : m_size(size), m_context(render::GlContext::off_screen()), m_backend(render::make_gl_backend(*m_context)) {
+  m_drawing = std::make_unique<view::RoomDrawing>(*m_backend, scenery);
+}
+
+void RoomCamera::take(const view::Scenery& scenery, const view::RoomOrbit& orbit, const std::filesystem::path& file) {
+  m_drawing->move(scenery);
+  render::draw_frame(*m_backend, m_drawing->frame(orbit), render::Target::off_screen(m_size.width, m_size.height));
+  render::write_png(file.string(), m_backend->read_pixels());
+}
+
+std::vector<RoomView> room_views() {
+  return {{"room", {{0, -0.1, -0.15}, -0.85, 0.50, 3.9}},
+          {"feet", {{0, 0.1, 0.05}, 0.25, 0.62, 2.2}},
+          {"abdomen", {{0, 0.05, 0.1}, 0.9, 0.5, 1.35}},
+          {"above", {{0, 0.05, 0}, 0, 1.45, 1.1}}};
+}
+
+}  // namespace trocar::app
