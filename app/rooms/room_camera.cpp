@@ -14,9 +14,9 @@ void RoomCamera::take(const view::Scenery& scenery, const view::RoomOrbit& orbit
 }
 
 std::vector<RoomView> room_views() {
-  return {{"room", {{0, -0.1, -0.15}, -0.85, 0.50, 3.9}},
+  return {{"room", {{0, -0.1, -0.15}, -0.95, 0.40, 3.7}},
           {"feet", {{0, 0.1, 0.05}, 0.25, 0.62, 2.2}},
-          {"abdomen", {{0, 0.05, 0.1}, 0.9, 0.5, 1.35}},
+          {"abdomen", {{0, 0.05, 0.1}, -0.62, 0.55, 1.5}},
           {"above", {{0, 0.05, 0}, 0, 1.45, 1.1}}};
 }
 

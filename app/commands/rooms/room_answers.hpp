@@ -6,11 +6,12 @@
 #include <trocar/core/json.hpp>
 #include <trocar/pictures/picture_size.hpp>
 #include <trocar/studies/operating_room/motion.hpp>
+#include <trocar/studies/operating_room/ports.hpp>
 
 namespace trocar::app {
 
 struct RoomWords {
-  std::string file, what, with;
+  std::string file, what = "show", with;
   std::string shots, out, target, log;
   std::string size = "1280x800";
   double step_ms = 20, seconds = 0;
@@ -23,6 +24,9 @@ int answer_pose(const studies::RoomModel& model, const RoomWords& words, bool js
 /// @param label  what led: a programme's or a recording's name
 int answer_motion(const studies::RoomModel& model, const studies::RoomMotion& motion, const std::string& label,
                   const RoomWords& words, bool json);
+
+/// Where to put ports.
+int answer_plan(const studies::RoomModel& model, const RoomWords& words, bool json);
 
 /// Pictures of a pose from all views into a folder. @return their names
 Json take_pictures(const studies::RoomModel& model, const studies::RoomPose& pose, const RoomWords& words,

@@ -90,6 +90,39 @@ std::string motion_html(const RoomModel& model, const MotionReport& r, const std
        {"version", TROCAR_VERSION}});
 }
 
+std::string plan_html(const RoomModel& model, const PortPlan& plan, const std::vector<RoomPicture>& pictures) {
+  const auto deg = [](double angle) { return fmt::format("{:.0f}", angle * 180 / portable::pi); };
+  const auto at = [](Vec3d v) { return fmt::format("{:.0f}, {:.0f}, {:.0f}", 1e3 * v.x, 1e3 * v.y, 1e3 * v.z); };
+  std::vector<std::vector<std::string>> lines;
+  for (const PortPair& p : plan.pairs) {
+    const PortCandidate &l = plan.candidates[std::size_t(p.left)], &r = plan.candidates[std::size_t(p.right)];
+    lines.push_back(
+        {fmt::format("{:.3f}", p.score), at(l.place), at(r.place), deg(p.manipulation),
+         deg(l.azimuth) + ", " + deg(r.azimuth), deg(l.elevation) + ", " + deg(r.elevation),
+         fmt::format("{:.2f}, {:.2f}", l.lever, r.lever),
+         fmt::format("{:.0f}", 1e3 * std::min(p.clearance, p.patient_clearance)),
+         p.with_arms ? fmt::format("{:.0f} %, {:.0f} mm", 100 * p.arms_reach, 1e3 * p.arms_clearance) : "-"});
+  }
+  Json sections = Json::array();
+  sections.push_back({{"heading", "On the abdomen"}, {"drawing", figures_html(pictures)}, {"legend", ""}});
+  sections.push_back(
+      {{"heading", "The best sets"},
+       {"table", room_table("Pairs of ports for the left and the right hand",
+                            {"score", "left [mm]", "right [mm]", "manipulation [deg]", "azimuths [deg]",
+                             "elevations [deg]", "levers", "clear [mm]", "arms: reach, clear"},
+                            lines)},
+       {"note",
+        "Best are a manipulation angle of 60 degrees, equal azimuths and an elevation of 60 degrees (Hanna, Shimi and "
+        "Cuschieri 1997); how much a departure costs is ours."}});
+  return fill(page_text("design.html"),
+              {{"title", fmt::format("{}: where to put ports", model.room().name)},
+               {"lead",
+                {fmt::format("{} places on the skin, {} pairs; target at {} mm, endoscope at {} mm.",
+                             plan.candidates.size(), plan.looked_at, at(plan.target), at(plan.scope))}},
+               {"sections", std::move(sections)},
+               {"version", TROCAR_VERSION}});
+}
+
 std::string write_room_page(const std::filesystem::path& folder, const std::string& html) {
   return write_design_page(folder, html);
 }

@@ -20,6 +20,7 @@ constexpr int kGoalRows = 6;
 constexpr double kBesidePort = 0.08;              // of a shaft: nearer to its port it is by the skin anyway [m]
 constexpr double kColumn = 0.045, kBeam = 0.040;  // radii of stands [m]
 constexpr double kGravity = 9.81;
+constexpr double kStraight = 1e-9;  // jaws along the shaft [rad]
 
 Vec3d unit(Vec3d v) { return v / length(v); }
 
@@ -250,7 +251,9 @@ Reached RoomModel::lead(RoomPose& pose, int arm, const ArmGoal& goal) const {
   options.attempts = kAttempts;
   Reached out;
   InverseReport report;
-  if (!goal.aims) {  // the wrist as it began, first
+  const Vec3d along = goal.tip - a.port;
+  const bool may_be_straight = !goal.aims || length(unit(along) + goal.axes.column(2)) < kStraight;
+  if (may_be_straight) {  // the wrist as it began, first
     const std::vector<double> first = m.start_u();
     for (const int w : a.wrist) u[std::size_t(w)] = first[std::size_t(w)];
     hold(work.loops, a.wrist);
