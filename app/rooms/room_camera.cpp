@@ -15,7 +15,7 @@ void RoomCamera::take(const view::Scenery& scenery, const view::RoomOrbit& orbit
 
 std::vector<RoomView> room_views() {
   return {{"room", {{0, -0.1, -0.15}, -0.95, 0.40, 3.7}},
-          {"feet", {{0, 0.1, 0.05}, 0.25, 0.62, 2.2}},
+          {"feet", {{-0.05, 0.12, 0.05}, -0.42, 0.60, 2.1}},
           {"abdomen", {{0, 0.05, 0.1}, -0.62, 0.55, 1.5}},
           {"above", {{0, 0.05, 0}, 0, 1.45, 1.1}}};
 }

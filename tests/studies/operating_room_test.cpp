@@ -6,6 +6,7 @@
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/scene/operating_room/room_file.hpp>
 #include <trocar/studies/operating_room/motion.hpp>
+#include <trocar/studies/operating_room/ports.hpp>
 
 namespace trocar::studies {
 namespace {
@@ -145,9 +146,9 @@ TEST(OperatingRoom, ARedundantArmGoesAsideAlongWhatItsGoalLeavesFree) {
   };
   const double before = least();
   EXPECT_NEAR(m.clear(pose, arm, goal, 0), before, 1e-12);
-  EXPECT_NEAR(m.clear(pose, arm, goal, 40), least(), 1e-12);
-  for (const Near& n : m.nearest(pose)) printf("%s %s %g\n", n.first.c_str(), n.second.c_str(), n.distance);
-  EXPECT_GT(least(), before + 0.003);
+  const double after = m.clear(pose, arm, goal, 40);
+  EXPECT_NEAR(after, least(), 1e-12);
+  EXPECT_GT(after, before + 0.003);
   EXPECT_LT(length(m.tip(pose, arm).p - goal.tip), 1e-9);
   EXPECT_LT(port_gap(m.shaft(pose, arm), m.arms()[std::size_t(arm)].port), 1e-9);
 }
@@ -159,6 +160,60 @@ TEST(OperatingRoom, TheSameMotionComesOutTheSame) {
   const MotionReport a = go_through(shipped(), motion, coarse), b = go_through(shipped(), motion, coarse);
   ASSERT_EQ(a.steps.size(), b.steps.size());
   for (std::size_t k = 0; k < a.steps.size(); ++k) EXPECT_EQ(a.steps[k].pose.u, b.steps[k].pose.u);
+}
+
+PortPlanOptions gallbladder() {
+  PortPlanOptions o;
+  o.low = shipped().room().targets[0].low;
+  o.high = shipped().room().targets[0].high;
+  o.scope = "umbilical";
+  return o;
+}
+
+TEST(PortPlanning, PrefersPairsWhoseManipulationAngleIsSixtyDegrees) {
+  const PortPlan plan = plan_ports(shipped(), gallbladder());
+  ASSERT_EQ(plan.pairs.size(), 5u);
+  for (const PortPair& p : plan.pairs) {
+    EXPECT_GT(p.manipulation, 40 * portable::pi / 180);
+    EXPECT_LT(p.manipulation, 80 * portable::pi / 180);
+    EXPECT_LT(plan.candidates[std::size_t(p.left)].azimuth, 0);
+    EXPECT_GT(plan.candidates[std::size_t(p.right)].azimuth, 0);
+    EXPECT_GT(p.clearance, 0);
+    EXPECT_GT(p.patient_clearance, 0);
+  }
+}
+
+TEST(PortPlanning, APairOfSixtyDegreesIsWorthMoreThanOneOfThirtyOrOfNinety) {
+  const PortPlanOptions o = gallbladder();
+  const Vec3d target = 0.5 * (o.low + o.high), scope{0, -0.01, 0};
+  const auto pair = [&](double angle) {  // both at 60 degrees of elevation, whatever is asked of the skin
+    PortCandidate c[2];
+    for (int k = 0; k < 2; ++k) {
+      c[k].alone = 1;
+      c[k].azimuth = k == 0 ? -angle / 2 : angle / 2;
+      const double s = (k == 0 ? -1 : 1) * std::sin(angle / 2);
+      c[k].place = target + 0.13 * Vec3d{s, 0, std::sqrt(1 - s * s)};
+    }
+    return judge_pair(shipped(), o, scope, c[0], c[1]);
+  };
+  const auto degrees = [](double d) { return d * portable::pi / 180; };
+  EXPECT_NEAR(pair(degrees(60)).manipulation, degrees(60), 1e-9);
+  EXPECT_GT(pair(degrees(60)).score, 1.5 * pair(degrees(30)).score);
+  EXPECT_GT(pair(degrees(60)).score, 1.5 * pair(degrees(90)).score);
+}
+
+TEST(PortPlanning, APortFromWhichTheTargetIsTooDeepOrTooSlantReachesNothing) {
+  const PortPlanOptions o = gallbladder();
+  EXPECT_EQ(judge_port(shipped(), o, {}, {0.13, -0.13, shipped().figure().front(0.13, -0.13)}).reach, 0);
+  EXPECT_GT(judge_port(shipped(), o, {}, {-0.06, 0.08, shipped().figure().front(-0.06, 0.08)}).reach, 0.9);
+}
+
+TEST(PortPlanning, ArmsThatAreDockedAtTheBestSetReachTheTarget) {
+  const PortPlan plan = plan_ports(shipped(), gallbladder());
+  EXPECT_TRUE(plan.pairs[0].with_arms);
+  EXPECT_GT(plan.pairs[0].arms_reach, 0.8);
+  EXPECT_GT(plan.pairs[0].arms_clearance, 0);
+  for (std::size_t k = 1; k < plan.pairs.size(); ++k) EXPECT_GE(plan.pairs[k - 1].rank, plan.pairs[k].rank);
 }
 
 TEST(OperatingRoom, AHandThatCannotReachItsInstrumentIsTold) {

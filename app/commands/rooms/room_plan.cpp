@@ -83,6 +83,7 @@ int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
   };
   for (const PortPair& p : plan.pairs) {
     Json set{{"score", p.score},
+             {"rank", p.rank},
              {"left", port(p.left)},
              {"right", port(p.right)},
              {"manipulation_deg", to_degrees(p.manipulation)},
@@ -147,12 +148,14 @@ int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
   fmt::print("{}: ports about the endoscope's ({}), target ({:.0f}, {:.0f}, {:.0f}) mm; {} places, {} pairs\n",
              model.room().name, o.scope, 1e3 * plan.target.x, 1e3 * plan.target.y, 1e3 * plan.target.z,
              plan.candidates.size(), plan.looked_at);
-  fmt::print("  {:>5} {:>22} {:>22} {:>7} {:>13} {:>11} {:>11} {:>9}{}\n", "score", "left mm", "right mm", "manip.",
-             "azimuths", "elevations", "levers", "clear mm", model.arms().size() >= 2 ? "  arms: reach, clear mm" : "");
+  fmt::print("  {:>5} {:>5} {:>22} {:>22} {:>7} {:>13} {:>11} {:>11} {:>9}{}\n", "rank", "score", "left mm", "right mm",
+             "manip.", "azimuths", "elevations", "levers", "clear mm",
+             model.arms().size() >= 2 ? "  arms: reach, clear mm" : "");
   for (const PortPair& p : plan.pairs) {
     const PortCandidate &l = plan.candidates[std::size_t(p.left)], &r = plan.candidates[std::size_t(p.right)];
     fmt::print(
-        "  {:5.3f} ({:6.0f},{:6.0f},{:6.0f}) ({:6.0f},{:6.0f},{:6.0f}) {:5.0f} deg {:5.0f},{:5.0f} deg {:4.0f},{:4.0f} "
+        "  {:5.3f} {:5.3f} ({:6.0f},{:6.0f},{:6.0f}) ({:6.0f},{:6.0f},{:6.0f}) {:5.0f} deg {:5.0f},{:5.0f} deg "
+        "{:4.0f},{:4.0f} "
         "deg {:5.2f},{:5.2f} {:9.0f}{}\n",
         p.score, 1e3 * l.place.x, 1e3 * l.place.y, 1e3 * l.place.z, 1e3 * r.place.x, 1e3 * r.place.y, 1e3 * r.place.z,
         to_degrees(p.manipulation), to_degrees(l.azimuth), to_degrees(r.azimuth), to_degrees(l.elevation),

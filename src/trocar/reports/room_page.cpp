@@ -108,7 +108,7 @@ std::string plan_html(const RoomModel& model, const PortPlan& plan, const std::v
   sections.push_back(
       {{"heading", "The best sets"},
        {"table", room_table("Pairs of ports for the left and the right hand",
-                            {"score", "left [mm]", "right [mm]", "manipulation [deg]", "azimuths [deg]",
+                            {"rank", "score", "left [mm]", "right [mm]", "manipulation [deg]", "azimuths [deg]",
                              "elevations [deg]", "levers", "clear [mm]", "arms: reach, clear"},
                             lines)},
        {"note",

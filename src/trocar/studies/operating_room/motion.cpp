@@ -34,6 +34,10 @@ ArmGoal goal_of(const std::vector<Programme::Pose>& poses, Vec3d port, double at
   const auto axes = [&](const Programme::Pose& p) {
     return jaw_axes(length(p.towards) > 0 ? p.towards : p.tip - port, p.roll);
   };
+  if (a.aims && b.aims && !(length(a.towards) > 0) && !(length(b.towards) > 0)) {  // along the shaft all the way
+    g.axes = jaw_axes(g.tip - port, a.roll + t * (b.roll - a.roll));
+    return g;
+  }
   const Mat3d from = axes(a);
   if (t == 0) {
     g.axes = from;

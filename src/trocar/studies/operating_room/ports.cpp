@@ -16,6 +16,8 @@ constexpr double kMostLean = 60 * kDeg, kLeastDepth = 0.02, kMostDepth = 0.25;
 constexpr double kEnough = 0.04;                         // clearance [m]
 constexpr double kHandle = 0.10, kHandleRadius = 0.035;  // of a hand at a handle [m]
 constexpr double kScopeOut = 0.15;
+constexpr double kArmsEnough = 0.02;  // clearance of arms [m]
+constexpr int kLookedAt = 4;          // times as many sets are tried with arms as are told
 
 Vec3d unit_of(Vec3d v) { return v / length(v); }
 double bell(double off, double width) { return portable::exp(-(off / width) * (off / width)); }
@@ -61,8 +63,8 @@ void judge_arms(const RoomModel& model, const PortPlan& plan, PortPair& pair) {
     bool both = true;
     for (int k = 0; k < 2; ++k) both = there.lead(pose, k, {.tip = p}).reached && both;
     reached += both;
-    if (const std::vector<Near> near = there.nearest(pose); !near.empty())
-      pair.arms_clearance = std::min(pair.arms_clearance, near.front().distance);
+    if (const std::vector<Near> nearest_now = there.nearest(pose); !nearest_now.empty())
+      pair.arms_clearance = std::min(pair.arms_clearance, nearest_now.front().distance);
   }
   pair.arms_reach = double(reached) / double(plan.points.size());
 }
@@ -140,8 +142,9 @@ PortPlan plan_ports(const RoomModel& model, const PortPlanOptions& o) {
       if (pair.score > 0) all.push_back(pair);
     }
   std::stable_sort(all.begin(), all.end(), [](const PortPair& a, const PortPair& b) { return a.score > b.score; });
+  const bool arms = model.arms().size() >= 2;
   for (const PortPair& pair : all) {  // neighbours of a set are no other set
-    if (int(plan.pairs.size()) >= o.sets) break;
+    if (int(plan.pairs.size()) >= (arms ? kLookedAt * o.sets : o.sets)) break;
     const auto near = [&](int a, int b) {
       return length(plan.candidates[std::size_t(a)].place - plan.candidates[std::size_t(b)].place) < 1.6 * o.spacing;
     };
@@ -150,8 +153,15 @@ PortPlan plan_ports(const RoomModel& model, const PortPlanOptions& o) {
       continue;
     plan.pairs.push_back(pair);
   }
-  if (model.arms().size() >= 2)
-    for (PortPair& pair : plan.pairs) judge_arms(model, plan, pair);
+  for (PortPair& pair : plan.pairs) {
+    pair.rank = pair.score;
+    if (!arms) continue;
+    judge_arms(model, plan, pair);
+    pair.rank *= pair.arms_reach * std::clamp(pair.arms_clearance / kArmsEnough, 0.0, 1.0);
+  }
+  std::stable_sort(plan.pairs.begin(), plan.pairs.end(),
+                   [](const PortPair& a, const PortPair& b) { return a.rank > b.rank; });
+  if (int(plan.pairs.size()) > o.sets) plan.pairs.resize(std::size_t(o.sets));
   return plan;
 }
 

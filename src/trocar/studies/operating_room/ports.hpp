@@ -46,14 +46,15 @@ struct PortPair {
   double clearance = 0, patient_clearance = 0;  ///< of handles [m]
   // where the room has two arms and they are docked there
   bool with_arms = false;
-  double arms_reach = 0, arms_clearance = 0;  ///< share of corners and middle; least on the way over them [m]
+  double arms_reach = 0, arms_clearance = 0;  ///< share of corners and middle; least at those [m]
+  double rank = 0;                            ///< score, with arms times their reach and clearance
 };
 
 struct PortPlan {
   Vec3d scope, target;
   std::vector<Vec3d> points;
   std::vector<PortCandidate> candidates;
-  std::vector<PortPair> pairs;  ///< the best first
+  std::vector<PortPair> pairs;  ///< the highest rank first
   int looked_at = 0;
 };
 

@@ -20,7 +20,8 @@ constexpr int kGoalRows = 6;
 constexpr double kBesidePort = 0.08;              // of a shaft: nearer to its port it is by the skin anyway [m]
 constexpr double kColumn = 0.045, kBeam = 0.040;  // radii of stands [m]
 constexpr double kGravity = 9.81;
-constexpr double kStraight = 1e-9;  // jaws along the shaft [rad]
+constexpr double kStraight = 1e-9;        // jaws along the shaft [rad]
+constexpr double kNearlyStraight = 1e-3;  // a wrist that goes on to be so [rad]
 
 Vec3d unit(Vec3d v) { return v / length(v); }
 
@@ -252,10 +253,13 @@ Reached RoomModel::lead(RoomPose& pose, int arm, const ArmGoal& goal) const {
   Reached out;
   InverseReport report;
   const Vec3d along = goal.tip - a.port;
-  const bool may_be_straight = !goal.aims || length(unit(along) + goal.axes.column(2)) < kStraight;
+  const std::vector<double> began = m.start_u();
+  bool is_straight = true;
+  for (const int w : a.wrist)
+    is_straight = is_straight && std::fabs(u[std::size_t(w)] - began[std::size_t(w)]) < kNearlyStraight;
+  const bool may_be_straight = !goal.aims || (is_straight && length(unit(along) + goal.axes.column(2)) < kStraight);
   if (may_be_straight) {  // the wrist as it began, first
-    const std::vector<double> first = m.start_u();
-    for (const int w : a.wrist) u[std::size_t(w)] = first[std::size_t(w)];
+    for (const int w : a.wrist) u[std::size_t(w)] = began[std::size_t(w)];
     hold(work.loops, a.wrist);
     InverseOptions quick = options;
     quick.attempts = 3;

@@ -129,7 +129,7 @@ MeshBuffer drape_mesh(const Scenery& s) {
       const double wave = std::sin(26 * e.way + 1.3 * std::sin(5 * e.way)) + 0.5 * std::sin(47 * e.way + 2);
       const double away = 0.035 * std::sqrt(t) + 0.020 * t * wave;
       const double bottom = s.top - kSkirt - 0.015 * std::sin(6 * e.way);
-      const double z = e.place.z + eased(0.15 * t + 0.85 * t) * 0 + t * (bottom - e.place.z);
+      const double z = e.place.z + t * (bottom - e.place.z);
       const Vec3d p = e.place + away * e.out;
       const Colour colour = darker(shade_of(z, s.top), 0.10 * t * (1 - wave));
       now.push_back(b.add(vec_cast<float>(Vec3d{p.x, p.y, z}), colour.paint()));
@@ -181,9 +181,7 @@ MeshBuffer skin_mesh(const Scenery& s) {
         const double value = sum / weight;
         const view::Colour on = colour_on(Scale::sequential, value);
         const Colour heat{to_byte(on.r), to_byte(on.g), to_byte(on.b)};
-        colour = mixed(colour, heat, 0.88 * eased(weight / 0.35));
-        const double step = value * 10 - std::floor(value * 10);  // a line every tenth
-        if (step < 0.06 || step > 0.94) colour = darker(colour, 0.18);
+        colour = mixed(colour, heat, 0.9 * eased(weight / 0.35) * eased((value - 0.01) / 0.25));
       }
       b.add(vec_cast<float>(Vec3d{x, y, z}), colour.paint());
     }

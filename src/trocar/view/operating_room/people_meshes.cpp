@@ -60,7 +60,7 @@ MeshBuffer person_mesh(const Scenery::Person& p, double floor) {
   const Colour skin{208, 160, 134};
   add_rod(b, at(0.004, 0, 0.845), at(0.010, 0, 0.885), 0.032 * h, 0.032 * h, skin);
   add_rod(b, at(0.014, 0, 0.908), at(0.008, 0, 0.944), 0.044 * h, 0.052 * h, skin, 40);
-  add_rod(b, at(0.000, 0, 0.950), at(-0.004, 0, 0.957), 0.0565 * h, 0.0545 * h, darker(gown, -0.0), 40);
+  add_rod(b, at(0.000, 0, 0.950), at(-0.004, 0, 0.957), 0.0595 * h, 0.0575 * h, gown, 40);
   add_rod(b, at(0.022, 0, 0.897), at(0.024, 0, 0.916), 0.041 * h, 0.0395 * h, kMask, 40);
   return b;
 }
@@ -75,8 +75,8 @@ MeshBuffer floor_mesh(const Scenery& s) {
     double radius, dark;
   };
   std::vector<Blob> blobs{
-      {s.table * Vec3d{0, s.figure.soles(), s.top}, s.table * Vec3d{0, s.figure.crown(), s.top}, 0.34, 0.62}};
-  for (const Scenery::Person& p : s.people) blobs.push_back({p.foot, p.foot + 0.1 * p.facing, 0.24, 0.55});
+      {s.table * Vec3d{0, s.figure.soles(), s.top}, s.table * Vec3d{0, s.figure.crown(), s.top}, 0.36, 0.46}};
+  for (const Scenery::Person& p : s.people) blobs.push_back({p.foot, p.foot + 0.1 * p.facing, 0.24, 0.42});
   for (const Scenery::Arm& a : s.arms)
     if (!a.on_table) blobs.push_back({a.foot, a.foot, 0.30, 0.45});
   for (const Scenery::Monitor& m : s.monitors) blobs.push_back({m.middle, m.middle, 0.24, 0.4});

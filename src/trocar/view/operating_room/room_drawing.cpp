@@ -231,13 +231,13 @@ render::Frame RoomDrawing::frame(const RoomOrbit& orbit) const {
   f.light.intensity = 0.52f;
   f.light.bounce = 0.16f;
   f.light.bounce_colour = {0.90f, 0.96f, 1.0f};
-  f.light.ambient = 0.22f;
+  f.light.ambient = 0.28f;
   f.look = render::plain_look();
   f.look.auto_exposure = false;
   f.look.contact = 0;
   f.look.sharpen = 0.35f;
-  f.look.saturation = 0.88f;
-  f.look.exposure_ev = -0.55f;
+  f.look.saturation = 0.85f;
+  f.look.exposure_ev = -0.35f;
   f.quality.samples = 4;
   f.background = render::srgb(222, 227, 229);
   const auto add = [&](const Piece& p) {

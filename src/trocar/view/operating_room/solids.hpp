@@ -15,8 +15,8 @@ struct Colour {
 Colour darker(Colour c, double share);  ///< towards black
 Colour mixed(Colour a, Colour b, double t);
 
-inline constexpr Colour kEnamel{226, 229, 231}, kJoint{74, 80, 88}, kRubber{48, 52, 58}, kDrape{64, 120, 132},
-    kGown{74, 132, 144}, kSkin{214, 166, 140}, kGlove{228, 222, 204}, kMask{196, 220, 226}, kTrousers{58, 84, 104},
+inline constexpr Colour kEnamel{226, 229, 231}, kJoint{74, 80, 88}, kRubber{48, 52, 58}, kDrape{92, 152, 164},
+    kGown{98, 158, 168}, kSkin{214, 166, 140}, kGlove{228, 222, 204}, kMask{196, 220, 226}, kTrousers{58, 84, 104},
     kSteel{170, 176, 182}, kAccent{232, 160, 64}, kCushion{52, 58, 66}, kFloor{150, 160, 166};
 
 /// A rod with round ends of two sizes.
