@@ -32,6 +32,8 @@ std::span<const Target> targets() {
       {"volume_dicom", volume_file, 3'000, volume_dicom_seeds, volume_words},
       {"team", team_message, 4'000, team_seeds},
       {"mechanism", mechanism_file, 6'000, mechanism_seeds, json_words, mutate_json, cross_json},
+      {"room", room_file, 6'000, room_seeds, json_words, mutate_json, cross_json},
+      {"programme", programme_file, 4'000, programme_seeds, json_words, mutate_json, cross_json},
       {"urdf", urdf_file, 3'000, urdf_seeds, urdf_words},
   };
   return all;

@@ -157,9 +157,10 @@ int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
         "  {:5.3f} {:5.3f} ({:6.0f},{:6.0f},{:6.0f}) ({:6.0f},{:6.0f},{:6.0f}) {:5.0f} deg {:5.0f},{:5.0f} deg "
         "{:4.0f},{:4.0f} "
         "deg {:5.2f},{:5.2f} {:9.0f}{}\n",
-        p.score, 1e3 * l.place.x, 1e3 * l.place.y, 1e3 * l.place.z, 1e3 * r.place.x, 1e3 * r.place.y, 1e3 * r.place.z,
-        to_degrees(p.manipulation), to_degrees(l.azimuth), to_degrees(r.azimuth), to_degrees(l.elevation),
-        to_degrees(r.elevation), l.lever, r.lever, 1e3 * std::min(p.clearance, p.patient_clearance),
+        p.rank, p.score, 1e3 * l.place.x, 1e3 * l.place.y, 1e3 * l.place.z, 1e3 * r.place.x, 1e3 * r.place.y,
+        1e3 * r.place.z, to_degrees(p.manipulation), to_degrees(l.azimuth), to_degrees(r.azimuth),
+        to_degrees(l.elevation), to_degrees(r.elevation), l.lever, r.lever,
+        1e3 * std::min(p.clearance, p.patient_clearance),
         p.with_arms ? fmt::format("  {:.2f}, {:.0f}", p.arms_reach, 1e3 * p.arms_clearance) : "");
   }
   if (!good) fmt::print("  no pair of places reaches the target clear of each other and the patient\n");
