@@ -19,6 +19,7 @@ using namespace studies;
 
 namespace {
 
+constexpr std::size_t kToldFaults = 12;
 constexpr double kShownGap = 0.06;  // clearance that pictures show [m]
 
 Json mm(Vec3d v) { return Json{1e3 * v.x, 1e3 * v.y, 1e3 * v.z}; }
@@ -173,9 +174,13 @@ int answer_motion(const RoomModel& model, const RoomMotion& motion, const std::s
       "  fastest {:.0f} % of what is allowed; least clearance {:.1f} mm at {:.2f} s, {}\n",
       model.room().name, label, r.length, r.count, 1e3 * r.port_gap, r.loop_gap, 100 * r.most_speed,
       1e3 * r.least_clearance, r.least_at, r.least_pair);
-  for (const MotionFault& f : r.faults)
+  for (std::size_t k = 0; k < std::min(kToldFaults, r.faults.size()); ++k) {
+    const MotionFault& f = r.faults[k];
     fmt::print("  {:7.2f} to {:7.2f} s  {}{}: {}\n", f.from, f.to,
                f.arm >= 0 ? model.arms()[std::size_t(f.arm)].described->name + ", " : "", word_of(f.kind), f.words);
+  }
+  if (r.faults.size() > kToldFaults)
+    fmt::print("  and {} more; --json or --out has them all\n", r.faults.size() - kToldFaults);
   if (r.good()) fmt::print("  can be done\n");
   if (out.contains("report")) fmt::print("  {}\n", out["report"].get<std::string>());
   return r.good() ? core::kDone : core::kGoalNotReached;

@@ -13,6 +13,8 @@ using scene::RoomTilt;
 
 namespace {
 
+constexpr double kSame = 0.3;  // a fault that comes back within this time is the same one [s]
+
 Vec3d mixed(Vec3d a, Vec3d b, double t) { return a + t * (b - a); }
 
 /// The two entries about a moment, and how far between them.
@@ -161,7 +163,7 @@ class Going {
   /// A fault that goes on is one; the worst of it is told.
   void fault(MotionFaultKind kind, int arm, const std::string& with, double worst, Vec3d where, std::string words) {
     for (MotionFault& f : r.faults) {
-      if (f.kind != kind || f.arm != arm || f.with != with || f.to < m_at - 1.5 * o.step) continue;
+      if (f.kind != kind || f.arm != arm || f.with != with || f.to < m_at - std::max(1.5 * o.step, kSame)) continue;
       f.to = m_at;
       const bool less = kind == MotionFaultKind::collision;
       if (less ? worst < f.worst : worst > f.worst) {

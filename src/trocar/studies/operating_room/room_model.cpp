@@ -273,10 +273,13 @@ Reached RoomModel::lead(RoomPose& pose, int arm, const ArmGoal& goal) const {
   }
   forward(m, u, pose.frames[std::size_t(arm)]);
   out.within_limits = report.last.limit < 0;
+  out.missed = length(tip(pose, arm).p - goal.tip);
   if (report.last.limit >= 0) out.limit = m.coordinates[std::size_t(report.last.limit)];
-  const Frame at = tip(pose, arm);
-  out.missed = length(at.p - goal.tip);
   out.reached = report.reached();
+  if (!out.reached) {  // it stays where it was: the nearest pose may be far from there
+    u = before;
+    forward(m, u, pose.frames[std::size_t(arm)]);
+  }
   std::vector<double> r(std::size_t(std::max(1, m.rows)));
   residuals(m.closures, pose.frames[std::size_t(arm)], r.data());
   int row = 0;

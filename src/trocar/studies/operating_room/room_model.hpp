@@ -62,7 +62,7 @@ struct RoomPose {
 struct Reached {
   bool reached = false, within_limits = false;
   bool straight = false;  ///< with its wrist as it began
-  double missed = 0;      ///< tip to goal [m]
+  double missed = 0;      ///< tip to goal, of the nearest pose that was found [m]
   double loop_gap = 0;    ///< of the mechanism's own closures [m]
   double port_gap = 0;    ///< shaft to port [m]
   std::string limit;      ///< coordinate beyond its limits
@@ -106,7 +106,7 @@ class RoomModel {
   Frame tip(const RoomPose& pose, int arm) const noexcept;
   Frame shaft(const RoomPose& pose, int arm) const noexcept;
 
-  /// Leads an arm to a goal from where it stands; the pose changes to what was reached. A goal that does not aim keeps
+  /// Leads an arm to a goal from where it stands; where it cannot get there it stays. A goal that does not aim keeps
   /// the wrist as it began where that reaches.
   Reached lead(RoomPose& pose, int arm, const ArmGoal& goal) const;
   /// Leads it along what the goal leaves free to where it stands clearer of everything. @return clearance [m]
