@@ -41,6 +41,7 @@ void add_rehearse(CLI::App& program, Chosen& chosen);
 void add_join(CLI::App& program, Chosen& chosen);
 void add_model(CLI::App& program, Chosen& chosen);
 void add_mechanism(CLI::App& program, Chosen& chosen);
+void add_room(CLI::App& program, Chosen& chosen);
 void add_box(CLI::App& program, Chosen& chosen);
 void add_tracker(CLI::App& program, Chosen& chosen);
 

@@ -75,6 +75,7 @@ int run_program(int argc, const char* const* argv) {
   add_join(program, chosen);
   add_model(program, chosen);
   add_mechanism(program, chosen);
+  add_room(program, chosen);
   add_compare(program, chosen);
   add_box(program, chosen);
   add_tracker(program, chosen);

@@ -34,6 +34,8 @@ std::span<const Target> targets() {
       {"tracker", tracker_stream, 4'000, tracker_seeds},
       {"tracker_file", tracker_file, 4'000, tracker_file_seeds, json_words, mutate_json, cross_json},
       {"mechanism", mechanism_file, 6'000, mechanism_seeds, json_words, mutate_json, cross_json},
+      {"room", room_file, 6'000, room_seeds, json_words, mutate_json, cross_json},
+      {"programme", programme_file, 4'000, programme_seeds, json_words, mutate_json, cross_json},
       {"urdf", urdf_file, 3'000, urdf_seeds, urdf_words},
   };
   return all;

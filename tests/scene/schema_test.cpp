@@ -10,6 +10,7 @@
 #include <trocar/scene/files/vessel_file.hpp>
 #include <trocar/scene/json/schema.hpp>
 #include <trocar/scene/mechanisms/mechanism_file.hpp>
+#include <trocar/scene/operating_room/room_file.hpp>
 #include <trocar/training/exercise/exercise.hpp>
 
 #include "files.hpp"
@@ -30,6 +31,8 @@ const Published kPublished[] = {{"scene.schema.json", scene_shape},
                                 {"vessel.schema.json", vessels_shape},
                                 {"look.schema.json", look_shape},
                                 {"mechanism.schema.json", mechanism_shape},
+                                {"room.schema.json", room_shape},
+                                {"programme.schema.json", programme_shape},
                                 {"exercise.schema.json", training::exercise_shape},
                                 {"common_rules.schema.json", training::common_rules_shape}};
 

@@ -1,0 +1,171 @@
+// trocar room ... plan: where to put ports.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include <trocar/attempt/paths.hpp>
+#include <trocar/core/error.hpp>
+#include <trocar/numerics/portable.hpp>
+#include <trocar/reports/room_page.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+
+#include "commands/command.hpp"
+#include "commands/rooms/room_answers.hpp"
+#include "rooms/room_camera.hpp"
+
+namespace trocar::app {
+
+using namespace studies;
+
+namespace {
+
+double to_degrees(double angle) { return angle * 180 / portable::pi; }
+Json to_mm(Vec3d v) { return Json{1e3 * v.x, 1e3 * v.y, 1e3 * v.z}; }
+
+/// A box of the room's targets, or the bounds of an organ of its scene.
+void find_target(const RoomModel& model, const std::string& name, PortPlanOptions& o) {
+  const scene::Room& room = model.room();
+  std::vector<std::string> known;
+  for (const scene::RoomTarget& t : room.targets) {
+    known.push_back(t.name);
+    if (t.name == name || name.empty()) {
+      o.low = t.low, o.high = t.high;
+      return;
+    }
+  }
+  if (!room.scene.empty() && !name.empty()) {
+    const std::filesystem::path path = std::filesystem::path(room.file).parent_path() / room.scene;
+    const sim::Model compiled = scene::compile(scene::read_scene(path));
+    for (int i = 0; i < compiled.organs(); ++i) {
+      known.push_back(compiled.organ_name(i));
+      if (known.back() != name) continue;
+      o.low = {1e9, 1e9, 1e9}, o.high = {-1e9, -1e9, -1e9};
+      for (int v = 0; v < compiled.skin(i).size(); ++v) {
+        const Vec3d p = vec_cast<double>(compiled.skin(i).rest[std::size_t(v)]);
+        for (int k = 0; k < 3; ++k) o.low[k] = std::min(o.low[k], p[k]), o.high[k] = std::max(o.high[k], p[k]);
+      }
+      return;
+    }
+  }
+  throw core::BadInput({{{"--target", 0, 0}, scene::unknown_name("target", name, known)}});
+}
+
+}  // namespace
+
+int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
+  PortPlanOptions o;
+  find_target(model, words.target, o);
+  o.spacing = 1e-3 * words.grid_mm;
+  o.sets = words.sets;
+  o.scope = words.with;
+  for (const scene::RoomInstrument& i : model.room().instruments)
+    if (o.scope.empty() && i.camera) o.scope = i.port;
+  if (o.scope.empty() && !model.room().ports.empty()) o.scope = model.room().ports.front().name;
+  PortPlan plan;
+  try {
+    plan = plan_ports(model, o);
+  } catch (const std::invalid_argument& bad) {
+    throw core::BadInput({{{model.room().file, 0, 0}, bad.what()}});
+  }
+  Json sets = Json::array(), grid = Json::array();
+  const auto port = [&](int k) {
+    const PortCandidate& c = plan.candidates[std::size_t(k)];
+    return Json{{"at_mm", to_mm(c.place)},
+                {"reach", c.reach},
+                {"lean_deg", to_degrees(c.lean)},
+                {"elevation_deg", to_degrees(c.elevation)},
+                {"azimuth_deg", to_degrees(c.azimuth)},
+                {"depth_mm", 1e3 * c.depth},
+                {"lever", c.lever}};
+  };
+  for (const PortPair& p : plan.pairs) {
+    Json set{{"score", p.score},
+             {"rank", p.rank},
+             {"left", port(p.left)},
+             {"right", port(p.right)},
+             {"manipulation_deg", to_degrees(p.manipulation)},
+             {"handles_clear_mm", 1e3 * p.clearance},
+             {"patient_clear_mm", 1e3 * p.patient_clearance}};
+    if (p.with_arms) set["arms_reach"] = p.arms_reach, set["arms_clear_mm"] = 1e3 * p.arms_clearance;
+    sets.push_back(std::move(set));
+  }
+  for (const PortCandidate& c : plan.candidates)
+    grid.push_back({{"at_mm", to_mm(c.place)}, {"alone", c.alone}, {"best", c.best}});
+  Json out{{"name", model.room().name},
+           {"kind", "plan"},
+           {"scope", o.scope},
+           {"target_mm", to_mm(plan.target)},
+           {"candidates", plan.candidates.size()},
+           {"pairs", plan.looked_at},
+           {"sets", sets},
+           {"grid", grid}};
+  const std::string folder = !words.out.empty() ? words.out : words.shots;
+  std::vector<reports::RoomPicture> shown;
+  if (!folder.empty()) {
+    attempt::make_folder(folder);
+    const RoomPose pose = model.start();
+    view::Scenery all = scenery_of(model, pose), bare = all;
+    double most = 1e-9;
+    for (const PortCandidate& c : plan.candidates) most = std::max(most, c.best);
+    for (const PortCandidate& c : plan.candidates) bare.heat.push_back({c.place.x, c.place.y, c.best / most});
+    bare.heat_spacing = o.spacing;
+    bare.arms.clear(), bare.people.clear(), bare.instruments.clear(), bare.monitors.clear();
+    if (!plan.pairs.empty())
+      for (const int k : {plan.pairs[0].left, plan.pairs[0].right})
+        bare.chosen.push_back(plan.candidates[std::size_t(k)].place);
+    std::vector<view::Scenery::Port> scope_only;
+    for (const view::Scenery::Port& p : bare.ports)
+      if (length(p.place - plan.scope) < 1e-9) scope_only.push_back(p);
+    bare.ports = scope_only;
+    if (!plan.pairs.empty())  // where shafts are
+      for (const int k : {plan.pairs[0].left, plan.pairs[0].right}) {
+        const Vec3d place = plan.candidates[std::size_t(k)].place;
+        bare.instruments.push_back({plan.target,
+                                    plan.target + o.length * ((place - plan.target) / length(place - plan.target)),
+                                    0.0025, false});
+      }
+    RoomCamera camera(bare, pictures::parse_size(words.size));
+    for (const auto& [file, what, orbit] :
+         {std::tuple("ports.png", "Heat: the score of the best pair with a port there; rings: the best pair",
+                     view::RoomOrbit{{0, 0.04, 0}, 0, 1.25, 0.95}),
+          std::tuple("ports-side.png", "The best pair's instruments at the target",
+                     view::RoomOrbit{{0, 0.04, 0.05}, -0.7, 0.5, 1.2})}) {
+      camera.take(bare, orbit, folder + "/" + file);
+      shown.push_back({file, what});
+    }
+    out["pictures"] = Json::array();
+    for (const reports::RoomPicture& p : shown) out["pictures"].push_back(folder + "/" + p.file);
+  }
+  if (!words.out.empty()) out["report"] = reports::write_room_page(words.out, reports::plan_html(model, plan, shown));
+  const bool good = !plan.pairs.empty();
+  if (json) {
+    print(out);
+    return good ? core::kDone : core::kGoalNotReached;
+  }
+  fmt::print("{}: ports about the endoscope's ({}), target ({:.0f}, {:.0f}, {:.0f}) mm; {} places, {} pairs\n",
+             model.room().name, o.scope, 1e3 * plan.target.x, 1e3 * plan.target.y, 1e3 * plan.target.z,
+             plan.candidates.size(), plan.looked_at);
+  fmt::print("  {:>5} {:>5} {:>22} {:>22} {:>7} {:>13} {:>11} {:>11} {:>9}{}\n", "rank", "score", "left mm", "right mm",
+             "manip.", "azimuths", "elevations", "levers", "clear mm",
+             model.arms().size() >= 2 ? "  arms: reach, clear mm" : "");
+  for (const PortPair& p : plan.pairs) {
+    const PortCandidate &l = plan.candidates[std::size_t(p.left)], &r = plan.candidates[std::size_t(p.right)];
+    fmt::print(
+        "  {:5.3f} {:5.3f} ({:6.0f},{:6.0f},{:6.0f}) ({:6.0f},{:6.0f},{:6.0f}) {:5.0f} deg {:5.0f},{:5.0f} deg "
+        "{:4.0f},{:4.0f} "
+        "deg {:5.2f},{:5.2f} {:9.0f}{}\n",
+        p.rank, p.score, 1e3 * l.place.x, 1e3 * l.place.y, 1e3 * l.place.z, 1e3 * r.place.x, 1e3 * r.place.y,
+        1e3 * r.place.z, to_degrees(p.manipulation), to_degrees(l.azimuth), to_degrees(r.azimuth),
+        to_degrees(l.elevation), to_degrees(r.elevation), l.lever, r.lever,
+        1e3 * std::min(p.clearance, p.patient_clearance),
+        p.with_arms ? fmt::format("  {:.2f}, {:.0f}", p.arms_reach, 1e3 * p.arms_clearance) : "");
+  }
+  if (!good) fmt::print("  no pair of places reaches the target clear of each other and the patient\n");
+  if (out.contains("report")) fmt::print("  {}\n", out["report"].get<std::string>());
+  return good ? core::kDone : core::kGoalNotReached;
+}
+
+}  // namespace trocar::app
