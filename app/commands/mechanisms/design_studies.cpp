@@ -7,10 +7,12 @@
 
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/files.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/reports/design_page.hpp>
 #include <trocar/scene/files/library.hpp>
 #include <trocar/scene/json/shape.hpp>
+#include <trocar/scene/mechanisms/mechanism_file.hpp>
 #include <trocar/studies/clearance.hpp>
 #include <trocar/studies/optimise.hpp>
 
@@ -133,6 +135,17 @@ const char* file_unit(const Parameter& p) {
   return p.measure == Measure::angle ? "deg" : p.measure == Measure::length ? "mm" : "";
 }
 
+/// @return where it was written to
+std::string write_optimised(const DesignOptions& o, const std::vector<double>& values) {
+  if (o.path.extension() != ".json")
+    throw core::BadInput(
+        {{{"--output", 0, 0}, fmt::format("expected a mechanism in JSON, got {}", o.path.generic_string())}});
+  const std::string text = scene::mechanism_text_with(core::read_file(o.path, scene::kMaxJsonBytes), values);
+  if (const std::string fault = core::write_file(o.output, text.data(), text.size()); !fault.empty())
+    throw core::EnvironmentLacks(fmt::format("{} cannot be written: {}", o.output, fault));
+  return o.output;
+}
+
 }  // namespace
 
 void add_design_options(CLI::App& c, DesignOptions& o) {
@@ -151,6 +164,7 @@ void add_design_options(CLI::App& c, DesignOptions& o) {
   c.add_option("--keep", o.keep, "optimise: share of the range of --frame that must be left")
       ->check(number_between(0, 1, ""))
       ->capture_default_str();
+  c.add_option("--output", o.output, "optimise: writes the mechanism with the dimensions that were found to this file");
   c.add_option("--report", o.report, "tolerance, clearance, optimise: folder for a page with drawings");
 }
 
@@ -236,6 +250,7 @@ int show_optimised(const Mechanism& m, const DesignOptions& o, bool json) {
            {"tried", r.evaluations},
            {"starts", r.starts}};
   if (!page.empty()) out["page"] = page;
+  if (!o.output.empty()) out["file"] = write_optimised(o, r.values);
   if (json) {
     print(out);
   } else {

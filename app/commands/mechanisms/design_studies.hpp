@@ -1,6 +1,7 @@
 // The studies of `trocar mechanism`: tolerance, clearance, optimise.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct DesignOptions {
   bool strict = false;
   bool follows = false;  ///< a frame was named
   std::string report;    ///< folder; empty: none
+  std::string output;    ///< of optimise: the file that is written; empty: none
+  std::filesystem::path path;  ///< of the mechanism
 };
 void add_design_options(CLI::App& command, DesignOptions& options);
 

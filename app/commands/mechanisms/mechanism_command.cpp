@@ -15,6 +15,7 @@
 #include "commands/command.hpp"
 #include "commands/mechanisms/design_studies.hpp"
 #include "commands/number_options.hpp"
+#include "mechanisms/design_window.hpp"
 
 namespace trocar::app {
 namespace {
@@ -22,7 +23,7 @@ namespace {
 using namespace kinematics;
 
 struct MechanismWords {
-  std::string file, what = "pose", frame = "tip";
+  std::string file, what = "pose", frame = "tip", log;
   std::vector<std::string> sets, drives;
   int samples = 100'000;
   double cell_mm = 0;
@@ -206,12 +207,19 @@ int show_workspace(const Mechanism& m, const MechanismWords& given, bool json) {
 }
 
 int run_mechanism(const MechanismWords& given, bool json) {
-  const Mechanism m = build(scene::read_mechanism(mechanism_file(given.file)));
+  const std::filesystem::path file = mechanism_file(given.file);
+  const MechanismDescription description = scene::read_mechanism(file);
+  if (given.what == "design") {
+    run_design_window({file, description, given.frame, 1e-6 * given.design.clearance_um, given.log});
+    return core::kDone;
+  }
+  const Mechanism m = build(description);
   if (given.what == "pose") return show_pose(m, given, json);
   if (given.what == "workspace") return show_workspace(m, given, json);
   if (!given.sets.empty()) refuse_words(given.sets[0], "expected --drive with a study, got --set");
   DesignOptions design = given.design;
   design.study.file = given.file;
+  design.path = file;
   design.study.frame = given.frame;
   design.study.drives = given.drives;
   design.study.samples = given.samples;
@@ -228,8 +236,8 @@ void add_mechanism(CLI::App& program, Chosen& chosen) {
                   "trocar mechanism grasper pose --drive handle=0.5");
   c->add_option("file", given->file, "a mechanism's file (.json, .urdf), or its name under scenes/mechanisms")
       ->required();
-  c->add_option("what", given->what, "pose, workspace, tolerance, clearance or optimise")
-      ->check(CLI::IsMember({"pose", "workspace", "tolerance", "clearance", "optimise"}))
+  c->add_option("what", given->what, "pose, workspace, tolerance, clearance, optimise, or design: a window")
+      ->check(CLI::IsMember({"pose", "workspace", "tolerance", "clearance", "optimise", "design"}))
       ->capture_default_str();
   c->add_option("--set", given->sets, "a free coordinate, as NAME=DEGREES or NAME=MM; what is not set follows");
   c->add_option("--drive", given->drives, "an actuator, as NAME=0..1");
@@ -240,6 +248,7 @@ void add_mechanism(CLI::App& program, Chosen& chosen) {
       ->capture_default_str();
   c->add_option("--cell-mm", given->cell_mm, "workspace: edge of a cell, default a fortieth of what is reached")
       ->check(number_between(0.01, 1000, "mm"));
+  c->add_option("--log", given->log, "design: JSON lines of what happens in the window");
   add_design_options(*c, given->design);
   c->callback([=, &chosen] {
     given->design.follows = frame->count() > 0;

@@ -4,6 +4,7 @@
 
 #include <trocar/studies/design_desk.hpp>
 #include <trocar/studies/handles.hpp>
+#include <trocar/studies/shape_distance.hpp>
 
 namespace trocar::studies {
 
@@ -131,6 +132,16 @@ const std::optional<ClearanceReport>& DesignDesk::clearance() const {
     // its start does not close: words() says so
   }
   return m_clearance;
+}
+
+double DesignDesk::gap_now(const PairClearance& pair) const {
+  const int first = m_now.link_body[std::size_t(pair.first)], second = m_now.link_body[std::size_t(pair.second)];
+  double least = 1e9;
+  for (const BodyShape& a : m_now.shapes)
+    for (const BodyShape& b : m_now.shapes)
+      if (a.body == first && b.body == second)
+        least = std::min(least, studies::clearance(placed(a, pose()), placed(b, pose())));
+  return least;
 }
 
 std::vector<Vec3d> DesignDesk::path(int frame) const {

@@ -67,6 +67,8 @@ class DesignDesk {
 
   /// Over the whole motion, with these dimensions; nothing: it does not close at its start, or nothing leads it.
   const std::optional<ClearanceReport>& clearance() const;
+  /// How far those two links are apart as it stands; below 0: in each other. [m]
+  double gap_now(const PairClearance& pair) const;
   /// Where a frame goes while the first lead goes its way, the others being where they are. [m]
   std::vector<Vec3d> path(int frame) const;
 
