@@ -1,5 +1,6 @@
 #include "rooms/room_beside.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <trocar/core/error.hpp>
@@ -12,7 +13,8 @@ namespace trocar::app {
 namespace {
 
 constexpr double kSamePlace = 0.002;                // of a hand's trocar and an arm's port [m]
-constexpr std::chrono::milliseconds kBetween{100};  // pictures
+constexpr std::chrono::milliseconds kBetween{100};  // pictures, at least
+constexpr int kRest = 9;                            // times what the last one took: the simulation comes first
 constexpr int kRoomEye = 7;                         // exposure memory
 
 }  // namespace
@@ -55,8 +57,7 @@ void RoomBeside::follow(const sim::Model& model, const sim::State& state) {
 
 void RoomBeside::show(const sim::Model& model, const sim::State& state) {
   const auto now = std::chrono::steady_clock::now();
-  if (!m_window || now - m_shown < kBetween) return;
-  m_shown = now;
+  if (!m_window || now < m_next) return;
   if (m_window->wants_to_close()) return m_window.reset();
   follow(model, state);
   m_drawing->move(scenery_of(*m_room, m_pose));
@@ -65,6 +66,8 @@ void RoomBeside::show(const sim::Model& model, const sim::State& state) {
   frame.quality.samples = 1;
   render::draw_frame(m_backend, frame, m_canvas.target(m_window->width(), m_window->height()));
   m_window->show(m_canvas, {});
+  const auto done = std::chrono::steady_clock::now();
+  m_next = std::max(now + kBetween, done + kRest * (done - now));
 }
 
 }  // namespace trocar::app

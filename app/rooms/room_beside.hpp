@@ -27,7 +27,7 @@ class RoomBeside {
   RoomBeside(Window& main, render::Backend& backend, const std::string& room);
   ~RoomBeside();
 
-  /// At most ten times a second; not after somebody closed it.
+  /// At most ten times a second, and a tenth of the time; not after somebody closed it.
   void show(const sim::Model& model, const sim::State& state);
 
  private:
@@ -39,7 +39,7 @@ class RoomBeside {
   std::unique_ptr<view::RoomDrawing> m_drawing;
   PaneCanvas m_canvas;
   std::unique_ptr<SecondWindow> m_window;
-  std::chrono::steady_clock::time_point m_shown{};
+  std::chrono::steady_clock::time_point m_next{};
 };
 
 }  // namespace trocar::app
