@@ -12,10 +12,10 @@
 namespace trocar::app {
 namespace {
 
-constexpr double kSamePlace = 0.002;                // of a hand's trocar and an arm's port [m]
-constexpr std::chrono::milliseconds kBetween{100};  // pictures, at least
-constexpr int kRest = 9;                            // times what the last one took: the simulation comes first
-constexpr int kRoomEye = 7;                         // exposure memory
+constexpr double kSamePortBeside = 0.002;                // of a hand's trocar and an arm's port [m]
+constexpr std::chrono::milliseconds kRoomPictures{100};  // pictures, at least
+constexpr int kRestShare = 9;                            // times what the last one took: the simulation comes first
+constexpr int kRoomEye = 7;                              // exposure memory
 
 }  // namespace
 
@@ -48,7 +48,7 @@ RoomBeside::~RoomBeside() = default;
 void RoomBeside::follow(const sim::Model& model, const sim::State& state) {
   for (std::size_t a = 0; a < m_room->arms().size(); ++a)
     for (std::size_t h = 0; h < model.hands.size(); ++h) {
-      if (length(m_room->arms()[a].port - model.hands[h].port) > kSamePlace) continue;
+      if (length(m_room->arms()[a].port - model.hands[h].port) > kSamePortBeside) continue;
       const interactions::ToolState& t = state.tools[h];
       const kinematics::TipFrame tip = kinematics::forward(model.hands[h].port, {t.yaw, t.pitch, t.roll, t.depth});
       m_room->lead(m_pose, int(a), {tip.tip, true, tip.rotation});
@@ -67,7 +67,7 @@ void RoomBeside::show(const sim::Model& model, const sim::State& state) {
   render::draw_frame(m_backend, frame, m_canvas.target(m_window->width(), m_window->height()));
   m_window->show(m_canvas, {});
   const auto done = std::chrono::steady_clock::now();
-  m_next = std::max(now + kBetween, done + kRest * (done - now));
+  m_next = std::max(now + std::chrono::steady_clock::duration(kRoomPictures), done + kRestShare * (done - now));
 }
 
 }  // namespace trocar::app
