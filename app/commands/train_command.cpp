@@ -22,6 +22,7 @@
 #include "commands/command.hpp"
 #include "commands/number_options.hpp"
 #include "commands/team_options.hpp"
+#include "rooms/room_beside.hpp"
 #include "shell/event_log.hpp"
 #include "trainer/window_loop.hpp"
 
@@ -30,7 +31,7 @@ namespace {
 
 struct TrainChoice {
   std::string exercise, input = "mouse", record, shots, video, report, data, size, stereo = "off", show, analysis,
-                        trainee, log, beside, map, haptics, haptics_hand, tracker;
+                        trainee, log, beside, room, map, haptics, haptics_hand, tracker;
   double seconds = 0, data_rate = pictures::kDataRate;
   std::uint64_t seed = 0;
   bool headless = false, familiarisation = false, no_store = false;
@@ -147,6 +148,7 @@ WindowOptions window_options(const TrainChoice& o, training::Store* store,
   w.familiarisation = o.familiarisation;
   w.store = store;
   w.beside = o.beside;
+  w.room = o.room;
   if (!o.map.empty()) w.map = attempt::read_input_map(o.map);
   if (!o.tracker.empty()) w.tracker = attempt::read_tracker_plan(o.tracker);
   if (!o.team.roles.empty()) w.team = team_plan(o.team);
@@ -184,6 +186,10 @@ int train(const TrainChoice& o, bool json) {
     throw core::BadInput({{{"--beside", 0, 0},
                            "expected an exercise in a window with it; without one, trocar compare says how far both "
                            "solvers are apart"}});
+  if (!o.room.empty() && o.headless)
+    throw core::BadInput(
+        {{{"--room", 0, 0}, "expected a window with it; trocar room FILE follow RECORDING needs none"}});
+  if (!o.room.empty()) load_room(o.room);
   pictures::check_data_rate(o.data_rate);
   static_cast<void>(pictures::parse_stereo(o.stereo)), static_cast<void>(pictures::parse_show(o.show));
   static_cast<void>(pictures::parse_analysis(o.analysis));
@@ -239,6 +245,8 @@ void add_train(CLI::App& program, Chosen& chosen) {
   c->add_option("--seed", options->seed, "vary the anatomy by this number; 0: as drawn")
       ->capture_default_str()
       ->transform(whole_number(0, kLargestSeed));
+  c->add_option("--room", options->room,
+                "in the window: an operating room beside it, whose arms carry the instruments (see trocar room)");
   c->add_option("--beside", options->beside,
                 "in the window: this organ's other solver runs beside, and the analysis shows how far both are apart");
   c->add_option("--haptics", options->haptics,

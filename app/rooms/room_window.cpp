@@ -135,10 +135,10 @@ class RoomWindow {
     if (m_window.keys().back) m_quit = true;
     if (ImGui::GetIO().WantTextInput) return;
     for (const TypedKey& k : m_window.typed()) {
-      if (k.key == GLFW_KEY_UP) tilt(kTiltStep, 0);
-      if (k.key == GLFW_KEY_DOWN) tilt(-kTiltStep, 0);
-      if (k.key == GLFW_KEY_LEFT) tilt(0, kTiltStep);
-      if (k.key == GLFW_KEY_RIGHT) tilt(0, -kTiltStep);
+      if (k.key == GLFW_KEY_W) tilt(kTiltStep, 0);
+      if (k.key == GLFW_KEY_S) tilt(-kTiltStep, 0);
+      if (k.key == GLFW_KEY_A) tilt(0, kTiltStep);
+      if (k.key == GLFW_KEY_D) tilt(0, -kTiltStep);
       if (k.key == GLFW_KEY_SPACE) m_plays = !m_plays && m_motion.has_value();
       if (k.key == GLFW_KEY_R) m_shows_reach = !m_shows_reach, m_stale = true;
       if (k.key == GLFW_KEY_C) m_shows_gaps = !m_shows_gaps, m_stale = true;
@@ -260,7 +260,8 @@ class RoomWindow {
     if (!m_said.empty()) ui::text(m_said, ui::kOrange);
     ui::heading("Keys");
     ui::text(
-        "arrows: tilt the table   drag: turn   shift: move   wheel: nearer   drag a port: move it   1-4: views   R, C: "
+        "W S: head down, up   A D: left, right side down   drag: turn   shift: move   wheel: nearer   drag a port: "
+        "move it   1-4: views   R, C: "
         "reach, clearance   space: play   Esc: close",
         ui::kGrey);
     ImGui::End();

@@ -406,6 +406,7 @@ void AttemptWindow::draw_scene(const attempt::Snapshot& now) {
   m_stage.show_elsewhere(choice, m_panes.canvas_elsewhere(),
                          choice.elsewhere ? m_panes.legend_of_pane(*choice.elsewhere) : view::Legend{});
   if (!choice.elsewhere) m_stage.settings.views.elsewhere.reset();
+  if (m_stage.room) m_stage.room->show(m_lesson.model, now.state);
   tell_views(choice);
   ui::set_middle(float(width));
   const PanelContent content{m_lesson,

@@ -38,6 +38,7 @@ TrainerWindow::TrainerWindow(const WindowOptions& o)
   if (!o.trainee.empty()) settings.trainee = training::clean_name(o.trainee);
   apply_settings();
   core::log::info("drawing with {}", context->description());
+  if (!o.room.empty()) room = std::make_unique<RoomBeside>(window, *backend, o.room);
 }
 
 TrainerWindow::~TrainerWindow() {

@@ -11,6 +11,7 @@
 #include <trocar/render/gl/gl_context.hpp>
 #include <trocar/view/scene/scene_view.hpp>
 
+#include "rooms/room_beside.hpp"
 #include "shell/event_log.hpp"
 #include "shell/second_window.hpp"
 #include "shell/settings.hpp"
@@ -38,6 +39,7 @@ class TrainerWindow {
   EventLog log;
   Sound sound;
   ReportOpener reports;
+  std::unique_ptr<RoomBeside> room;  ///< null: none is shown
 
   bool wants_to_close() const;
   /// The view of this lesson's scene; made anew where it is another lesson than last time.

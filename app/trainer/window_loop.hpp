@@ -32,6 +32,7 @@ struct WindowOptions {
   std::optional<attempt::TrackerPlan> tracker;          ///< whose tools lead some of it; nothing: there is none
   std::optional<attempt::TeamPlan> team;                ///< whoever plays along; nothing: nobody
   std::shared_ptr<attempt::TeamMember> member;          ///< this is a part in somebody else's attempt; null: it is not
+  std::string room;                                     ///< an operating room, in a window of its own; empty: none
   std::string haptics;       ///< device that leads a hand (devices/haptics/choose_device.hpp); empty: none
   std::string haptics_hand;  ///< that it leads, by its trocar; empty, or not there: the right one
 };

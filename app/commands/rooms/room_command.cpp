@@ -2,36 +2,17 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/scene/files/library.hpp>
 #include <trocar/scene/operating_room/room_file.hpp>
 
 #include "commands/command.hpp"
 #include "commands/number_options.hpp"
 #include "commands/rooms/room_answers.hpp"
 #include "commands/rooms/room_follow.hpp"
+#include "rooms/room_beside.hpp"
 #include "rooms/room_window.hpp"
 
 namespace trocar::app {
 namespace {
-
-/// A path, or a name under scenes/rooms.
-std::filesystem::path room_path(const std::string& name, const char* folder) {
-  std::error_code error;
-  const auto scenes = scene::found_scenes_folder();
-  if (std::filesystem::exists(name, error) || !scenes) return name;
-  const std::filesystem::path shipped = *scenes / folder / (name + ".json");
-  return std::filesystem::exists(shipped, error) ? shipped : std::filesystem::path(name);
-}
-
-studies::RoomModel build_model(const std::string& file) {
-  const std::filesystem::path path = room_path(file, "rooms");
-  scene::Room room = scene::read_room(path);
-  try {
-    return studies::RoomModel(std::move(room));
-  } catch (const std::invalid_argument& bad) {
-    throw core::BadInput({{{path.generic_string(), 0, 0}, bad.what()}});
-  }
-}
 
 /// The room in a window, with a programme where one is named.
 int show_room(const RoomWords& given) {
@@ -46,7 +27,8 @@ int show_room(const RoomWords& given) {
 
 int run_room(const RoomWords& given, bool json) {
   if (given.what == "show" && given.shots.empty()) return show_room(given);
-  const studies::RoomModel model = build_model(given.file);
+  const std::unique_ptr<studies::RoomModel> loaded = load_room(given.file);
+  const studies::RoomModel& model = *loaded;
   if (given.what == "pose" || given.what == "show") return answer_pose(model, given, json);
   if (given.what == "plan") return answer_plan(model, given, json);
   if (given.with.empty())

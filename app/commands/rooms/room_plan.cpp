@@ -140,7 +140,7 @@ int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
     for (const reports::RoomPicture& p : shown) out["pictures"].push_back(folder + "/" + p.file);
   }
   if (!words.out.empty()) out["report"] = reports::write_room_page(words.out, reports::plan_html(model, plan, shown));
-  const bool good = !plan.pairs.empty();
+  const bool good = !plan.pairs.empty() && plan.pairs[0].rank > 0;
   if (json) {
     print(out);
     return good ? core::kDone : core::kGoalNotReached;
@@ -163,7 +163,7 @@ int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
         1e3 * std::min(p.clearance, p.patient_clearance),
         p.with_arms ? fmt::format("  {:.2f}, {:.0f}", p.arms_reach, 1e3 * p.arms_clearance) : "");
   }
-  if (!good) fmt::print("  no pair of places reaches the target clear of each other and the patient\n");
+  if (!good) fmt::print("  no pair of places does: none reaches the target, clear of each other and the patient\n");
   if (out.contains("report")) fmt::print("  {}\n", out["report"].get<std::string>());
   return good ? core::kDone : core::kGoalNotReached;
 }

@@ -43,11 +43,11 @@ class RoomReading {
   Room read(const std::filesystem::path* folder, const Library* library, const MemoryFiles* memory) {
     room.name = m_file.text("name");
     room.title = m_file.text("title");
-    room.scene = m_file.text("scene");
+    room.scene = m_file.text("ports_of");
     room.margin = kMm * m_file.number("margin_mm", 5);
     for (const JsonObject& o : m_file.objects("patient")) patient(o);
     for (const JsonObject& o : m_file.objects("table")) table(o);
-    if (folder && m_file.has("scene")) take_scene(*folder, *library, memory);
+    if (folder && m_file.has("ports_of")) take_scene(*folder, *library, memory);
     for (const JsonObject& o : m_file.objects("ports")) port(o);
     for (const JsonObject& o : m_file.objects("staff")) person(o);
     for (const JsonObject& o : m_file.objects("instruments")) instrument(o);
@@ -193,7 +193,7 @@ class RoomReading {
   }
   void take_scene(const std::filesystem::path& folder, const Library& library, const MemoryFiles* memory) {
     const std::filesystem::path path = (folder / room.scene).lexically_normal();
-    if (!allowed(m_file.at("scene"), room.scene, path, library, memory)) return;
+    if (!allowed(m_file.at("ports_of"), room.scene, path, library, memory)) return;
     try {
       for (const Port& p : read_scene(path, memory).ports) room.ports.push_back({p.name, p.position, p.diameter, p.at});
       m_scene_known = true;

@@ -122,7 +122,7 @@ const Shape& room_shape() {
       "patient's frame with the table level: umbilicus, x to the patient's left, y to the head, z to the front.",
       {keys::text("$schema", "where editors find this kind of file's schema"), keys::format(1),
        needed(keys::name("name", "of the room")), keys::text("title", "one line for people"),
-       keys::text("scene", "a scene whose ports are here, too; from this file on"),
+       keys::text("ports_of", "a scene whose ports are here, too; from this file on"),
        keys::object("patient", room_patient_keys, "default: as its keys say"),
        keys::object("table", room_table_keys, "default: as its keys say"),
        bounded_list(keys::objects("ports", room_port_keys, 0, "beside those of the scene"), kMostPorts),

@@ -157,13 +157,14 @@ MeshBuffer drape_mesh(const Scenery& s) {
 }
 
 MeshBuffer skin_mesh(const Scenery& s) {
-  constexpr double kFine = 0.004;
+  constexpr double kFine = 0.004, kUnder = 0.028;  // under the cloth's edge [m]
   MeshBuffer b;
   const Colour plain{206, 150, 116}, warm{188, 128, 92};  // as disinfected
-  const int nx = int(2 * (kWindowSide + 0.008) / kFine) + 1, ny = int((kWindowHigh - kWindowLow + 0.016) / kFine) + 1;
+  const int nx = int(2 * (kWindowSide + kUnder) / kFine) + 1,
+            ny = int((kWindowHigh - kWindowLow + 2 * kUnder) / kFine) + 1;
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i) {
-      const double x = -kWindowSide - 0.008 + i * kFine, y = kWindowLow - 0.008 + j * kFine;
+      const double x = -kWindowSide - kUnder + i * kFine, y = kWindowLow - kUnder + j * kFine;
       double z = s.figure.front(x, y);
       const double navel = std::sqrt(x * x / 1.2 + y * y);
       z -= 0.007 * std::exp(-navel * navel / (2 * 0.006 * 0.006));

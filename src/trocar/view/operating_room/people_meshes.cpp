@@ -59,9 +59,9 @@ MeshBuffer person_mesh(const Scenery::Person& p, double floor) {
   // neck, head, cap, mask
   const Colour skin{208, 160, 134};
   add_rod(b, at(0.004, 0, 0.845), at(0.010, 0, 0.885), 0.032 * h, 0.032 * h, skin);
-  add_rod(b, at(0.014, 0, 0.908), at(0.008, 0, 0.944), 0.044 * h, 0.052 * h, skin, 40);
-  add_rod(b, at(0.000, 0, 0.950), at(-0.004, 0, 0.957), 0.0595 * h, 0.0575 * h, gown, 40);
-  add_rod(b, at(0.022, 0, 0.897), at(0.024, 0, 0.916), 0.041 * h, 0.0395 * h, kMask, 40);
+  add_rod(b, at(0.014, 0, 0.908), at(0.008, 0, 0.944), 0.044 * h, 0.052 * h, skin, 72);
+  add_rod(b, at(0.001, 0, 0.955), at(-0.004, 0, 0.960), 0.0595 * h, 0.0575 * h, gown, 72);
+  add_rod(b, at(0.022, 0, 0.897), at(0.024, 0, 0.916), 0.041 * h, 0.0395 * h, kMask, 72);
   return b;
 }
 

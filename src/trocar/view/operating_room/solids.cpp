@@ -55,16 +55,16 @@ std::pair<Vec3d, Vec3d> across(Vec3d axis) {
 }
 
 void add_rod(MeshBuffer& b, Vec3d from, Vec3d to, double ra, double rb, Colour colour, int sides) {
-  constexpr int kRound = 8;
+  const int round = std::max(6, sides / 4);
   const double whole = length(to - from);
   const Vec3d axis = whole > 1e-9 ? (to - from) / whole : Vec3d{0, 0, 1};
   std::vector<LatheRing> rings{{-ra, 0}};
-  for (int k = 1; k <= kRound; ++k) {
-    const double a = portable::pi / 2 * k / kRound;
+  for (int k = 1; k <= round; ++k) {
+    const double a = portable::pi / 2 * k / round;
     rings.push_back({-ra * std::cos(a), ra * std::sin(a)});
   }
-  for (int k = 0; k < kRound; ++k) {
-    const double a = portable::pi / 2 * k / kRound;
+  for (int k = 0; k < round; ++k) {
+    const double a = portable::pi / 2 * k / round;
     rings.push_back({whole + rb * std::sin(a), rb * std::cos(a)});
   }
   rings.push_back({whole + rb, 0});
