@@ -296,7 +296,9 @@ Needles needles_of(const ToolShape& before, const ToolShape& now, bool blunt, do
   Needles r;
   const Capsule &s0 = before.part[kShaft], &s1 = now.part[kShaft];
   if (!(length(s0.b - s0.a) > 0) || !(length(s1.b - s1.a) > 0)) return r;
-  r.needle[r.count++] = needle_of(s0.a, before.pivot, s1.a, now.pivot);
+  r.needle[r.count++] = needle_of(s0.a, s0.b, s1.a, s1.b);
+  for (int i = 0; i < now.links && i < before.links; ++i)
+    r.needle[r.count++] = needle_of(before.link[i].a, before.link[i].b, now.link[i].a, now.link[i].b);
   const auto add = [&](int part) {
     const Capsule &j0 = before.part[part], &j1 = now.part[part];
     r.needle[r.count++] = needle_of(j0.a, j0.b, j1.a, j1.b);

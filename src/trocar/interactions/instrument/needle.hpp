@@ -36,10 +36,11 @@ struct Needle {
   Vec3d carried(Vec3d p) const noexcept { return p + (end1 - end0) - dot(end0 - p, dir0) * (dir1 - dir0); }
 };
 
-/// An instrument's axes: of the shaft, and of closed jaws in one line or of each jaw that is hardly open, or of a
-/// hook's wire. Jaws that are wide open have none, nor has a hook's foot: what they hook could never come off.
+/// An instrument's axes: of the shaft and what bends before it, and of closed jaws in one line or of each jaw that is
+/// hardly open, or of a hook's wire. Jaws that are wide open have none, nor has a hook's foot: what they hook could
+/// never come off.
 struct Needles {
-  Needle needle[3];
+  Needle needle[3 + kinematics::kMaxLinks];
   int count = 0;
 };
 /// @param blunt  the jaws count, not the shaft alone. Legs of clip appliers and blades of scissors do not
