@@ -108,8 +108,8 @@ const std::vector<std::string>& button_names();
 /// has wrist axes: another device may (attempt/inputs/input_map.hpp).
 struct Gamepad {
   float left_x = 0, left_y = 0, right_x = 0, right_y = 0, left_trigger = 0, right_trigger = 0;
-  float wrist_x = 0, wrist_y = 0;
   std::uint32_t buttons = 0;
+  float wrist_x = 0, wrist_y = 0;
 
   constexpr bool has(Button b) const noexcept { return (buttons >> int(b)) & 1; }
   constexpr void set(Button b, bool on = true) noexcept {

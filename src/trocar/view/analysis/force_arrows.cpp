@@ -27,7 +27,6 @@ void add_grip(const sim::Model& model, const sim::State& state, int hand, std::v
 }
 
 void add_touches(const sim::Model& model, const sim::State& state, int hand, std::vector<ForceArrow>& to) {
-  const interactions::ToolState& tool = state.tools[std::size_t(hand)];
   const interactions::ToolShape shape = sim::shape_of(model, state, std::size_t(hand));
   const interactions::TouchBook& book = state.touches[std::size_t(hand)];
   for (int i = 0; i < book.count; ++i)
