@@ -10,7 +10,7 @@ namespace trocar::kinematics {
 namespace {
 
 constexpr int kShaftCoordinates = 4;
-constexpr int kMostCoordinates = kShaftCoordinates + kMaxJoints;
+constexpr int kArmCoordinates = kShaftCoordinates + kMaxJoints;
 constexpr int kRows = 6;
 constexpr double kShortest = 1e-9;    // [m] a piece of the chain that counts as none
 constexpr double kMetre = 20;         // a radian weighs as 50 mm do
@@ -22,7 +22,7 @@ constexpr double kFarthest = 0.5;     // scaled error that a round answers to
 /// Motion of the tip by one coordinate: turn, and way in scaled metres.
 using Column = std::array<double, kRows>;
 struct Slopes {
-  std::array<Column, kMostCoordinates> by{};
+  std::array<Column, kArmCoordinates> by{};
   int count = 0;
 };
 
@@ -107,7 +107,7 @@ void solve(double (&a)[kRows][kRows], Column& b) noexcept {
   }
 }
 
-using Coordinates = std::array<double, kMostCoordinates>;
+using Coordinates = std::array<double, kArmCoordinates>;
 
 /// The step W Jt (J W Jt + damping)^-1 (e - J z) + z: towards e, and along z where e does not care.
 Coordinates step_of(const Slopes& s, const Coordinates& weight, const Column& error, const Coordinates& along,

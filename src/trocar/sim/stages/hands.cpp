@@ -68,7 +68,8 @@ bool holds_open_bag(const StepContext& c, size_t t) noexcept {
 }
 
 /// Joints go where the hand wants them; what of its pose the instrument makes of that goes into the command.
-void bend(StepContext& c, size_t t, const WristInput& wrist, interactions::ToolCommand& command) noexcept {
+void bend(StepContext& c, size_t t, interactions::ToolCommand& command) noexcept {
+  const WristInput& wrist = c.input.wrists[t];
   kinematics::Joints& joints = c.state.joints[t];
   const kinematics::Arm arm = interactions::wanted_arm(
       c.model.tool(c.state, t), command.pose, {double(wrist.pitch), double(wrist.yaw)}, c.state.tools[t], joints);
@@ -83,16 +84,19 @@ void move_hand(StepContext& c, size_t t) noexcept {
   const bool known = in.instrument >= 0 && size_t(in.instrument) < c.model.hands[t].rack.size();
   if (!known) c.report.flags |= StepReport::kBadInput;
   interactions::ToolCommand command{pose_of(in), double(in.handle)};
-  WristInput wrist = c.input.wrists[t];
   if (known && in.instrument != tool.instrument) {
     // An empty hand opens its jaws; a bag's mouth is shut before it is drawn out.
     command = {tool.pose(), c.model.tool(c.state, t).can().bag ? 1.0 : 0.0};
-    wrist = {};
     const bool free = tool.holds == 0 && !holds_open_bag(c, t) && !joints_of(c.state, t).bent();
     if (free) command.pose.depth = kParked;
     if (free && tool.depth <= kParked) change_instrument(c, t, in.instrument);
   }
-  if (c.model.tool(c.state, t).bends.bends()) bend(c, t, wrist, command);
+  if (c.model.tool(c.state, t).bends.bends()) {
+    if (known && in.instrument != tool.instrument)
+      interactions::follow_joints({}, kTick, c.state.joints[t]);  // straight before it is drawn back
+    else
+      bend(c, t, command);
+  }
   const kinematics::FulcrumPose wanted = command.pose, before = tool.pose();
   // At a wall the way in is of no use: most of the speed goes along it.
   if (c.state.touches[t].near(BodyId::wall(), 0))
