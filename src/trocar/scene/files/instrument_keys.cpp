@@ -93,7 +93,9 @@ std::vector<Row<Instrument>> instrument_rows() {
       mechanism_row<I>("mechanism", &I::linkage,
                        "a file of a mechanism, relative to this one: jaws go as its linkage says, and open as far; "
                        "default: as the handle"),
-      R::text("handle", &I::handle, "the mechanism's actuator that is the handle, default {}"),
+      R::text("handle", &I::handle, "the mechanism's actuator that is the handle, default {}").only([](const I& i) {
+        return !i.linkage.file.empty();
+      }),
       R::object("wrist", wrist, &I::wrist, "default: it is rigid").only([](const I& i) { return i.wrist.there; })};
 }
 
