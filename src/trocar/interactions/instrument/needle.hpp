@@ -40,8 +40,10 @@ struct Needle {
 /// hardly open, or of a hook's wire. Jaws that are wide open have none, nor has a hook's foot: what they hook could
 /// never come off.
 struct Needles {
-  Needle needle[3 + kinematics::kMaxLinks];
+  static constexpr int kMost = 3 + kinematics::kMaxLinks;
+  Needle needle[kMost];
   int count = 0;
+  int links = 0;  ///< of these, after the shaft's; like it they count for what jaws hold, too
 };
 /// @param blunt  the jaws count, not the shaft alone. Legs of clip appliers and blades of scissors do not
 ///               (Abilities::blunt): they come astride of a tube whose fold lies across their way, and would push both
