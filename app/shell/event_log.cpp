@@ -122,18 +122,17 @@ void EventLog::pose(const sim::Model& model, const attempt::Snapshot& now, int l
   for (std::size_t h = 0; h < model.hands.size(); ++h) {
     const interactions::ToolState& tool = state.tools[h];
     const interactions::ToolModel& held = model.tool(state, h);
-    const kinematics::TipFrame frame = kinematics::forward(held.port, tool.pose());
-    const interactions::ToolShape shape = interactions::shape_of(held, tool.pose(), tool.aperture);
+    const interactions::ToolShape shape = sim::shape_of(model, state, h);
     Json rack = Json::array();
     for (const interactions::ToolModel& t : model.hands[h].rack) rack.push_back(t.name);
     tools.push_back({{"name", model.hands[h].name},
                      {"instrument", held.name},
                      {"rack", rack},
                      {"port_mm", millimetres(held.port)},
-                     {"tip_mm", millimetres(frame.tip)},
+                     {"tip_mm", millimetres(shape.frame.tip)},
                      {"pivot_mm", millimetres(shape.pivot)},
-                     {"shaft", direction(frame.axis())},
-                     {"opening", direction(frame.opening())},
+                     {"shaft", direction(shape.frame.axis())},
+                     {"opening", direction(shape.frame.opening())},
                      {"depth_mm", 1000 * tool.depth},
                      {"jaw_mm", 1000 * held.jaw_length},
                      {"clip_mm", 1000 * held.clip_length},

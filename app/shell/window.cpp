@@ -75,6 +75,12 @@ constexpr KeyPair kKeys[] = {
     {GLFW_KEY_D, devices::Key::d},
     {GLFW_KEY_T, devices::Key::t},
     {GLFW_KEY_K, devices::Key::k},
+    {GLFW_KEY_I, devices::Key::i},
+    {GLFW_KEY_J, devices::Key::j},
+    {GLFW_KEY_L, devices::Key::l},
+    {GLFW_KEY_M, devices::Key::m},
+    {GLFW_KEY_U, devices::Key::u},
+    {GLFW_KEY_O, devices::Key::o},
 };
 
 /// The size that was asked for, or what the monitor has room for.

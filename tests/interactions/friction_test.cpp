@@ -44,7 +44,7 @@ struct Rubbing {
     on_tissue += force;
   }
   void done() {
-    remember(ToolState{}, next, book);
+    remember(ToolState{}, {}, next, book);
     before = now;
   }
 };

@@ -46,6 +46,36 @@ sim::Model with_grasper(double pinch, double friction) {
   return scene::compile(d);
 }
 
+/// A linkage that closes quickly first: 1 - 1.4 h + 0.4 h^2.
+LinkageModel quick_linkage() {
+  LinkageModel l;
+  l.there = true;
+  for (int k = 0; k <= kLinkageSteps; ++k) {
+    const double h = double(k) / kLinkageSteps;
+    l.aperture[k] = (1 - h) * (1 - 0.4 * h);
+    l.leverage[k] = 0.6 / (1.4 - 0.8 * h);
+  }
+  return l;
+}
+
+TEST(Grasp, ALinkageSaysHowFarJawsGoAndHowHardTheyPinch) {
+  sim::Model m = with_grasper(20, 1.67);
+  for (ToolModel& tool : m.hands[kGrasper].rack) tool.linkage = quick_linkage();
+  {
+    small::Table t(m);
+    t.close_slowly(kGrasper, 0.5, 200);
+    t.steps(200);
+    EXPECT_NEAR(t.tool(kGrasper).aperture, 0.4, 1e-4) << "nothing between them";
+  }
+  const Grip g(m, 1);
+  const ToolState& tool = g.tool(kGrasper);
+  ASSERT_GT(tool.holds, 0);
+  const double stop = tool.aperture, left = 1 - handle_of(quick_linkage(), stop);
+  EXPECT_GT(stop, 0.02);
+  EXPECT_NEAR(tool.pinch, 20 * leverage_at(quick_linkage(), stop) * std::min(1.0, left / std::max(left, 0.05)), 1e-9);
+  EXPECT_LT(leverage_at(quick_linkage(), stop), 1);
+}
+
 TEST(Grasp, ClosingJawsHoldWhatLiesBetweenThem) {
   const Grip g;
   const ToolState& tool = g.tool(kGrasper);

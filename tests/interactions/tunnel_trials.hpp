@@ -306,7 +306,7 @@ class Trials {
     sim::Input input = m_model.start;
     s.tools[0].aperture = 0;
     put(s, input, m, m.far);
-    interactions::start_here(s.tools[0], s.touches[0]);
+    interactions::start_here(s.tools[0], {}, s.touches[0]);
     std::fill(m_net.begin(), m_net.end(), 0);
     std::vector<Vec3d> before = points(s);
     Segment axis_before = axis_at(m, m.far);

@@ -315,6 +315,7 @@ Lively lively_bag() {
   return l;
 }
 
+const Model& reach_model() { return shipped("box_reach"); }
 const Model& pegs_model() { return shipped("peg_transfer"); }
 
 // ---- Poison -----------------------------------------------------------------------------------------------------
@@ -410,7 +411,7 @@ TEST(Fields, EveryFieldOfAStateThatIsListedCountsInItsHash) {
   Changes::Fields changed, listed;
   State states[] = {lively_everything().state,   lively_small(2600).state,        initial_state(gallbladder_model()),
                     initial_state(pegs_model()), initial_state(small::statics()), initial_state(calot_model()),
-                    lively_bag().state};
+                    lively_bag().state,          initial_state(reach_model())};
   states[2].bonds.emplace_back(1);
   states[2].declaring = 1;  // hashed only while the key is down
   for (State& state : states) {
@@ -424,8 +425,9 @@ TEST(Fields, EveryFieldOfAStateThatIsListedCountsInItsHash) {
 TEST(Fields, EveryFieldOfAModelThatIsListedCountsInItsSeal) {
   Changes::Fields changed, listed;
   for (const bool grows : {false, true})
-    for (const Model* m : {&everything_model(), &small::model(), &digestive_model(), &gallbladder_model(),
-                           &pegs_model(), &small::statics(), &calot_model(), &spill_model(), &operation_model()}) {
+    for (const Model* m :
+         {&everything_model(), &small::model(), &digestive_model(), &gallbladder_model(), &pegs_model(),
+          &small::statics(), &calot_model(), &spill_model(), &operation_model(), &reach_model()}) {
       Model model = *m;
       model.vessels.bleeder.vessel = 0;  // what no scene has is hashed as well where it is there
       model.wet.pool_at_start.saline = 1;

@@ -77,6 +77,9 @@ void blend(const sim::Model& model, const sim::State& a, const sim::State& b, do
                interactions::part_of<K>(out.objects));
   });
   for (std::size_t t = 0; t < out.tools.size(); ++t) blend_tool(a.tools[t], b.tools[t], f, out.tools[t]);
+  for (std::size_t t = 0; t < out.joints.size(); ++t)
+    for (int j = 0; j < kinematics::kMaxJoints; ++j)
+      out.joints[t].angle[j] = mixed(a.joints[t].angle[j], b.joints[t].angle[j], f);
   blend_scope(a.scope, b.scope, f, out.scope);
   blend_lens(a.fluids.smoke, b.fluids.smoke, f, out.fluids.smoke);
 }

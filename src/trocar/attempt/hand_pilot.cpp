@@ -60,6 +60,7 @@ void HandPilot::take(int instrument) {
   if (m_input.tools[hand].instrument == instrument) return;
   m_input.tools[hand].instrument = instrument;
   m_input.tools[hand].depth = float(kParked);
+  m_input.wrists[hand] = {};
   m_hands.state.handle[size_t(hand)] = 0;
   m_hands.state.ratchet[size_t(hand)] = false;
   m_inserting[size_t(hand)] = false;
@@ -82,6 +83,7 @@ const sim::Input& HandPilot::lead(const devices::HandSample& sample, const sim::
   for (int h = 0; h < hand_count(m_model); ++h) {
     m_hands.state.valves[size_t(h)] = has_valves(m_model, state, h);
     m_hands.state.electrode[size_t(h)] = is_bare_electrode(m_model, state, h);
+    m_hands.state.wrist[size_t(h)] = h < int(m_model.hands.size()) && m_model.tool(state, size_t(h)).bends.bends();
   }
   const kinematics::ScopeFrame view = sim::scope_of(m_model, state);
   m_asks_for_rack = false;
@@ -145,16 +147,39 @@ void HandPilot::move_tool(const devices::HandCommand& command, const kinematics:
   const bool moved = command.tip.right != 0 || command.tip.up != 0 || command.tip.in != 0;
   if (m_inserting[size_t(command.led)] && !moved) return;
   m_inserting[size_t(command.led)] = false;
-  const Vec3d is_at = kinematics::forward(tool.port, state.tools[size_t(command.led)].pose()).tip;
+  // Of an instrument that bends, too, the straight one's tip is led; a redundant one's has another pose for it.
+  const Vec3d is_at = tool.bends.redundant()
+                          ? sim::tip_frame_of(m_model, state, size_t(command.led)).tip
+                          : kinematics::forward(tool.port, state.tools[size_t(command.led)].pose()).tip;
   const kinematics::TipFrame commanded = kinematics::forward(tool.port, pose_of(input));
   Vec3d tip = commanded.tip + as_vector(devices::in_space(command.tip, as_array(view.right), as_array(view.up),
                                                           as_array(commanded.axis())));
   const double ahead = length(tip - is_at);
   if (ahead > kLeash) tip = is_at + (kLeash / ahead) * (tip - is_at);
+  if (tool.bends.bends()) bend_tool(command.wrist, tool, commanded, view, m_input.wrists[command.led]);
   // Clockwise as the hand sees it is against the sense of the fulcrum's roll, whose axis points back to the hand.
   const double roll = double(input.roll) - double(command.roll);
   input = sim::tool_input(kinematics::clamped(kinematics::inverse(tool.port, tip, roll), tool.limits), input.handle,
                           input.instrument);
+}
+
+/// Up in the picture is up, however the instrument is rolled.
+void HandPilot::bend_tool(const devices::WristMotion& motion, const interactions::ToolModel& tool,
+                          const kinematics::TipFrame& straight, const kinematics::ScopeFrame& view,
+                          sim::WristInput& wrist) {
+  constexpr double kMostTurned = 1.4;  // [rad] of a redundant instrument's tip
+  if (motion.straighten) {
+    wrist = {};
+    return;
+  }
+  const Vec3d way = double(motion.right) * view.right + double(motion.up) * view.up;
+  const auto within = [&](int joint, double angle) {
+    const kinematics::Articulation& bends = tool.bends;
+    if (bends.redundant()) return float(std::clamp(angle, -kMostTurned, kMostTurned));
+    return joint < bends.joints ? float(std::clamp(angle, bends.low[joint], bends.high[joint])) : 0.0f;
+  };
+  wrist.pitch = within(0, double(wrist.pitch) + dot(way, straight.normal()));
+  wrist.yaw = within(1, double(wrist.yaw) - dot(way, straight.opening()));
 }
 
 void HandPilot::move_scope(const devices::ScopeMotion& motion, const kinematics::ScopeFrame& view) {
@@ -174,13 +199,15 @@ void HandPilot::move_scope(const devices::ScopeMotion& motion, const kinematics:
 
 namespace {
 
-/// The scope's five coordinates, then each hand's five.
+/// The scope's five coordinates, then each hand's five, then their wrists' two.
 template <class Input, class F>
 void for_coordinates(Input& input, F&& f) {
   for (auto* c : {&input.scope.yaw, &input.scope.pitch, &input.scope.roll, &input.scope.depth, &input.scope.post})
     f(*c);
   for (auto& t : input.tools)
     for (auto* c : {&t.yaw, &t.pitch, &t.roll, &t.depth, &t.handle}) f(*c);
+  for (auto& w : input.wrists)
+    for (auto* c : {&w.pitch, &w.yaw}) f(*c);
 }
 
 }  // namespace

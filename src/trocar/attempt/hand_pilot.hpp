@@ -55,6 +55,9 @@ class HandPilot {
   int waiting(int led, const sim::State& state) const;
   void insert(int hand);
   void move_tool(const devices::HandCommand& command, const kinematics::ScopeFrame& view, const sim::State& state);
+  static void bend_tool(const devices::WristMotion& motion, const interactions::ToolModel& tool,
+                        const kinematics::TipFrame& straight, const kinematics::ScopeFrame& view,
+                        sim::WristInput& wrist);
   void move_scope(const devices::ScopeMotion& motion, const kinematics::ScopeFrame& view);
   void move_in(int hand, float dt, const sim::State& state);
   void go_on(float dt, const sim::State& state);
@@ -77,7 +80,7 @@ class SmoothInput {
   sim::Input step(const sim::Input& target);
 
  private:
-  static constexpr std::size_t kCoordinates = 5 * (1 + sim::kMaxTools);
+  static constexpr std::size_t kCoordinates = 5 + 7 * sim::kMaxTools;
   devices::Follower<kCoordinates> m_follower;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr HelpLine kHelpBoth[] = {
     {Device::keyboard, "mouse", "leads one hand as it does alone"},
-    {Device::keyboard, "arrows, W S, Q E, G, Space, A D", "the other hand, as they do alone"},
+    {Device::keyboard, "arrows, W S, Q E, I M J L, G, Space, A D", "the other hand, as they do alone"},
     {Device::keyboard, "Tab", "exchange the hands of mouse and keys"},
     {Device::keyboard, "1 2 3 4", "this hand for the mouse; a third one takes its hand's place"},
     {Device::keyboard, "0 C", "the endoscope for mouse and keys, until Tab or a number"},
@@ -17,6 +17,7 @@ constexpr HelpLine kHelpBoth[] = {
     {Device::mouse, "side buttons", "mouse: left hand, right hand, endoscope"},
     {Device::gamepad, "left, right stick", "tip of the left, of the right hand"},
     {Device::gamepad, "with its shoulder held", "up, down: deeper, back; sideways: roll"},
+    {Device::gamepad, "with A held", "bend the wrists of instruments that have one"},
     {Device::gamepad, "left, right trigger", "close the left, the right jaws; suction; a hook coagulates"},
     {Device::gamepad, "cross left, right", "lock, unlock the left, the right jaws; water; a hook cuts"},
     {Device::gamepad, "cross up, down", "another hand in place of the one last used"},
@@ -74,12 +75,14 @@ bool tilted(const HandSettings& settings, const Stick& stick) {
 Gamepad pad_share(int side, const Gamepad& pad, const BothHands& hands) {
   Gamepad share;
   const Stick stick = hands.away[std::size_t(side)] ? Stick{} : stick_of(side, pad);
-  const bool shifted = pad.has(kShoulders[side]);
+  const bool bends = pad.has(Button::a) && hands.state.wrist[std::size_t(hands.pair[std::size_t(side)])];
+  const bool shifted = pad.has(kShoulders[side]) || bends;
   (shifted ? share.right_x : share.left_x) = stick.x;
   (shifted ? share.right_y : share.left_y) = stick.y;
   share.right_trigger = side == kLeft ? pad.left_trigger : pad.right_trigger;
   share.left_trigger = pad.has(kLocks[side]) ? 1.0f : 0.0f;
   share.buttons = side == kLeft ? common_buttons(pad) : 0;  // once is enough
+  if (bends) share.set(Button::a);
   return share;
 }
 
@@ -93,12 +96,13 @@ HandSample share_of(int side, const HandSample& sample, const BothHands& hands) 
     share.left_button = sample.left_button;
     share.right_button = sample.right_button;
     share.middle_button = sample.middle_button;
-    share.held.set(Key::shift, sample.held.has(Key::shift));
+    for (const Key key : {Key::shift, Key::u}) share.held.set(key, sample.held.has(key));
   } else {
     share.held = sample.held;
     share.pressed = sample.pressed;
     take_out_choosing(share.held);
     take_out_choosing(share.pressed);
+    share.held.set(Key::u, false);
   }
   share.gamepad = pad_share(side, sample.gamepad, hands);
   return share;
@@ -255,6 +259,7 @@ HandCommand lead_one(const HandSettings& settings, const HandSample& share, int 
   side.ratchet = all.ratchet;
   side.valves = all.valves;
   side.electrode = all.electrode;
+  side.wrist = all.wrist;
   side.fine = all.fine;
   const HandCommand command = lead(settings_of_share(settings), share, side);
   all.handle = side.handle;
@@ -263,7 +268,8 @@ HandCommand lead_one(const HandSettings& settings, const HandSample& share, int 
 }
 
 bool acts(const HandCommand& c, const HandSample& share) {
-  return c.tip.right != 0 || c.tip.up != 0 || c.tip.in != 0 || c.roll != 0 || c.suck || c.irrigate || pulls(share);
+  return c.tip.right != 0 || c.tip.up != 0 || c.tip.in != 0 || c.roll != 0 || c.wrist.right != 0 || c.wrist.up != 0 ||
+         c.suck || c.irrigate || pulls(share);
 }
 
 /// The side whose shoulder is held, or that does something while the other one rests.

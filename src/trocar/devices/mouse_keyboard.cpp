@@ -9,8 +9,9 @@ namespace trocar::devices {
 namespace {
 
 constexpr std::array<const char*, std::size_t(Key::count)> kKeyNames = {
-    "Tab", "1", "2", "3", "4",     "0", "C", "Left",  "Right", "Up", "Down", "PageUp", "PageDown", "W", "S", "Q",
-    "E",   "R", "F", "G", "Enter", "V", "X", "Space", "Shift", "A",  "D",    "T",      "B",        "N", "H", "K"};
+    "Tab", "1", "2", "3", "4", "0", "C", "Left",  "Right", "Up", "Down",  "PageUp", "PageDown",
+    "W",   "S", "Q", "E", "R", "F", "G", "Enter", "V",     "X",  "Space", "Shift",  "A",
+    "D",   "T", "B", "N", "H", "K", "I", "J",     "L",     "M",  "U",     "O"};
 
 constexpr HelpLine kHelp[] = {
     {Device::keyboard, "1 2 3 4, Tab", "lead this hand, the next one; the others keep pose and grip"},
@@ -19,6 +20,7 @@ constexpr HelpLine kHelp[] = {
     {Device::keyboard, "Left Right Up Down", "tip sideways, up and down in the picture"},
     {Device::keyboard, "W S, PageUp PageDown", "deeper (away from you), back"},
     {Device::keyboard, "Q E", "roll the instrument, or the endoscope's picture"},
+    {Device::keyboard, "I M, J L; O", "bend a wrist up, down, left, right in the picture; straighten it"},
     {Device::keyboard, "G Enter", "close the jaws as long as it is held"},
     {Device::keyboard, "Space", "lock: jaws stay closed when let go; again: unlock"},
     {Device::keyboard, "X", "another instrument for this hand, another hand"},
@@ -34,6 +36,7 @@ constexpr HelpLine kHelp[] = {
     {Device::mouse, "wheel", "deeper (away from you), back"},
     {Device::mouse, "left button", "close the jaws as long as it is held"},
     {Device::mouse, "right drag", "roll the instrument, or the endoscope's picture"},
+    {Device::mouse, "move with U held", "bend a wrist"},
     {Device::mouse, "left held, right click", "lock the jaws; the same again: unlock"},
     {Device::mouse, "left, right button", "of a suction-irrigator: suction, water"},
     {Device::mouse, "left button", "of a hook: coagulate, as long as it is held"},
@@ -42,6 +45,7 @@ constexpr HelpLine kHelp[] = {
     {Device::gamepad, "left stick", "tip sideways, up and down; endoscope: where it looks"},
     {Device::gamepad, "cross, left stick pressed", "the same, fine; everything fine: on, off"},
     {Device::gamepad, "right stick", "up, down: deeper, back; sideways: roll"},
+    {Device::gamepad, "right stick with A held", "bend a wrist"},
     {Device::gamepad, "right trigger", "close the jaws as far as it is pulled; endoscope: light post"},
     {Device::gamepad, "left trigger", "lock, unlock the jaws; endoscope: light post the other way"},
     {Device::gamepad, "right, left trigger", "of a suction-irrigator: suction, water; of a hook: coagulate, cut"},
@@ -115,6 +119,7 @@ struct Scaled {
   float dx, dy, wheel, seconds;
   float key_x, key_y, key_in;
   float stick_x, stick_y, stick_in, stick_roll;
+  float bend_x, bend_y;  ///< right, up: shares of the keys', of the stick's speed
 };
 
 /// Arrow keys begin slowly, so that a tap is a small step, and grow quicker while they are held.
@@ -147,7 +152,9 @@ Scaled scaled(const HandSettings& settings, const HandSample& sample, HandState&
           stick(pad.left_x) + cross(Button::left, Button::right),
           stick(pad.left_y) + cross(Button::up, Button::down),
           -stick(pad.right_y),  // pushed away = deeper
-          stick(pad.right_x)};
+          stick(pad.right_x),
+          stick(pad.wrist_x),
+          -stick(pad.wrist_y)};
 }
 
 /// Q and E, the right stick; dragging is added where it applies.
@@ -172,6 +179,29 @@ ScopeMotion scope_motion(const HandSettings& settings, const HandSample& sample,
   motion.head = roll_of(settings, sample, s);
   motion.post = settings.post_per_second * s.seconds * (key_axis(sample.held, Key::f, Key::r) + triggers);
   return motion;
+}
+
+/// Of an instrument that bends: the right stick with A held, and the mouse with U held, mean the wrist.
+HandSample without_wrist(HandSample sample) {
+  if (sample.gamepad.has(Button::a)) {
+    sample.gamepad.wrist_x += sample.gamepad.right_x;
+    sample.gamepad.wrist_y += sample.gamepad.right_y;
+    sample.gamepad.right_x = sample.gamepad.right_y = 0;
+    sample.gamepad.set(Button::a, false);
+  }
+  if (sample.held.has(Key::u)) sample.dx = sample.dy = 0;
+  return sample;
+}
+
+WristMotion wrist_motion(const HandSettings& settings, const HandSample& given, const Scaled& s) {
+  const float fine = s.seconds / std::max(std::clamp(finite(given.dt), 0.0f, kLongestSample), 1e-9f);
+  const float pixels = given.held.has(Key::u) ? fine * settings.bend_per_pixel : 0.0f;
+  const float x = settings.invert_x ? -1.0f : 1.0f, y = settings.invert_y ? -1.0f : 1.0f;
+  const float keys = settings.bend_per_second * s.seconds;
+  return {
+      x * (pixels * finite(given.dx) + settings.stick_bend * s.bend_x) + keys * key_axis(given.held, Key::j, Key::l),
+      y * (-pixels * finite(given.dy) + settings.stick_bend * s.bend_y) + keys * key_axis(given.held, Key::m, Key::i),
+      given.held.has(Key::o) || given.pressed.has(Key::o)};
 }
 
 PictureMotion tip_motion(const HandSettings& settings, const HandSample& sample, const Scaled& s) {
@@ -276,8 +306,10 @@ void take_up(const HandSettings& settings, const HandSample& sample, HandState& 
 }
 
 HandCommand lead(const HandSettings& settings, const HandSample& given, HandState& state) noexcept {
-  const HandSample sample = as_right_handed(settings, given);
-  choose_led(settings, std::clamp(settings.instruments, 1, kMaxHands), sample, state);
+  const HandSample all = as_right_handed(settings, given);
+  choose_led(settings, std::clamp(settings.instruments, 1, kMaxHands), all, state);
+  const bool bends = state.led != kScope && state.wrist[state.led];
+  const HandSample sample = bends ? without_wrist(all) : all;
   if (went_down(Button::left_stick, sample, state.last)) state.fine = !state.fine;
   const Scaled s = scaled(settings, sample, state);
   const bool tapped = right_tapped(settings, sample, state);
@@ -303,6 +335,7 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
     steered.right_button &= !valves;
     command.tip = tip_motion(settings, steered, s);
     command.roll = roll_of(settings, steered, s);
+    if (bends) command.wrist = wrist_motion(settings, all, s);
     if (jaws)
       move_handle(settings, sample, s.seconds, state);
     else if (valves)
@@ -310,7 +343,7 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
     else
       press_switches(sample, state, command);
   }
-  state.last = sample;
+  state.last = all;
   return command;
 }
 

@@ -60,6 +60,12 @@ enum class Key : std::uint8_t {
   n,
   h,
   k,
+  i,
+  j,
+  l,
+  m,
+  u,
+  o,
   count
 };
 const char* name_of(Key key) noexcept;  ///< as help() writes it
@@ -69,11 +75,11 @@ class KeySet {
   constexpr bool has(Key key) const noexcept { return (m_bits >> int(key)) & 1; }
   constexpr bool any() const noexcept { return m_bits != 0; }
   constexpr void set(Key key, bool on = true) noexcept {
-    m_bits = on ? m_bits | 1u << int(key) : m_bits & ~(1u << int(key));
+    m_bits = on ? m_bits | std::uint64_t(1) << int(key) : m_bits & ~(std::uint64_t(1) << int(key));
   }
 
  private:
-  std::uint32_t m_bits = 0;
+  std::uint64_t m_bits = 0;
 };
 
 /// Buttons by the names that most pads print on them; `a` is the lower, `b` the right, `x` the left, `y` the upper one.
@@ -98,10 +104,12 @@ enum class Button : std::uint8_t {
 /// "a", "left_shoulder": in Button's order.
 const std::vector<std::string>& button_names();
 
-/// Sticks -1..1, right and down positive as consoles report them; triggers 0..1. All 0 without a gamepad.
+/// Sticks -1..1, right and down positive as consoles report them; triggers 0..1. All 0 without a gamepad. No gamepad
+/// has wrist axes: another device may (attempt/inputs/input_map.hpp).
 struct Gamepad {
   float left_x = 0, left_y = 0, right_x = 0, right_y = 0, left_trigger = 0, right_trigger = 0;
   std::uint32_t buttons = 0;
+  float wrist_x = 0, wrist_y = 0;
 
   constexpr bool has(Button b) const noexcept { return (buttons >> int(b)) & 1; }
   constexpr void set(Button b, bool on = true) noexcept {
@@ -126,6 +134,12 @@ struct PictureMotion {
   float right = 0, up = 0, in = 0;
 };
 
+/// How an instrument that bends bends, in the picture's directions [rad].
+struct WristMotion {
+  float right = 0, up = 0;
+  bool straighten = false;  ///< all of it, as quickly as it goes
+};
+
 /// How the endoscope turns about its trocar. Angles [rad], in the picture's directions.
 struct ScopeMotion {
   float right = 0, up = 0;  ///< where the view goes
@@ -139,6 +153,7 @@ struct HandCommand {
   int led = 0;  ///< instrument 0.., or kScope
   PictureMotion tip;
   float roll = 0;  ///< [rad], clockwise seen from the hand positive
+  WristMotion wrist;
   ScopeMotion scope;
   bool rack = false;                    ///< asked for what there is to choose from: hands, instruments
   bool insert = false;                  ///< asked to bring the led instrument into the view
@@ -159,17 +174,20 @@ struct HandSettings {
   float post_per_second = 1.0f;    ///< [rad/s], R and F
   float close_per_second = 1.6f;   ///< handle, a share of its way; fine: slow enough for a clip
   float open_per_second = 4.0f;
-  float key_speed = 0.05f;    ///< [m/s], tip, arrow keys held for key_ramp or longer; they begin with a fifth of it
-  float key_view = 0.5f;      ///< [rad/s], scope
-  float key_ramp = 0.7f;      ///< [s]
-  float stick_speed = 0.05f;  ///< [m/s], stick at its end
-  float stick_roll = 2.0f;    ///< [rad/s]
-  float stick_view = 0.6f;    ///< [rad/s], scope
-  float stick_dead = 0.12f;   ///< share of a stick's way that is rest
-  float fine = 0.25f;         ///< Shift, the gamepad's crossed buttons
-  float tap_seconds = 0.3f;   ///< a right press is a tap when it is shorter than this ...
-  float tap_pixels = 6;       ///< ... and moves less
-  bool left_handed = false;   ///< mouse buttons, gamepad sides and the order of the hands are exchanged
+  float bend_per_pixel = 5e-3f;  ///< [rad], wrist, the mouse with U held
+  float bend_per_second = 1.0f;  ///< [rad/s], wrist, keys
+  float stick_bend = 1.5f;       ///< [rad/s], wrist, stick at its end
+  float key_speed = 0.05f;       ///< [m/s], tip, arrow keys held for key_ramp or longer; they begin with a fifth of it
+  float key_view = 0.5f;         ///< [rad/s], scope
+  float key_ramp = 0.7f;         ///< [s]
+  float stick_speed = 0.05f;     ///< [m/s], stick at its end
+  float stick_roll = 2.0f;       ///< [rad/s]
+  float stick_view = 0.6f;       ///< [rad/s], scope
+  float stick_dead = 0.12f;      ///< share of a stick's way that is rest
+  float fine = 0.25f;            ///< Shift, the gamepad's crossed buttons
+  float tap_seconds = 0.3f;      ///< a right press is a tap when it is shorter than this ...
+  float tap_pixels = 6;          ///< ... and moves less
+  bool left_handed = false;      ///< mouse buttons, gamepad sides and the order of the hands are exchanged
   bool invert_x = false, invert_y = false;            ///< tip
   bool invert_view_x = false, invert_view_y = false;  ///< scope
 };
@@ -185,6 +203,8 @@ struct HandState {
   /// ... this one is bare metal without jaws, a hook: what closes jaws coagulates, what locks them cuts, while it is
   /// held. A thumb on a stick, a hand on arrow keys could press no foot switch meanwhile.
   std::array<bool, kMaxHands> electrode{};
+  /// ... this one bends: with A held the right stick bends it, and presses no foot switch.
+  std::array<bool, kMaxHands> wrist{};
   bool opening = false;   ///< the led handle was let go: it opens. A hand that was only chosen keeps its grip.
   bool fine = false;      ///< every motion is a fine one, as with Shift held
   bool waiting = false;   ///< what was already squeezed when this one was chosen must be let go first

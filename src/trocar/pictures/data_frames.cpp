@@ -39,7 +39,7 @@ Json instruments_of(const sim::Model& model, const sim::State& state) {
   for (std::size_t h = 0; h < model.hands.size(); ++h) {
     const interactions::ToolState& tool = state.tools[h];
     const interactions::ToolModel& held = model.hands[h].rack[std::size_t(tool.instrument)];
-    const interactions::ToolShape shape = shape_of(held, tool.pose(), double(tool.aperture));
+    const interactions::ToolShape shape = sim::shape_of(model, state, h);
     out.push_back({{"hand", model.hands[h].name},
                    {"instrument", held.name},
                    {"tip", list(shape.frame.tip)},

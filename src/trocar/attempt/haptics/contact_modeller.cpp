@@ -78,8 +78,7 @@ Sides sides_of(const interactions::ToolModel& tool, const ToolShape& shape, cons
 bool at_wall(const TouchBook& book) { return book.near(BodyId::wall(), 0); }
 
 ToolShape shape_now(const sim::Model& model, const sim::State& state, int hand) {
-  const interactions::ToolState& tool = state.tools[size_t(hand)];
-  return interactions::shape_of(model.tool(state, size_t(hand)), tool.pose(), tool.aperture);
+  return sim::shape_of(model, state, size_t(hand));
 }
 
 Vec3d vector_of(const double (&v)[3]) { return {v[0], v[1], v[2]}; }

@@ -13,8 +13,8 @@ using scene::JsonObject;
 using scene::Shape;
 
 const std::vector<std::string>& axis_names() {
-  static const std::vector<std::string> names{"left_x",  "left_y",       "right_x",
-                                              "right_y", "left_trigger", "right_trigger"};
+  static const std::vector<std::string> names{"left_x",       "left_y",        "right_x", "right_y",
+                                              "left_trigger", "right_trigger", "wrist_x", "wrist_y"};
   return names;
 }
 
@@ -24,7 +24,7 @@ const Shape& axis_shape() {
   static const Shape shape{"axis",
                            "An axis of the device stands for one of a gamepad.",
                            {scene::needed(keys::integer("from", 0, kMostAxes - 1, "the device's axis by number")),
-                            scene::needed(keys::choice("to", axis_names(), "a gamepad's axis")),
+                            scene::needed(keys::choice("to", axis_names(), "a gamepad's axis, or one of a wrist")),
                             keys::number("scale", -10, 10, "what its way is multiplied by, default 1"),
                             keys::number("dead", 0, 0.9, "share of its way about the middle that is rest, default 0")}};
   return shape;
@@ -75,8 +75,8 @@ InputMap read(const scene::JsonDocument& document, std::vector<core::Fault>& fau
 }
 
 float& axis_of(devices::Gamepad& pad, InputMap::PadAxis axis) {
-  const std::array<float*, 6> all{&pad.left_x,  &pad.left_y,       &pad.right_x,
-                                  &pad.right_y, &pad.left_trigger, &pad.right_trigger};
+  const std::array<float*, 8> all{&pad.left_x,       &pad.left_y,        &pad.right_x, &pad.right_y,
+                                  &pad.left_trigger, &pad.right_trigger, &pad.wrist_x, &pad.wrist_y};
   return *all[std::size_t(axis)];
 }
 

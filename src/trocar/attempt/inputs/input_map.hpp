@@ -17,7 +17,7 @@
 namespace trocar::attempt {
 
 struct InputMap {
-  enum class PadAxis { left_x, left_y, right_x, right_y, left_trigger, right_trigger };
+  enum class PadAxis { left_x, left_y, right_x, right_y, left_trigger, right_trigger, wrist_x, wrist_y };
   struct Axis {
     int from = 0;  ///< number of the device's axis
     PadAxis to = PadAxis::left_x;

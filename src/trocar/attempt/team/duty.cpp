@@ -50,7 +50,7 @@ int first_of(const Duty& duty) {
 
 void copy(const Duty& duty, const sim::Input& from, sim::Input& to) {
   for (int h = 0; h < sim::kMaxTools; ++h)
-    if (duty.hands >> h & 1) to.tools[h] = from.tools[h];
+    if (duty.hands >> h & 1) to.tools[h] = from.tools[h], to.wrists[h] = from.wrists[h];
   if (duty.scope) to.scope = from.scope;
   const std::uint32_t bits = pedal_bits(duty);
   to.pedals = (to.pedals & ~bits) | (from.pedals & bits);

@@ -31,6 +31,7 @@ bool is_finite(const sim::Input& input) {
   for (const float value : {s.yaw, s.pitch, s.roll, s.depth, s.post}) finite &= std::isfinite(value);
   for (const sim::ToolInput& t : input.tools)
     for (const float value : {t.yaw, t.pitch, t.roll, t.depth, t.handle}) finite &= std::isfinite(value);
+  for (const sim::WristInput& w : input.wrists) finite &= std::isfinite(w.pitch) && std::isfinite(w.yaw);
   return finite;
 }
 

@@ -158,7 +158,8 @@ bool impales(const Capsule& rod, const SheetView& sheet) noexcept {
 /// Is any part of the instrument in the fold, or at it?
 bool at_sheet(const ToolShape& shape, const SheetView& sheet) noexcept {
   const Surface& surface = sheet.surface;
-  for (const Capsule& rod : shape.part) {
+  for (int part = kShaft; part < end_of(shape); part = next(part)) {
+    const Capsule& rod = shape.rod(part);
     const double sum = rod.radius + sheet.half_thickness;
     if (!meets_box(surface.pose->bounds, rod.a, rod.b, sum)) continue;
     for (std::size_t i = 0; i < surface.skin->triangles.size(); ++i) {
@@ -195,7 +196,9 @@ void tool_on_sheet(Touching& c, const ToolState& tool_state, BodyId body, const 
   const auto before = [&surface](int node) {
     return surface.position(node) - core::kTick * surface.nodes.velocity(node);
   };
-  if (impales(shape.part[kShaft], sheet) || (bond == SheetBond::through && at_sheet(shape, sheet))) {
+  bool impaled = impales(shape.part[kShaft], sheet);
+  for (int i = 0; i < shape.links; ++i) impaled = impaled || impales(shape.link[i], sheet);
+  if (impaled || (bond == SheetBond::through && at_sheet(shape, sheet))) {
     if (bond == SheetBond::noted) std::fill(side.begin(), side.end(), Vec3f{});
     bond = SheetBond::through;
     gap = kLost;
@@ -205,20 +208,23 @@ void tool_on_sheet(Touching& c, const ToolState& tool_state, BodyId body, const 
       gap_of(shape) > kWide && (impales(shape.part[kJawA], sheet) || impales(shape.part[kJawB], sheet));
   bond = SheetBond::none;
   gap = kRemember;
-  for (const int part : {kShaft, kBothJaws, kJawA, kJawB}) {
+  const std::size_t stride = side.size() / std::max<std::size_t>(1, skin.triangles.size());
+  constexpr int kInTurn[] = {kShaft, kBothJaws, kJawA, kJawB};
+  for (int turn = 0; turn < kSheetParts + shape.links; ++turn) {
+    const int part = turn < kSheetParts ? kInTurn[turn] : turn;  // links are numbered from there on
     const bool both = part == kBothJaws;
-    const Capsule rod = both ? both_jaws(shape, sheet.half_thickness) : shape.part[part];
-    const Capsule rod0 = both ? both_jaws(c.before, sheet.half_thickness) : c.before.part[part];
+    const Capsule rod = both ? both_jaws(shape, sheet.half_thickness) : shape.rod(part);
+    const Capsule rod0 = both ? both_jaws(c.before, sheet.half_thickness) : c.before.rod(part);
     const double way = c.way(both ? kJawA : part), reach = rod.radius + sheet.half_thickness + kRemember + way;
     const double most = 0.9 * (both ? kRemember : rod.radius + sheet.half_thickness + kRemember);
     const bool near = meets_box(surface.pose->bounds, rod.a, rod.b, reach);
     const bool near_at_all = near || meets_box(surface.pose->bounds, rod.a, rod.b, std::max(reach, rod.radius + kLost));
-    const bool through = part != kShaft && jaws_through;
+    const bool through = is_jaw(part) && jaws_through;
     for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
-      Vec3f& memory = side[i * std::size_t(kSheetParts) + std::size_t(part)];
+      Vec3f& memory = side[i * stride + std::size_t(part)];
       const auto& t = skin.triangles[i];
       if (!near && dot(memory, memory) == 0) continue;
-      const Vec3f together = side[i * std::size_t(kSheetParts) + std::size_t(kBothJaws)];
+      const Vec3f together = side[i * stride + std::size_t(kBothJaws)];
       const bool by_both = (part == kJawA || part == kJawB) && dot(together, together) > 0;
       if (!near_at_all || sheet.parted[i] || rod.radius == 0 || by_both || through) {
         memory = {};
@@ -234,7 +240,7 @@ void tool_on_sheet(Touching& c, const ToolState& tool_state, BodyId body, const 
         memory = {};
         continue;
       }
-      if (part != kShaft && held(t)) {
+      if (is_jaw(part) && held(t)) {
         memory = {};
         continue;
       }

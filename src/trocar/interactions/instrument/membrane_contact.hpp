@@ -43,7 +43,8 @@ enum class SheetBond : std::uint8_t {
 };
 
 /// @param body  how holds name this membrane
-/// @param side  (triangles x kSheetParts) State: unit vector from the rod to the sheet when they last were near
+/// @param side  (triangles x kSheetParts, or kMostParts where instruments bend) State: unit vector from the rod to the
+/// sheet when they last were near
 /// @param bond  State: in: of the last tick, out: of this one
 /// @param gap   out: no axis of the instrument is nearer to the sheet than this [m], or it may go where it likes
 void tool_on_sheet(Touching& touching, const ToolState& tool_state, BodyId body, const SheetView& sheet,

@@ -296,7 +296,10 @@ Needles needles_of(const ToolShape& before, const ToolShape& now, bool blunt, do
   Needles r;
   const Capsule &s0 = before.part[kShaft], &s1 = now.part[kShaft];
   if (!(length(s0.b - s0.a) > 0) || !(length(s1.b - s1.a) > 0)) return r;
-  r.needle[r.count++] = needle_of(s0.a, before.pivot, s1.a, now.pivot);
+  r.needle[r.count++] = needle_of(s0.a, s0.b, s1.a, s1.b);
+  for (int i = 0; i < now.links && i < before.links; ++i)
+    r.needle[r.count++] = needle_of(before.link[i].a, before.link[i].b, now.link[i].a, now.link[i].b);
+  r.links = r.count - 1;
   const auto add = [&](int part) {
     const Capsule &j0 = before.part[part], &j1 = now.part[part];
     r.needle[r.count++] = needle_of(j0.a, j0.b, j1.a, j1.b);
@@ -347,7 +350,7 @@ double side_of(const Carried& body) noexcept {
 }  // namespace
 
 int carry_along(const Needles& needles, const Carried& body, double gap, double tick, CarriedExtent& extent) noexcept {
-  std::array<std::optional<Zone>, 4> zone;
+  std::array<std::optional<Zone>, Needles::kMost> zone;
   for (int i = 0; i < needles.count; ++i) {
     const Needle& n = needles.needle[i];
     const double way = way_of(n);
@@ -356,7 +359,7 @@ int carry_along(const Needles& needles, const Carried& body, double gap, double 
     if (gap > 2 * way + moved) continue;
     if (!meets_box(body.before.bounds, n.end0, n.end0 - n.length * n.dir0, way + moved)) continue;
     if (extent.side < 0) extent.side = side_of(body);
-    zone[std::size_t(i)].emplace(n, body, i > 0, way + moved, extent.side, tick);
+    zone[std::size_t(i)].emplace(n, body, i > needles.links, way + moved, extent.side, tick);
     // What one part of the instrument has impaled comes off over the others.
     if (zone[std::size_t(i)]->impales()) return 0;
   }

@@ -36,11 +36,14 @@ struct Needle {
   Vec3d carried(Vec3d p) const noexcept { return p + (end1 - end0) - dot(end0 - p, dir0) * (dir1 - dir0); }
 };
 
-/// An instrument's axes: of the shaft, and of closed jaws in one line or of each jaw that is hardly open, or of a
-/// hook's wire. Jaws that are wide open have none, nor has a hook's foot: what they hook could never come off.
+/// An instrument's axes: of the shaft and what bends before it, and of closed jaws in one line or of each jaw that is
+/// hardly open, or of a hook's wire. Jaws that are wide open have none, nor has a hook's foot: what they hook could
+/// never come off.
 struct Needles {
-  Needle needle[3];
+  static constexpr int kMost = 3 + kinematics::kMaxLinks;
+  Needle needle[kMost];
   int count = 0;
+  int links = 0;  ///< of these, after the shaft's; like it they count for what jaws hold, too
 };
 /// @param blunt  the jaws count, not the shaft alone. Legs of clip appliers and blades of scissors do not
 ///               (Abilities::blunt): they come astride of a tube whose fold lies across their way, and would push both

@@ -10,6 +10,10 @@ constexpr double kMaxAngularSpeed = 4.0;  // [rad/s] peak of a hand
 constexpr double kMaxRollSpeed = 8.0;     // [rad/s]
 constexpr double kMaxTipSpeed = 0.6;      // [m/s] along the shaft and across it together
 constexpr double kMaxHandleSpeed = 8.0;   // [1/s]
+constexpr double kMaxJointSpeed = 6.0;    // [rad/s]
+constexpr double kSleeve = 0.018;         // [m] inside, where a trocar ends
+constexpr double kUnfolds = 0.010;        // [m] beyond it on which a joint gets its whole range
+constexpr int kReachRounds = 4;           // of reaching, a tick
 constexpr double kShaftInside = 0.14;     // [m] of the shaft behind the jaws that can meet tissue
 
 /// The wire and its foot end where closed jaws would: nothing of them reaches beyond the tip.
@@ -23,19 +27,16 @@ void bend_wire(const ToolModel& model, ToolShape& s) noexcept {
 
 double stepped(double from, double to, double most) noexcept { return from + std::clamp(to - from, -most, most); }
 
-}  // namespace
+/// Pieces between the shaft's end and the jaws' hinge.
+void lay_links(const ToolModel& model, const kinematics::Chain& chain, ToolShape& s) noexcept {
+  s.links = chain.links;
+  for (int i = 0; i < chain.links; ++i) s.link[i] = {chain.bend[i], chain.bend[i + 1], model.shaft_radius};
+}
 
-ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, double aperture) noexcept {
-  ToolShape s;
-  s.frame = kinematics::forward(model.port, pose);
+/// Jaws, with frame, pivot and shaft in place.
+void lay_jaws(const ToolModel& model, double aperture, ToolShape& s) noexcept {
+  if (model.foot > 0) return bend_wire(model, s);
   const Vec3d axis = s.frame.axis(), open = s.frame.opening();
-  s.pivot = s.frame.tip - model.jaw_length * axis;
-  const double behind = std::max(0.0, std::min(kShaftInside, pose.depth - model.jaw_length));
-  s.part[kShaft] = {s.pivot - behind * axis, s.pivot, model.shaft_radius};
-  if (model.foot > 0) {
-    bend_wire(model, s);
-    return s;
-  }
   s.spreads = model.can().spread;
   s.half_gap = 0.5 * model.parallel_gap * aperture;
   s.half_angle = 0.5 * model.opening * aperture;
@@ -48,6 +49,32 @@ ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, 
     const Vec3d along = c * axis + side * sn * open;
     s.part[kJawA + jaw] = {root, root + model.jaw_length * along, half_thick};
   }
+}
+
+}  // namespace
+
+ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, double aperture) noexcept {
+  return shape_of(model, pose, {}, aperture);
+}
+
+ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, const kinematics::Joints& joints,
+                   double aperture) noexcept {
+  ToolShape s;
+  if (model.bends.bends()) {
+    const kinematics::Chain chain = kinematics::chain(model.bends, model.port, pose, joints, model.jaw_length);
+    s.frame = chain.tip;
+    s.shaft = chain.shaft;
+    s.pivot = chain.bend[chain.links];
+    lay_links(model, chain, s);
+  } else {
+    s.frame = kinematics::forward(model.port, pose);
+    s.pivot = s.frame.tip - model.jaw_length * s.frame.axis();
+    s.shaft = {s.pivot, s.frame.rotation};
+  }
+  const double reach = model.jaw_length + model.bends.length();
+  const double behind = std::max(0.0, std::min(kShaftInside, pose.depth - reach));
+  s.part[kShaft] = {s.shaft.tip - behind * s.shaft.axis(), s.shaft.tip, model.shaft_radius};
+  lay_jaws(model, aperture, s);
   return s;
 }
 
@@ -88,6 +115,31 @@ void follow(const ToolModel& model, const ToolCommand& command, double dt, ToolS
   }
   state.roll = stepped(state.roll, goal.roll, kMaxRollSpeed * dt);
   state.handle = stepped(state.handle, std::clamp(command.handle, 0.0, 1.0), kMaxHandleSpeed * dt);
+}
+
+kinematics::Arm wanted_arm(const ToolModel& model, const kinematics::FulcrumPose& pose, const double (&wrist)[2],
+                           const ToolState& state, const kinematics::Joints& joints) noexcept {
+  const kinematics::Articulation& bends = model.bends;
+  kinematics::Arm arm{kinematics::clamped(pose, model.limits), {}};
+  if (!bends.bends()) return arm;
+  // The shaft's end leaves the sleeve first.
+  const double out = state.depth - model.jaw_length - bends.length() - kSleeve;
+  const double share = std::clamp(out / kUnfolds, 0.0, 1.0);
+  if (bends.redundant() && share >= 1) {
+    const kinematics::TipFrame led = kinematics::led(model.port, arm.pose, wrist[0], wrist[1]);
+    arm = kinematics::reach(bends, model.limits, model.port, model.jaw_length, {led.tip, led.rotation},
+                            {state.pose(), joints}, kReachRounds);
+  } else if (!bends.redundant()) {
+    for (int j = 0; j < bends.joints; ++j) arm.joints.angle[j] = wrist[j];
+    arm.joints = kinematics::clamped(bends, arm.joints);
+  }
+  for (double& angle : arm.joints.angle) angle *= share;
+  return arm;
+}
+
+void follow_joints(const kinematics::Joints& wanted, double dt, kinematics::Joints& joints) noexcept {
+  for (int j = 0; j < kinematics::kMaxJoints; ++j)
+    joints.angle[j] = stepped(joints.angle[j], wanted.angle[j], kMaxJointSpeed * dt);
 }
 
 }  // namespace trocar::interactions

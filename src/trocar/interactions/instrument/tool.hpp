@@ -9,7 +9,9 @@
 #include <trocar/collision/rods.hpp>
 #include <trocar/core/body_id.hpp>
 #include <trocar/core/fields.hpp>
+#include <trocar/interactions/instrument/linkage.hpp>
 #include <trocar/interactions/instrument/tool_kind.hpp>
+#include <trocar/kinematics/articulation.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/tissue/heat/electrosurgery.hpp>
 #include <trocar/tissue/heat/electrosurgery_seal.hpp>
@@ -46,6 +48,8 @@ struct ToolModel {
   double clip_length = 0;  ///< [m]
   std::int32_t clips = 0;  ///< in the magazine at the start
   ElectrodeModel electrode;
+  LinkageModel linkage;            ///< between handle and jaws, where the file names a mechanism
+  kinematics::Articulation bends;  ///< a wrist, or more; without joints the instrument is rigid
 
   const Abilities& can() const noexcept { return about(kind).can; }
 
@@ -56,7 +60,9 @@ struct ToolModel {
         v("jaw_thickness", s.jaw_thickness), v("opening", s.opening), v("parallel_gap", s.parallel_gap),
         v("pinch_max", s.pinch_max), v("friction", s.friction), v("rubbing", s.rubbing),
         v("clip_length", s.clip_length), v("clips", s.clips), v("foot", s.foot, core::only_if(s.foot > 0)),
-        v("electrode", s.electrode, core::only_if(s.electrode.there)), v("name", s.name, core::kNotHashed);
+        v("electrode", s.electrode, core::only_if(s.electrode.there)),
+        v("linkage", s.linkage, core::only_if(s.linkage.there)), v("bends", s.bends, core::only_if(s.bends.bends())),
+        v("name", s.name, core::kNotHashed);
   }
 };
 
@@ -115,25 +121,43 @@ using collision::Capsule;
 inline constexpr int kShaft = 0, kJawA = 1, kJawB = 2, kToolParts = 3;
 /// For folds, too, both jaws together: closed ones are a blunt rod, and nothing gets between them. Not wire and foot.
 inline constexpr int kBothJaws = kToolParts, kSheetParts = kToolParts + 1;
+/// Beyond these what bends between shaft and jaws, piece by piece.
+inline constexpr int kFirstLink = kSheetParts, kMostParts = kFirstLink + kinematics::kMaxLinks;
+constexpr bool is_jaw(int part) noexcept { return part != kShaft && part < kFirstLink; }
 
 /// Where an instrument is in space this tick.
 struct ToolShape {
   kinematics::TipFrame frame;  ///< tip of the closed jaws
   Vec3d pivot;                 ///< where the jaws hinge
+  kinematics::TipFrame shaft;  ///< the shaft's end, from where on it bends; of a rigid instrument the jaws' hinge
   Capsule part[kToolParts];
   Vec3d velocity[kToolParts];  ///< of each part's far end [m/s]
-  double half_angle = 0;       ///< of each jaw from the axis [rad]
-  double half_gap = 0;         ///< at the pivot (parallel jaws) [m]
-  bool has_foot = false;       ///< it is a hook's, and has no jaws
-  bool spreads = false;        ///< its jaws push apart what lies beside them
+  Capsule link[kinematics::kMaxLinks];
+  int links = 0;
+  double half_angle = 0;  ///< of each jaw from the axis [rad]
+  double half_gap = 0;    ///< at the pivot (parallel jaws) [m]
+  bool has_foot = false;  ///< it is a hook's, and has no jaws
+  bool spreads = false;   ///< its jaws push apart what lies beside them
 
   /// Half the clear distance between the jaws at `along` [m] from the pivot.
   double half_opening(double along) const { return half_gap + along * tangent; }
   double tangent = 0;  ///< of half_angle
+
+  /// Shaft, jaw, or from kFirstLink on a link.
+  const Capsule& rod(int number) const noexcept {
+    return number < kToolParts ? part[number] : link[number - kFirstLink];
+  }
 };
 
-/// Shape at `pose` and `aperture`; the velocity is left zero.
+/// The next number of a part that the instrument has, after shaft and jaws its links:
+/// for (int part = kShaft; part < end_of(shape); part = next(part))
+inline int end_of(const ToolShape& shape) noexcept { return kFirstLink + shape.links; }
+constexpr int next(int part) noexcept { return part + 1 == kToolParts ? kFirstLink : part + 1; }
+
+/// Shape at `pose` and `aperture`, straight or as its joints bend it; the velocity is left zero.
 ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, double aperture) noexcept;
+ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, const kinematics::Joints& joints,
+                   double aperture) noexcept;
 
 /// A point in the jaw frame: x along the opening direction, y along the jaw-plane normal, z along the axis from pivot.
 Vec3d to_jaw(const ToolShape& shape, Vec3d world) noexcept;
@@ -150,5 +174,14 @@ struct ToolCommand {
   double handle = 0;
 };
 void follow(const ToolModel& model, const ToolCommand& command, double dt, ToolState& state) noexcept;
+
+/// Where a hand that leads with pose and wrist [rad] wants an instrument that bends. The joints of a wrist are the
+/// hand's own; those of a redundant chain follow from where the tip shall be and how it shall be turned, from the
+/// chain's pose now. Within limits; as far as it is in its trocar's sleeve it is straight.
+/// @param wrist  pitch and yaw
+kinematics::Arm wanted_arm(const ToolModel& model, const kinematics::FulcrumPose& pose, const double (&wrist)[2],
+                           const ToolState& state, const kinematics::Joints& joints) noexcept;
+/// Joints turn by at most 6 rad/s.
+void follow_joints(const kinematics::Joints& wanted, double dt, kinematics::Joints& joints) noexcept;
 
 }  // namespace trocar::interactions

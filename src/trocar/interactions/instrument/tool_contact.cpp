@@ -72,7 +72,7 @@ bool was_near(const Touching& c, BodyId body, const Surface& surface, int v) noe
 /// Was the part's axis outside the skin at that vertex?
 bool was_outside(const Touching& c, int part, const Surface& surface, int v, Vec3d p, Vec3d n) noexcept {
   const Vec3d p0 = p - core::kTick * tissue::skin_velocity(surface.nodes, *surface.skin, v);
-  return dot(p0 - collision::nearest_on_axis(c.before.part[part], p0), n) <= 0;
+  return dot(p0 - collision::nearest_on_axis(c.before.rod(part), p0), n) <= 0;
 }
 
 /// Of an organ's skin what jaws hold.
@@ -95,7 +95,7 @@ struct HeldSkin {
 
 /// One vertex against one part.
 void touch_vertex(Touching& c, BodyId body, const Surface& surface, int v, int part, NetworkLoads& loads) noexcept {
-  const Capsule& rod = c.shape.part[part];
+  const Capsule& rod = c.shape.rod(part);
   const Vec3d p = surface.position(v), from = p - collision::nearest_on_axis(rod, p);
   const double distance = length(from);
   if (distance > rod.radius + kDeepestTool) return;
@@ -159,7 +159,7 @@ void shaft_on_edges(Touching& c, BodyId body, const Surface& surface, int v, Net
 void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part, const HeldSkin& held,
                      NetworkLoads& loads) noexcept {
   const tissue::SkinPose& pose = *surface.pose;
-  const Capsule& rod = c.shape.part[part];
+  const Capsule& rod = c.shape.rod(part);
   const double reach2 = (rod.radius + kBehindSkin) * (rod.radius + kBehindSkin);
   const auto within = [&](int v) {
     const Vec3d p = surface.position(v);
@@ -171,7 +171,7 @@ void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part,
       const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
       for (int v = int(b) * tissue::kSkinBlock; v < last; ++v)
         if (surface.skin->at_surface(v) && within(v) && !surface.torn(v) &&
-            (part == kShaft || !held.at(*surface.skin, v))) {
+            (!is_jaw(part) || !held.at(*surface.skin, v))) {
           touch_vertex(c, body, surface, v, part, loads);
           if (part == kShaft) shaft_on_edges(c, body, surface, v, loads);
         }
@@ -180,7 +180,7 @@ void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part,
   for (const Touch* t = c.last.touch; t != c.last.touch + c.last.count; ++t) {
     if (t->body != body || t->part != part || t->element < 0 || t->element >= surface.skin->size()) continue;
     if (surface.skin->at_surface(t->element) && !within(t->element) && !surface.torn(t->element) &&
-        (part == kShaft || !held.at(*surface.skin, t->element)))
+        (!is_jaw(part) || !held.at(*surface.skin, t->element)))
       touch_vertex(c, body, surface, t->element, part, loads);
   }
 }
@@ -266,7 +266,8 @@ void wire_on_surface(Touching& c, BodyId body, const Surface& surface, int part,
 void tool_on_surface(Touching& touching, BodyId body, const Surface& surface, NetworkLoads& loads,
                      std::span<const Hold> holds) noexcept {
   const HeldSkin held{body, holds};
-  for (int part = 0; part < kToolParts; ++part) part_on_surface(touching, body, surface, part, held, loads);
+  for (int part = kShaft; part < end_of(touching.shape); part = next(part))
+    part_on_surface(touching, body, surface, part, held, loads);
   closed_jaws_on_surface(touching, body, surface, held, loads);
   spread_jaws_on_surface(touching, body, surface, loads);
   for (const int part : {kJawA, kJawB}) wire_on_surface(touching, body, surface, part, loads);
@@ -387,7 +388,12 @@ Reach reach_of(const ToolModel& model, const Touching& touching) noexcept {
     }
   r.whole.radius = std::max(shape.part[kShaft].radius, r.jaws.radius);
   r.between = shape.half_opening(model.jaw_length) + 0.5 * model.jaw_width + 0.001;
-  for (int part = 0; part < kToolParts; ++part) r.way = std::max(r.way, touching.way(part));
+  for (int i = 0; i < shape.links; ++i)
+    for (const Vec3d p : {shape.link[i].a, shape.link[i].b}) {
+      const double off = length(p - collision::nearest_on_axis(r.whole, p)) + shape.link[i].radius;
+      r.whole.radius = std::max(r.whole.radius, off);
+    }
+  for (int part = kShaft; part < end_of(shape); part = next(part)) r.way = std::max(r.way, touching.way(part));
   return r;
 }
 
@@ -416,6 +422,7 @@ void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState&
   constexpr int kEdge = 3;
   int first_inside = body.nodes(), last_inside = -1;
   const Reach far = reach_of(model, touching);
+  const size_t stride = side.size() / size_t(std::max(1, body.nodes() - 1));
   for (int e = 0; e + 1 < body.nodes(); ++e) {
     if (!state.alive[size_t(e)]) continue;
     const Vec3d a = state.x[size_t(e)];
@@ -430,27 +437,27 @@ void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState&
     if (!state.alive[size_t(e)]) continue;
     const Vec3d a = state.x[size_t(e)], b = state.x[size_t(e) + 1];
     const double radius = body.model.radius[size_t(e)], length2 = geometry::distance2(a, b);
-    Vec3f* memory = side.data() + size_t(e) * kToolParts;
+    Vec3f* memory = side.data() + size_t(e) * stride;
     bool noted = false;
-    for (int part = 0; part < kToolParts; ++part) noted = noted || dot(memory[part], memory[part]) > 0;
+    for (size_t part = 0; part < stride; ++part) noted = noted || dot(memory[part], memory[part]) > 0;
     const double beyond = noted ? collision::kLost : collision::kRemember + far.way;
     if (!within(far.whole, a, length2, radius + far.whole.radius + beyond)) {
-      for (int part = 0; part < kToolParts; ++part) memory[part] = {};
+      for (size_t part = 0; part < stride; ++part) memory[part] = {};
       continue;
     }
     const Vec3d a0 = a - body.model.tick * state.v[size_t(e)], b0 = b - body.model.tick * state.v[size_t(e) + 1];
     const BetweenJaws where =
         near_jaws(far, a, length2, radius) ? between_jaws(model, shape, body, state, e) : BetweenJaws{};
     const bool held = is_held(e), between = e >= first_inside - kEdge && e <= last_inside + kEdge;
-    for (int part = 0; part < kToolParts; ++part) {
-      if (part != kShaft && (held || between)) {
+    for (int part = kShaft; part < end_of(shape); part = next(part)) {
+      if (is_jaw(part) && (held || between)) {
         memory[part] = {};
         continue;
       }
-      const Capsule& rod = shape.part[part];
+      const Capsule& rod = shape.rod(part);
       if (!noted && !within(rod, a, length2, radius + rod.radius + collision::kRemember + touching.way(part))) continue;
       const collision::RodContact c =
-          collision::touch(touching.before.part[part], rod, {a0, b0, radius}, {a, b, radius}, memory[part]);
+          collision::touch(touching.before.rod(part), rod, {a0, b0, radius}, {a, b, radius}, memory[part]);
       if (c.depth > -kGrazes) push_strand(touching, strand, body.model, state, e, part, c, loads);
     }
     if (where.inside && between && !held)

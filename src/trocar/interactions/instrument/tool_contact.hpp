@@ -26,8 +26,8 @@ namespace trocar::interactions {
 void tool_on_surface(Touching& touching, BodyId body, const Surface& surface, NetworkLoads& loads,
                      std::span<const Hold> held = {}) noexcept;
 
-/// @param side  (elements x kToolParts) State: on which side of each of this tool's rods an element lies
-///              (collision::touch)
+/// @param side  (elements x kToolParts, or kMostParts where instruments bend) State: on which side of each of this
+///              tool's rods an element lies (collision::touch)
 void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState& tool_state, const StrandBody& body,
                     BodyId strand, const tissue::StrandState& state, std::span<Vec3f> side,
                     StrandLoads& loads) noexcept;

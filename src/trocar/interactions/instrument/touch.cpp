@@ -24,10 +24,20 @@ bool before_in_book(const Touch& a, const Touch& b) noexcept {
 struct PartFrame {
   Vec3d origin, x, y, z;
 };
+/// Turned with the shaft as far as the link's own direction lets it.
+PartFrame frame_of_link(const ToolShape& shape, const Capsule& rod) noexcept {
+  constexpr double kAlong = 0.2;  // sine of the angle to a direction that is no guide any more
+  const Vec3d z = normalised(rod.b - rod.a, shape.shaft.axis());
+  const Vec3d across = shape.shaft.normal() - dot(shape.shaft.normal(), z) * z;
+  const Vec3d other = shape.shaft.opening() - dot(shape.shaft.opening(), z) * z;
+  const Vec3d x = normalised(length(across) > kAlong ? across : other);
+  return {rod.a, x, cross(z, x), z};
+}
 PartFrame frame_of(const ToolShape& shape, int part) noexcept {
+  if (part >= kFirstLink) return frame_of_link(shape, shape.rod(part));
   const Capsule& rod = shape.part[part < kToolParts ? part : kJawA];
+  if (part == kShaft) return {rod.b, shape.shaft.normal(), shape.shaft.opening(), shape.shaft.axis()};
   const Vec3d x = shape.frame.normal();
-  if (part == kShaft) return {rod.b, x, shape.frame.opening(), shape.frame.axis()};
   const Vec3d z = normalised(rod.b - rod.a, shape.frame.axis());
   return {rod.a, x, cross(z, x), z};
 }
@@ -66,24 +76,26 @@ bool TouchBook::near(BodyId body, std::int32_t element) const noexcept {
   return at != touch + count && at->body == body && at->element == element;
 }
 
-void start_here(const ToolState& tool, TouchBook& book) noexcept {
+void start_here(const ToolState& tool, const kinematics::Joints& joints, TouchBook& book) noexcept {
   book.yaw = tool.yaw;
   book.pitch = tool.pitch;
   book.roll = tool.roll;
   book.depth = tool.depth;
   book.aperture = tool.aperture;
+  book.joints = joints;
   book.count = book.reserved = 0;
 }
 
 ToolShape shape_before(const ToolModel& model, const TouchBook& book) noexcept {
-  return shape_of(model, {book.yaw, book.pitch, book.roll, book.depth}, book.aperture);
+  return shape_of(model, {book.yaw, book.pitch, book.roll, book.depth}, book.joints, book.aperture);
 }
 
 Touching::Touching(double friction, const ToolShape& was_at, const ToolShape& is_at, int number, const TouchBook& was,
                    TouchBook& will_be) noexcept
     : shape(is_at), before(was_at), tool(number), last(was), next(will_be), m_friction(friction) {
   next.count = 0;
-  for (int part = 0; part < kToolParts; ++part) m_way[part] = collision::way_of(before.part[part], shape.part[part]);
+  for (int part = kShaft; part < end_of(shape); part = interactions::next(part))
+    m_way[part] = collision::way_of(before.rod(part), shape.rod(part));
 }
 
 std::int32_t Touching::note(BodyId body, std::int32_t element, std::int32_t part, std::int32_t vertex) noexcept {
@@ -156,12 +168,12 @@ void press_on(TouchBook& next, std::int32_t number, Vec3d force) noexcept {
              float(force.x * double(t.normal[0]) + force.y * double(t.normal[1]) + force.z * double(t.normal[2]));
 }
 
-void remember(const ToolState& tool, TouchBook& next, TouchBook& book) noexcept {
+void remember(const ToolState& tool, const kinematics::Joints& joints, TouchBook& next, TouchBook& book) noexcept {
   std::sort(next.touch, next.touch + next.count, before_in_book);
   for (Touch* t = next.touch; t != next.touch + next.count; ++t)
     t->force = std::clamp(t->force, 0.0f, t->body.is(BodyKind::wall) ? kMostAtWall : kMostSpringPress);
   std::copy(next.touch, next.touch + next.count, book.touch);
-  start_here(tool, book);
+  start_here(tool, joints, book);
   book.count = next.count;
 }
 
@@ -203,7 +215,7 @@ Vec3d touched_at(const ToolShape& shape, const TouchBook& book) noexcept {
 }  // namespace
 
 TrocarLoad load_at_trocar(const ToolModel& model, const ToolState& tool, const TouchBook& book) noexcept {
-  const ToolShape shape = shape_of(model, tool.pose(), tool.aperture);
+  const ToolShape shape = shape_of(model, tool.pose(), book.joints, tool.aperture);
   TrocarLoad r{};
   const auto add = [&r, &model](Vec3d at, Vec3d force) {
     r.force += force;
@@ -216,7 +228,7 @@ TrocarLoad load_at_trocar(const ToolModel& model, const ToolState& tool, const T
     add(from_jaw(shape, {h.local[0], h.local[1], h.local[2]}), -Vec3d{h.force[0], h.force[1], h.force[2]});
   }
   constexpr double kLeastOutside = 0.05;  // [m] of an instrument that is pushed in to its handle
-  const Vec3d axis = shape.frame.axis();
+  const Vec3d axis = shape.shaft.axis();
   const double outside = std::max(kLeastOutside, model.shaft_length - tool.depth), along = dot(r.force, axis);
   const Vec3d lever = cross(r.moment, axis) / outside;  // axis x lever = moment across the axis / outside
   r.by_hand = lever - along * axis;

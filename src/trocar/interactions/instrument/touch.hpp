@@ -46,6 +46,7 @@ static_assert(sizeof(Touch) == 14 * 4, "no padding");
 /// Of one hand's instrument. Entries beyond `count` are not State.
 struct TouchBook {
   double yaw = 0, pitch = 0, roll = 0, depth = 0, aperture = 1;  ///< where it was when it last touched
+  kinematics::Joints joints;
   std::int32_t count = 0, reserved = 0;
   Touch touch[kMaxTouches];  ///< ascending in body, element, part
 
@@ -56,12 +57,12 @@ struct TouchBook {
   static void fields(S& s, V&& v) {
     v("yaw", s.yaw), v("pitch", s.pitch), v("roll", s.roll), v("depth", s.depth), v("aperture", s.aperture),
         v("count", s.count), v("touch", s.touch, core::FieldNote{.first = s.count, .each = true}),
-        v("reserved", s.reserved, core::kNotHashed);
+        v("joints", s.joints, core::only_if(s.joints.bent())), v("reserved", s.reserved, core::kNotHashed);
   }
 };
 
 /// An instrument that has not moved and touches nothing.
-void start_here(const ToolState& tool, TouchBook& book) noexcept;
+void start_here(const ToolState& tool, const kinematics::Joints& joints, TouchBook& book) noexcept;
 
 /// Where the tissue of a touch that is anchored sticks to the instrument [m], and the force of the instrument on the
 /// tissue there: along the normal only, averaged over some ten ticks [N].
@@ -119,14 +120,14 @@ class Touching {
 
  private:
   double m_friction;
-  double m_way[kToolParts];
+  double m_way[kMostParts];
 };
 
 /// Normal force of this tick for the note of that number.
 void press_on(TouchBook& next, std::int32_t number, Vec3d force_on_tissue) noexcept;
 
 /// After the tick: what is to be remembered.
-void remember(const ToolState& tool, TouchBook& next, TouchBook& book) noexcept;
+void remember(const ToolState& tool, const kinematics::Joints& joints, TouchBook& next, TouchBook& book) noexcept;
 
 void add_to_hash(core::Hasher& hasher, const TouchBook& book) noexcept;
 

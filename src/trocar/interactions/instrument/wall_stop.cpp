@@ -81,12 +81,29 @@ void look_at(const Surface& wall, const Blocks& blocks, const Probe& probe, Deep
   deepest = {depth, probe, at.normal};
 }
 
-/// What the instrument ends in.
+/// What the instrument ends in, and where it bends.
 struct Ends {
-  Probe probe[2];
+  Probe probe[2 + kinematics::kMaxLinks];
   int count = 1;
 };
-Ends ends_of(const ToolModel& model, const kinematics::FulcrumPose& pose) noexcept {
+/// Tip and links of an instrument that bends. Where a wall wants one of them, the point of the straight axis that is as
+/// far in goes: nearly the same way, and it is looked at again.
+Ends bent_ends(const ToolModel& model, const kinematics::FulcrumPose& pose, const kinematics::Joints& joints) noexcept {
+  const ToolShape s = shape_of(model, pose, joints, 0);
+  const Vec3d axis = s.shaft.axis();
+  Ends r;
+  r.count = 0;
+  const auto add = [&](Vec3d at, double radius) {
+    const double along = std::max(kFromTrocar, dot(at - model.port, axis));
+    r.probe[r.count++] = {at, radius, model.port + along * axis, along, false};
+  };
+  add(s.frame.tip, model.jaw_thickness);
+  for (int i = 0; i < s.links; ++i) add(s.link[i].b, s.link[i].radius);
+  return r;
+}
+
+Ends ends_of(const ToolModel& model, const kinematics::FulcrumPose& pose, const kinematics::Joints& joints) noexcept {
+  if (model.bends.bends()) return bent_ends(model, pose, joints);
   const Vec3d tip = kinematics::forward(model.port, pose).tip;
   if (!(model.foot > 0)) return {{{tip, model.jaw_thickness, tip, pose.depth, true}, {}}, 1};
   const ToolShape s = shape_of(model, pose, 0);
@@ -98,19 +115,24 @@ Vec3d axis_of(const ToolModel& model, const kinematics::FulcrumPose& pose) noexc
   return kinematics::forward(model.port, pose).axis();
 }
 
-Deepest deepest_of(const ToolModel& model, std::span<const Surface> walls,
-                   const kinematics::FulcrumPose& pose) noexcept {
+/// How far beside the straight axis what bends may be.
+double bent_reach(const ToolModel& model) noexcept {
+  return model.bends.bends() ? model.bends.length() + model.jaw_length : 0.0;
+}
+
+Deepest deepest_of(const ToolModel& model, std::span<const Surface> walls, const kinematics::FulcrumPose& pose,
+                   const kinematics::Joints& joints) noexcept {
   Deepest deepest;
   const Vec3d axis = axis_of(model, pose);
-  const double depth = pose.depth, reach = kWallReach + model.foot;
+  const double depth = pose.depth, reach = kWallReach + model.foot + bent_reach(model);
   const Vec3d tip = model.port + depth * axis, start = model.port + std::min(kFromTrocar, depth) * axis;
-  const Ends ends = ends_of(model, pose);
+  const Ends ends = ends_of(model, pose, joints);
   for (const Surface& wall : walls) {
     if (!wall.pose->bounds.near_segment(start, tip, reach)) continue;
     const Blocks blocks = blocks_near(wall, start, tip, reach);
     if (!blocks.all && blocks.count == 0) continue;
     for (int i = 0; i < ends.count; ++i) look_at(wall, blocks, ends.probe[i], deepest);
-    for (double s = depth - model.jaw_length; s > kFromTrocar; s -= kShaftSpacing)
+    for (double s = depth - model.jaw_length - model.bends.length(); s > kFromTrocar; s -= kShaftSpacing)
       look_at(wall, blocks, {model.port + s * axis, model.shaft_radius, model.port + s * axis, s, false}, deepest);
   }
   return deepest;
@@ -131,13 +153,13 @@ void slow_down(const ToolModel& model, const kinematics::FulcrumPose& before, To
 }  // namespace
 
 WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wanted,
-                       const kinematics::FulcrumPose& before, std::span<const Surface> walls,
-                       ToolState& tool) noexcept {
+                       const kinematics::FulcrumPose& before, const kinematics::Joints& joints,
+                       std::span<const Surface> walls, ToolState& tool) noexcept {
   WallStop stop;
   if (tool.depth <= kFromTrocar || wanted.depth < tool.depth - kWithdraws) return stop;
   Deepest last;
   for (int round = 0; round < kRounds; ++round) {
-    const Deepest d = deepest_of(model, walls, tool.pose());
+    const Deepest d = deepest_of(model, walls, tool.pose(), joints);
     if (d.depth <= 1e-9) break;
     last = d;
     const Vec3d to = d.probe.on_axis + d.depth * d.normal;

@@ -24,9 +24,11 @@ struct WallStop {
 /// them. Nor do those whose surface is farther away than 5 mm: the instrument is behind them since it was put there.
 /// @param wanted  where the hand wants the instrument
 /// @param before  where it was in the last tick: no wall moves it faster than a hand would
+/// @param joints  as they are; walls do not bend an instrument
 /// @param walls   that never move; their normals point into the cavity
 WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wanted,
-                       const kinematics::FulcrumPose& before, std::span<const Surface> walls, ToolState& tool) noexcept;
+                       const kinematics::FulcrumPose& before, const kinematics::Joints& joints,
+                       std::span<const Surface> walls, ToolState& tool) noexcept;
 
 /// Remembers the wall among what the instrument touches.
 void note_wall(const WallStop& stop, Touching& touching) noexcept;

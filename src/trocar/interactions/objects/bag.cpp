@@ -35,7 +35,7 @@ Bag::Work Bag::make_work(const Models& models, int hands) {
     w.bodies.resize(size_t(m.points));
     w.presses.reserve(kPressesPerNode * m.drawn.size());
     w.touches.reserve(2 * size_t(m.points));
-    w.rods.reserve(size_t(hands) * kToolParts);
+    w.rods.reserve(size_t(hands) * kMostParts);
   }
   return all;
 }
@@ -52,8 +52,8 @@ void Bag::clear(Work& work) noexcept {
 void Bag::touch(const Models&, const States& states, const ObjectHand& hand, Work& work) noexcept {
   if (hand.tool.can().bag) return;
   for (size_t i = 0; i < states.size(); ++i)
-    for (int part = 0; part < kToolParts && states[i].there(); ++part)
-      work.list[i].rods.push_back({hand.touching.shape.part[part]});
+    for (int part = kShaft; part < end_of(hand.touching.shape) && states[i].there(); part = next(part))
+      work.list[i].rods.push_back({hand.touching.shape.rod(part)});
 }
 
 bool Bag::overloaded(const Work& work) noexcept {

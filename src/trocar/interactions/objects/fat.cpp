@@ -47,14 +47,14 @@ bool holds_lobule(const ToolState& tool, BodyId body, int lobule) noexcept {
 /// Of a part at a lobule: jaws' inner faces are toothed, and what lies between them does not slip out as they close.
 double friction_at(const ObjectHand& hand, int part, Vec3d p, double radius) noexcept {
   const ToolShape& shape = hand.touching.shape;
-  const bool inside = part != kShaft && !shape.has_foot && lies_between(hand.tool, shape, to_jaw(shape, p), radius);
+  const bool inside = is_jaw(part) && !shape.has_foot && lies_between(hand.tool, shape, to_jaw(shape, p), radius);
   return inside ? std::max(hand.tool.friction, hand.tool.rubbing) : hand.tool.rubbing;
 }
 
 void touch_part(const tissue::FatModel& m, const tissue::FatState& s, BodyId body, const ObjectHand& hand, int part,
                 NetworkLoads& loads) noexcept {
-  const Capsule& rod = hand.touching.shape.part[part];
-  const Capsule& was = hand.touching.before.part[part];
+  const Capsule& rod = hand.touching.shape.rod(part);
+  const Capsule& was = hand.touching.before.rod(part);
   const double reach = rod.radius + m.radius;
   const Vec3d velocity = (0.5 / core::kTick) * ((rod.a - was.a) + (rod.b - was.b));
   const Tag tag{Owner::tool_contact, hand.touching.tool, 0};
@@ -62,7 +62,7 @@ void touch_part(const tissue::FatModel& m, const tissue::FatState& s, BodyId bod
     if (s.lobules[size_t(n)].gone()) continue;
     const Vec3d p = tissue::position(m, s, n);
     const Vec3d off = p - collision::nearest_on_axis(rod, p);
-    if (dot(off, off) > reach * reach || (part != kShaft && holds_lobule(hand.state, body, n))) continue;
+    if (dot(off, off) > reach * reach || (is_jaw(part) && holds_lobule(hand.state, body, n))) continue;
     push(rod, hand.touching.way(part), velocity, friction_at(hand, part, p, m.radius), tag, n, p,
          tissue::velocity(m, s, n), m.radius, loads);
   }
@@ -132,7 +132,7 @@ void Fat::touch(const Models& models, const States& states, const ObjectHand& ha
   for (size_t i = 0; i < models.list.size(); ++i) {
     const tissue::FatModel& m = models.list[i].fat;
     if (!is_near(m, states[i].fat, hand.touching.shape)) continue;
-    for (int part = 0; part < kToolParts; ++part)
+    for (int part = kShaft; part < end_of(hand.touching.shape); part = next(part))
       touch_part(m, states[i].fat, BodyId(kKind, i), hand, part, work.list[i].loads);
   }
 }

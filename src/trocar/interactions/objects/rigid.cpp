@@ -154,7 +154,7 @@ Rigid::Work Rigid::make_work(const Models& models, int hands) {
   const size_t n = models.list.size();
   if (n == 0) return w;
   w.holds.reserve(size_t(hands) * kMaxHolds);
-  w.rods.reserve(size_t(hands) * kToolParts);
+  w.rods.reserve(size_t(hands) * kMostParts);
   w.beds.reserve(n * kMostContacts);
   w.contacts.reserve(n * kMostContacts);
   w.mobility.resize(n);
@@ -174,11 +174,11 @@ void Rigid::clear(Work& w) noexcept {
 void Rigid::touch(const Models& models, const States&, const ObjectHand& hand, Work& w) noexcept {
   if (models.list.empty()) return;
   const BodyId held = hand.state.holds > 0 ? hand.state.hold[0].body : BodyId{};
-  for (int part = 0; part < kToolParts && w.rods.size() < w.rods.capacity(); ++part)
-    w.rods.push_back({hand.touching.before.part[part],
-                      hand.touching.shape.part[part],
+  for (int part = kShaft; part < end_of(hand.touching.shape) && w.rods.size() < w.rods.capacity(); part = next(part))
+    w.rods.push_back({hand.touching.before.rod(part),
+                      hand.touching.shape.rod(part),
                       {Owner::tool_contact, hand.touching.tool, 0},
-                      part == kShaft ? BodyId{} : held});
+                      is_jaw(part) ? held : BodyId{}});
 }
 
 Vec3d Rigid::point(const Models& models, const States& states, const Hold& hold) noexcept {

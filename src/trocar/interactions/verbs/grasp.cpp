@@ -127,7 +127,10 @@ Candidate object_between(const ToolModel& model, const ToolShape& shape, const T
 
 /// With which the jaws press on what stops them there while the hand wants them closer [N].
 double pinch_at(const ToolModel& model, double stop, double wanted) noexcept {
-  return model.pinch_max * std::clamp((stop - wanted) / std::max(stop, 0.05), 0.0, 1.0);
+  if (!model.linkage.there) return model.pinch_max * std::clamp((stop - wanted) / std::max(stop, 0.05), 0.0, 1.0);
+  // The same of the handle's ways, times the leverage that the linkage has where the jaws are stopped.
+  const double left = 1.0 - handle_of(model.linkage, stop), gone = left - (1.0 - handle_of(model.linkage, wanted));
+  return model.pinch_max * leverage_at(model.linkage, stop) * std::clamp(gone / std::max(left, 0.05), 0.0, 1.0);
 }
 
 constexpr float kCentring = 0.985f;  // per tick: closing jaws bring what lies between them to the middle
@@ -165,7 +168,7 @@ void drop_parted(const TissueView& view, ToolState& tool) noexcept {
 }  // namespace
 
 void update_grip(const ToolModel& model, const ToolShape& shape, const TissueView& view, ToolState& tool) noexcept {
-  const double wanted = 1.0 - tool.handle;
+  const double wanted = aperture_of(model.linkage, tool.handle);
   if (!model.can().grip) {
     tool.aperture = wanted;
     tool.pinch = 0;

@@ -2,6 +2,7 @@
 
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/scene/compile/compile_hands.hpp>
+#include <trocar/scene/mechanisms/instrument_mechanism.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -18,11 +19,10 @@ interactions::ElectrodeModel electrode_of(const Instrument& i) {
   return out;
 }
 
-interactions::ToolModel tool_of(const Instrument& i, Vec3d port) {
+interactions::ToolModel tool_of(const Instrument& i, std::vector<core::Fault>& faults) {
   interactions::ToolModel tool;
   tool.name = i.name;
   tool.kind = i.kind;
-  tool.port = port;
   tool.shaft_radius = i.shaft_radius;
   tool.shaft_length = i.shaft_length;
   tool.jaw_length = i.jaw_length;
@@ -36,6 +36,8 @@ interactions::ToolModel tool_of(const Instrument& i, Vec3d port) {
   tool.clip_length = i.clip_length;
   tool.clips = i.clips;
   tool.electrode = electrode_of(i);
+  take_linkage(i, tool, faults);
+  take_wrist(i, tool, faults);
   return tool;
 }
 
@@ -49,18 +51,25 @@ const auto* named(const List& list, const std::string& name) {
 constexpr double kPlay = 1e-4;  // [m] a shaft of the trocar's own nominal size fits
 
 /// The placed instrument first, then the others in the scene's order.
-std::vector<interactions::ToolModel> rack_of(const Description& d, const Instrument& placed, const Port& port) {
-  std::vector<interactions::ToolModel> rack{tool_of(placed, port.position)};
-  for (const Instrument& i : d.instruments) {
-    const bool fits = 2 * i.shaft_radius <= port.diameter + kPlay;
-    if (fits && i.name != placed.name && rack.size() < size_t(sim::kMaxRack)) rack.push_back(tool_of(i, port.position));
+/// @param tools  (instruments of the scene)
+std::vector<interactions::ToolModel> rack_of(const std::vector<interactions::ToolModel>& tools,
+                                             const Instrument& placed, const Port& port) {
+  std::vector<interactions::ToolModel> rack;
+  for (const interactions::ToolModel& tool : tools)
+    if (tool.name == placed.name && rack.empty()) rack.push_back(tool);
+  for (const interactions::ToolModel& tool : tools) {
+    const bool fits = 2 * tool.shaft_radius <= port.diameter + kPlay;
+    if (fits && tool.name != placed.name && rack.size() < size_t(sim::kMaxRack)) rack.push_back(tool);
   }
+  for (interactions::ToolModel& tool : rack) tool.port = port.position;
   return rack;
 }
 
 }  // namespace
 
 void compile_hands(const Description& d, sim::Model& model, std::vector<core::Fault>& faults) {
+  std::vector<interactions::ToolModel> tools;
+  for (const Instrument& i : d.instruments) tools.push_back(tool_of(i, faults));
   for (const Placement& p : d.placements) {
     if (model.hands.size() == size_t(sim::kMaxTools)) {
       faults.push_back({p.at, "expected at most " + std::to_string(sim::kMaxTools) + " tools, got another"});
@@ -79,7 +88,7 @@ void compile_hands(const Description& d, sim::Model& model, std::vector<core::Fa
     hand.name = port->name;
     hand.port = port->position;
     hand.seal_friction = port->seal_friction;
-    hand.rack = rack_of(d, *instrument, *port);
+    hand.rack = rack_of(tools, *instrument, *port);
   }
   model.instruments_push = d.instruments_push;
   const Port* port = named(d.ports, d.scope_placement.port);

@@ -15,6 +15,7 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/numerics/vec3.hpp>
 #include <trocar/scene/description/body_shape.hpp>
+#include <trocar/scene/description/instrument_mechanism.hpp>
 #include <trocar/scene/description/stiffness_region.hpp>
 #include <trocar/scene/description/vessel_tree.hpp>
 #include <trocar/scene/objects/object_scenes.hpp>
@@ -436,9 +437,12 @@ struct Instrument {
   double foot = 0;          ///< hook: how far its foot reaches from the wire's axis [m]; 0: it has none
   double pinch_max = 15;    ///< force between the jaws when the handle is fully closed on tissue [N]
   double friction = 1.67;   ///< pull the grip bears per pinch force: profiled jaws hold 5 N with 3 N [Heijnsdijk 04]
-  double clip_length = 0.0085;  ///< clip applier: length of a closed clip [m]
-  int clips = 0;                ///< clips in the magazine
-  ElectrodeSetting electrode;   ///< of hooks and bipolar forceps
+  double clip_length = 0.0085;    ///< clip applier: length of a closed clip [m]
+  int clips = 0;                  ///< clips in the magazine
+  ElectrodeSetting electrode;     ///< of hooks and bipolar forceps
+  NamedMechanism linkage;         ///< between handle and jaws; none: they open as the handle does
+  std::string handle = "handle";  ///< the linkage's actuator
+  WristSetting wrist;
   core::Location at;
 
   const interactions::Abilities& can() const { return about(kind).can; }

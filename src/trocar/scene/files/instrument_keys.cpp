@@ -1,5 +1,7 @@
 // Keys of instrument files.
 #include <trocar/scene/files/keys.hpp>
+#include <trocar/scene/files/reader_parts.hpp>
+#include <trocar/scene/mechanisms/mechanism_file.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -16,6 +18,42 @@ const Table<ElectrodeSetting>& electrode() {
        R::number("stick_force_N", units::one, &E::stick_force, 0, 20, "that tears it off char, default {}"),
        R::number("seals_mm", units::mm, &E::seals, 0.1, 10,
                  "largest outer diameter of vessels that it seals, default 1, between jaws 3")}};
+  return table;
+}
+
+/// The name of a file of a mechanism, which is read with it.
+template <class T, class Member>
+Row<T> mechanism_row(const char* name, Member member, const std::string& meaning) {
+  const auto file = [member](auto& t) -> auto& { return std::invoke(member, t).file; };
+  Row<T> row = Rows<T>::text(name, file, meaning);
+  row.read = [=, read = row.read](const JsonObject& o, T& t, Context& c) {
+    read(o, t, c);
+    if (c.reading) c.reading->mechanism_of(o, name, c.folder, std::invoke(member, t));
+  };
+  return row;
+}
+
+const Table<WristSetting>& wrist() {
+  using R = Rows<WristSetting>;
+  using W = WristSetting;
+  static const Table<W> table{
+      "wrist",
+      "What bends between shaft and jaws: two hinges, the first up and down in the plane of the jaws' hinge, the "
+      "second "
+      "aside; or the hinges of a mechanism.",
+      {R::number("between_mm", units::mm, &W::between, 0, 50, "from the first hinge to the second, default {}"),
+       R::number("after_mm", units::mm, &W::after, 0, 50, "from there to the jaws' hinge, default {}"),
+       R::number("pitch_deg", units::deg, &W::pitch, 0, 120, "as far as the first turns either way, default {:.0f}"),
+       R::number("yaw_deg", units::deg, &W::yaw, 0, 120, "the second, default {:.0f}"),
+       mechanism_row<W>("mechanism", &W::mechanism,
+                        "a file of a mechanism, relative to this one: what follows on its link 'shaft' up to its frame "
+                        "'tip'. With more than two joints the hand leads the tip, and the chain follows")},
+      [](const JsonObject& o, W& w, Context&) {
+        w.there = true;
+        for (const char* key : {"between_mm", "after_mm", "pitch_deg", "yaw_deg"})
+          if (o.has("mechanism") && o.has(key))
+            o.fault(key, "expected nothing beside mechanism, which says how it bends, got a number");
+      }};
   return table;
 }
 
@@ -39,7 +77,7 @@ std::vector<Row<Instrument>> instrument_rows() {
       R::number("jaw_width_mm", units::mm, &I::jaw_width, 0.2, 30, "default {}"),
       R::number("jaw_thickness_mm", units::mm, &I::jaw_thickness, 0.2, 20, "of one jaw, default {}"),
       R::number("opening_deg", units::deg, &I::opening, 0, 180, "between the open jaws, default {:.0f}")
-          .only([](const I& i) { return !(i.parallel_gap > 0); }),
+          .only([](const I& i) { return !(i.parallel_gap > 0) && i.linkage.file.empty(); }),
       R::number("parallel_gap_mm", units::mm, &I::parallel_gap, 0, 50,
                 "between parallel jaws when open, default {}: they turn"),
       R::number("foot_mm", units::mm, &I::foot, 0, 20,
@@ -51,7 +89,14 @@ std::vector<Row<Instrument>> instrument_rows() {
       R::integer("clips", &I::clips, 0, 1000, "in the magazine, default {}"),
       R::object("electrode", electrode, &I::electrode, "of a hook or bipolar forceps").only([](const I& i) {
         return i.can().coagulate;
-      })};
+      }),
+      mechanism_row<I>("mechanism", &I::linkage,
+                       "a file of a mechanism, relative to this one: jaws go as its linkage says, and open as far; "
+                       "default: as the handle"),
+      R::text("handle", &I::handle, "the mechanism's actuator that is the handle, default {}").only([](const I& i) {
+        return !i.linkage.file.empty();
+      }),
+      R::object("wrist", wrist, &I::wrist, "default: it is rigid").only([](const I& i) { return i.wrist.there; })};
 }
 
 void check_instrument(const JsonObject& o, Instrument& i, Context&) {
@@ -63,6 +108,10 @@ void check_instrument(const JsonObject& o, Instrument& i, Context&) {
                                      kinds_that(&Abilities::coagulate), kind));
   if (i.parallel_gap > 0 && i.opening > 0)
     o.fault("opening_deg", "expected 0 or nothing beside parallel_gap_mm (jaws turn or stay parallel), got an angle");
+  if (o.has("mechanism") && o.has("opening_deg"))
+    o.fault("opening_deg", "expected nothing beside mechanism, whose jaws say how far they open, got an angle");
+  if (o.has("handle") && !o.has("mechanism")) o.fault("handle", "expected a mechanism that it moves, got none");
+  if (i.wrist.there && i.foot > 0) o.fault("wrist", "expected a rigid instrument with a foot, got one that bends");
   if (i.foot > 0 && o.has("kind") && !i.can().hook)
     o.fault("foot_mm",
             fmt::format("expected a foot only in a {}, got one in a {}", kinds_that(&Abilities::hook), kind));
@@ -74,6 +123,18 @@ void check_instrument(const JsonObject& o, Instrument& i, Context&) {
 }
 
 }  // namespace
+
+void Reading::mechanism_of(const JsonObject& o, const char* key, const std::filesystem::path& folder,
+                           NamedMechanism& mechanism) {
+  mechanism.at = o.at(key);
+  const std::optional<std::string> text = bytes_of(o, folder, key);
+  if (!text) return;
+  const std::size_t before = m_faults.size();
+  kinematics::MechanismDescription read =
+      parse_mechanism(*text, (folder / mechanism.file).lexically_normal().generic_string(), m_faults);
+  if (m_faults.size() == before)
+    mechanism.description = std::make_shared<const kinematics::MechanismDescription>(std::move(read));
+}
 
 const Table<Instrument>& instrument() {
   static const Table<Instrument> table{"instrument", "An instrument's shape and grip.", instrument_rows(),

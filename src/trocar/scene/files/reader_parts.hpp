@@ -56,6 +56,9 @@ class Reading {
   /// The closed surface from the file that `o` names; nothing, and a fault, where there is none.
   std::optional<SurfaceSource> surface_of(const JsonObject& o, SurfaceSource source,
                                           const std::filesystem::path& folder);
+  /// The mechanism that o names by a key, if it does.
+  void mechanism_of(const JsonObject& o, const char* key, const std::filesystem::path& folder,
+                    NamedMechanism& mechanism);
   /// To be checked when everything is known: a sheet or membrane that ends on a strand at `to`; a tool's reach.
   void ends_on(const std::string& strand, double to, core::Location at) {
     m_sheet_ends.push_back({strand, to, std::move(at)});
@@ -99,8 +102,9 @@ class Reading {
   /// The items of an `includes` key: the files that are named by `read`, objects that stand there by `read_here`.
   void includes(const JsonObject& o, const char* key, const std::filesystem::path& folder, const Shape& shape,
                 const Read& read, const Read& read_here);
-  /// The bytes of a file that is not JSON, named by o's "file"; none, and a fault, where it cannot be read.
-  std::optional<std::string> bytes_of(const JsonObject& o, const std::filesystem::path& folder);
+  /// The bytes of a file that o names by a key; none, and a fault, where it cannot be read.
+  std::optional<std::string> bytes_of(const JsonObject& o, const std::filesystem::path& folder,
+                                      const char* key = "file");
 
   /// Those of a file that another one in `folder` names. @throws core::BadInput
   std::string bytes_beside(const std::filesystem::path& folder, const std::string& name);

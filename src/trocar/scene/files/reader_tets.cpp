@@ -39,31 +39,31 @@ void take(const JsonObject& o, TetSource source, Solid& s) {
 
 }  // namespace
 
-std::optional<std::string> Reading::bytes_of(const JsonObject& o, const fs::path& folder) {
-  const fs::path named(o.text("file"));
-  if (!o.has("file")) return {};
+std::optional<std::string> Reading::bytes_of(const JsonObject& o, const fs::path& folder, const char* key) {
+  const fs::path named(o.text(key));
+  if (!o.has(key)) return {};
   if (named.empty() || named.is_absolute()) {
-    o.fault("file", fmt::format("expected a file name relative to this file, got \"{}\"", named.generic_string()));
+    o.fault(key, fmt::format("expected a file name relative to this file, got \"{}\"", named.generic_string()));
     return {};
   }
   if (m_library && !m_library->holds(folder / named)) {
-    o.fault("file", m_library->refusal(named.generic_string()));
+    o.fault(key, m_library->refusal(named.generic_string()));
     return {};
   }
   if (++m_files > kMaxFiles) {
-    o.fault("file", fmt::format("expected at most {} files, got more", kMaxFiles));
+    o.fault(key, fmt::format("expected at most {} files, got more", kMaxFiles));
     return {};
   }
   const fs::path path = (folder / named).lexically_normal();
   if (const std::string* bytes = m_memory ? m_memory->text_of(path) : nullptr) return *bytes;
   if (!MemoryFiles::disk_too(m_memory)) {
-    o.fault("file", fmt::format("expected the name of a file, got \"{}\"", named.generic_string()));
+    o.fault(key, fmt::format("expected the name of a file, got \"{}\"", named.generic_string()));
     return {};
   }
   try {
     return core::read_file(path, geometry::kMaxMeshBytes);
   } catch (const core::BadInput& e) {
-    o.fault("file", e.faults().front().message + " (" + path.generic_string() + ")");
+    o.fault(key, e.faults().front().message + " (" + path.generic_string() + ")");
     return {};
   }
 }

@@ -132,8 +132,8 @@ class MechanismReading {
     return three(o, key, Measure::angle, kDegree, kMostDegrees);
   }
 
-  Placement placement(const JsonObject& o) {
-    Placement p;
+  kinematics::Placement placement(const JsonObject& o) {
+    kinematics::Placement p;
     p.at = three_mm(o, "at_mm");
     p.turn = three_deg(o, "turn_deg");
     for (const JsonObject& dh : o.objects("dh")) {

@@ -23,7 +23,8 @@ void pose(StepContext& c, MembraneRef r) noexcept {
 void hang(StepContext& c, MembraneRef r) noexcept { c.work.membrane_loads[r.index].clear(); }
 
 void touch(StepContext& c, MembraneRef r, HandContact& hand) noexcept {
-  const size_t sides = model_of(c.model, r).sheet.triangles.size() * size_t(interactions::kSheetParts);
+  const size_t sides = model_of(c.model, r).sheet.triangles.size() *
+                       size_t(c.model.bends() ? interactions::kMostParts : interactions::kSheetParts);
   const std::span<Vec3f> side = HandContact::next(c.state.sheet_side, hand.sheet_side, sides);
   const size_t pair = hand.hand * c.model.membranes.size() + r.index;
   const interactions::ToolShape& shape = c.work.shapes[hand.hand];

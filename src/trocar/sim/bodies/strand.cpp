@@ -23,8 +23,9 @@ void hang(StepContext& c, StrandRef r) noexcept { c.work.strand_loads[r.index].c
 
 void touch(StepContext& c, StrandRef r, HandContact& hand) noexcept {
   const interactions::StrandBody& body = c.model.strand_bodies[r.index];
-  const std::span<Vec3f> side = HandContact::next(c.state.tool_side, hand.tool_side,
-                                                  size_t(body.nodes() - 1) * size_t(interactions::kToolParts));
+  const std::span<Vec3f> side = HandContact::next(
+      c.state.tool_side, hand.tool_side,
+      size_t(body.nodes() - 1) * size_t(c.model.bends() ? interactions::kMostParts : interactions::kToolParts));
   interactions::tool_on_strand(hand.tool, hand.touching, c.state.tools[hand.hand], body, r.id(),
                                c.state.strands[r.index], side, c.work.strand_loads[r.index]);
 }

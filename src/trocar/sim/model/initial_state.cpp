@@ -63,7 +63,7 @@ State initial_state(const Model& model) {
     tool.roll = in.roll;
     tool.depth = in.depth;
     tool.handle = in.handle;
-    tool.aperture = 1.0 - double(in.handle);
+    tool.aperture = interactions::aperture_of(model.placed(t).linkage, double(in.handle));
     tool.clips_left = model.placed(t).clips;
     take_hold(model, model.hands[t], tool);
     for (size_t i = 0; i < model.hands[t].rack.size(); ++i)
@@ -76,13 +76,17 @@ State initial_state(const Model& model) {
   s.strand_side.resize(sides);
   size_t elements = 0;
   for (const interactions::StrandBody& body : model.strand_bodies) elements += size_t(body.nodes() - 1);
-  s.tool_side.resize(model.hands.size() * elements * size_t(interactions::kToolParts));
+  const bool bends = model.bends();
+  if (bends) s.joints.resize(model.hands.size());
+  s.tool_side.resize(model.hands.size() * elements *
+                     size_t(bends ? interactions::kMostParts : interactions::kToolParts));
   size_t triangles = 0;
   for (const MembraneBody& m : model.membranes) triangles += m.sheet.triangles.size();
-  s.sheet_side.resize(model.hands.size() * triangles * size_t(interactions::kSheetParts));
+  s.sheet_side.resize(model.hands.size() * triangles *
+                      size_t(bends ? interactions::kMostParts : interactions::kSheetParts));
   s.sheet_bond.resize(model.hands.size() * model.membranes.size());
   s.touches.resize(model.hands.size());
-  for (size_t t = 0; t < model.hands.size(); ++t) interactions::start_here(s.tools[t], s.touches[t]);
+  for (size_t t = 0; t < model.hands.size(); ++t) interactions::start_here(s.tools[t], joints_of(s, t), s.touches[t]);
   s.seen.resize(model.samples.size());
   if (model.vessels.there()) {
     s.flow = model.vessels.start;

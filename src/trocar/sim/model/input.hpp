@@ -1,10 +1,12 @@
 // What the hands do in one tick: the whole input of the simulation, and the content of a recording's input log.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
 #include <trocar/core/fields.hpp>
+#include <trocar/core/hash.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 
 namespace trocar::sim {
@@ -49,18 +51,42 @@ inline constexpr int kPanelBit = 16;
 constexpr std::uint32_t irrigates(int hand) { return 1u << (8 + 2 * hand); }
 constexpr std::uint32_t sucks(int hand) { return 2u << (8 + 2 * hand); }
 
-struct Input {
-  ScopeInput scope;
-  ToolInput tools[kMaxTools];
-  std::uint32_t pedals = 0;  ///< Pedal, irrigates(), sucks(), keys of the panel
+/// How a hand bends an instrument that bends: up (about the direction in which jaws open) and aside [rad]. Joints of a
+/// wrist; of a redundant instrument how its tip is turned.
+struct WristInput {
+  float pitch = 0, yaw = 0;
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("scope", s.scope), v("tools", s.tools), v("pedals", s.pedals);
+    v("pitch", s.pitch), v("yaw", s.yaw);
   }
 };
-static_assert(std::is_trivially_copyable_v<Input> && sizeof(Input) == 20 + kMaxTools * 24 + 4, "no padding");
+
+struct Input {
+  ScopeInput scope;
+  ToolInput tools[kMaxTools];
+  std::uint32_t pedals = 0;  ///< Pedal, irrigates(), sucks(), keys of the panel
+  /// Last, so that what recordings without them hold reads as it did, and hashed only where there are any.
+  WristInput wrists[kMaxTools];
+
+  bool bends() const noexcept {
+    for (const WristInput& w : wrists)
+      if (w.pitch != 0 || w.yaw != 0) return true;
+    return false;
+  }
+
+  static constexpr bool kAsBytes = true, kOwnHash = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("scope", s.scope), v("tools", s.tools), v("pedals", s.pedals), v("wrists", s.wrists);
+  }
+};
+inline constexpr std::size_t kInputWithoutWrists = 20 + kMaxTools * 24 + 4;
+static_assert(std::is_trivially_copyable_v<Input> && sizeof(Input) == kInputWithoutWrists + kMaxTools * 8,
+              "no padding");
+/// In one piece; wrists only where one is bent.
+void add_to_hash(core::Hasher& hasher, const Input& input) noexcept;
 
 inline kinematics::FulcrumPose pose_of(const ToolInput& t) { return {t.yaw, t.pitch, t.roll, t.depth}; }
 inline kinematics::FulcrumPose pose_of(const ScopeInput& s) { return {s.yaw, s.pitch, s.roll, s.depth}; }

@@ -47,6 +47,12 @@ const interactions::ToolModel& Model::tool(const State& state, size_t hand) cons
   return hands[hand].rack[size_t(state.tools[hand].instrument)];
 }
 
+bool Model::bends() const noexcept {
+  const auto can = [](const interactions::ToolModel& t) { return t.bends.bends(); };
+  const auto in_rack = [&](const HandModel& h) { return std::any_of(h.rack.begin(), h.rack.end(), can); };
+  return std::any_of(hands.begin(), hands.end(), in_rack);
+}
+
 bool Model::irrigates() const noexcept {
   const auto has_bore = [](const interactions::ToolModel& t) { return t.can().irrigate; };
   const auto in_rack = [&](const HandModel& h) { return std::any_of(h.rack.begin(), h.rack.end(), has_bore); };

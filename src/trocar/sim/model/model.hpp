@@ -374,6 +374,7 @@ struct Model {
   /// The one it begins with.
   const interactions::ToolModel& placed(size_t hand) const noexcept { return hands[hand].rack.front(); }
 
+  bool bends() const noexcept;      ///< some instrument does, in some rack
   bool irrigates() const noexcept;  ///< there are fluids, and a suction-irrigator in a rack
   int free_nodes() const;           ///< nodes that move, all bodies
   int organs() const { return int(solids.size() + cuttables.size()); }

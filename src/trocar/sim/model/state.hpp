@@ -71,16 +71,17 @@ struct State {
   std::array<interactions::Clip, interactions::kMaxClips> clips;
   std::array<interactions::Cut, interactions::kMaxCuts> cuts;
   std::int32_t clip_count = 0, cut_count = 0;
-  std::vector<std::int32_t> nearest;              ///< contact caches: one per sample of each pair, in the Model's order
-  std::vector<Vec3f> strand_side;                 ///< per element of each strand pair's first strand
-  std::vector<Vec3f> tool_side;                   ///< (tools x elements of all strands x kToolParts)
+  std::vector<std::int32_t> nearest;  ///< contact caches: one per sample of each pair, in the Model's order
+  std::vector<Vec3f> strand_side;     ///< per element of each strand pair's first strand
+  std::vector<Vec3f> tool_side;       ///< (tools x elements of all strands x kToolParts; kMostParts if it bends())
   std::vector<std::vector<std::uint8_t>> parted;  ///< (solids) per triangle of the drawn skin: 1 = cut open
-  std::vector<Vec3f> sheet_side;                  ///< (hands x triangles of all membranes x kSheetParts)
+  std::vector<Vec3f> sheet_side;                  ///< (hands x triangles of all membranes x kSheetParts or kMostParts)
   std::vector<interactions::SheetBond> sheet_bond;  ///< (hands x membranes)
   std::vector<std::vector<std::uint8_t>> torn;      ///< (membranes) per triangle: 1 = cut open
   /// For how long nodes have been stretched beyond what they bear (tissue/failure/overstretch.hpp): rows of organs and
   /// of membranes, nodes of strands; empty for bodies that never tear.
   std::vector<std::vector<std::uint8_t>> overstretched_organs, overstretched_membranes, overstretched_strands;
+  std::vector<kinematics::Joints> joints;        ///< (hands) where instruments bend; empty where none of them can
   std::vector<interactions::TouchBook> touches;  ///< (hands) what instruments were near and where it sticks to them
   /// Blood, and what opens and closes its vessels; all empty in scenes without vessels.
   vessels::FlowState flow;
@@ -129,13 +130,21 @@ struct State {
         v("impacts", s.impacts, core::FieldNote{.hashed = irrigates, .first = s.impact_count}), v("objects", s.objects),
         v("statics", s.statics, core::only_if(!s.statics.empty())),
         v("bonds", s.bonds, core::only_if(!s.bonds.empty())),
-        v("declaring", s.declaring, core::only_if(s.declaring != 0));
+        v("declaring", s.declaring, core::only_if(s.declaring != 0)),
+        v("joints", s.joints, core::only_if(!s.joints.empty()));
   }
 };
 
 State initial_state(const Model& model);
 /// Bodies as drawn and nothing else: for compile, before the Model is complete.
 State drawn_bodies(const Model& model);
+
+/// How a hand's instrument is bent now; straight where none bends.
+kinematics::Joints joints_of(const State& state, size_t hand) noexcept;
+/// A hand's instrument as it is now.
+interactions::ToolShape shape_of(const Model& model, const State& state, size_t hand) noexcept;
+/// The tip of its closed jaws, without the rest.
+kinematics::TipFrame tip_frame_of(const Model& model, const State& state, size_t hand) noexcept;
 
 /// Where an organ's nodes are: valid until its next tick.
 tissue::NodeView nodes_of(const Model& model, const State& state, int organ) noexcept;

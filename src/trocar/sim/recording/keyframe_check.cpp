@@ -52,6 +52,9 @@ bool sound(const Model& model, const State& s) {
     if (!sound(model, t < model.hands.size() ? int(model.hands[t].rack.size()) : 1, s.tools[t])) return false;
   for (float v : {s.scope.yaw, s.scope.pitch, s.scope.roll, s.scope.depth, s.scope.post})
     if (!(std::fabs(v) < 1e3f)) return false;
+  for (const kinematics::Joints& joints : s.joints)
+    for (const double angle : joints.angle)
+      if (!(std::fabs(angle) < 1e3)) return false;
   for (const std::vector<interactions::BondState>& bonds : s.bonds)
     for (const interactions::BondState& bond : bonds)
       if (!(bond.damage >= 0 && bond.damage <= 1)) return false;

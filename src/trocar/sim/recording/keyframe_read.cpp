@@ -120,6 +120,7 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
     in.good = in.good && kind.sound(states);
   });
   for (auto& bonds : s.bonds) in.take(bonds.data(), bonds.size());
+  in.take(s.joints.data(), s.joints.size());
   if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
   if (model.wet.there) lay_floor(model, s);
   state = std::move(s);

@@ -83,6 +83,7 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
                [&out](const auto* values, size_t n) { put(out, values, n); });
   });
   for (const auto& bonds : s.bonds) put(out, bonds.data(), bonds.size());
+  put(out, s.joints.data(), s.joints.size());
   return out;
 }
 

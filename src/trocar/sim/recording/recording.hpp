@@ -33,7 +33,7 @@ inline constexpr int kKeyframeEvery = 100;  ///< ticks between display keyframes
 
 inline constexpr std::uint32_t kRecordingFormat = 2;
 inline constexpr std::uint64_t kMaxTicks =
-    4 * 3600 * core::kTicksPerSecond;  ///< a recording's length: four hours (1.5 GB of Input)
+    4 * 3600 * core::kTicksPerSecond;  ///< a recording's length: four hours (2.2 GB of Input)
 
 struct RecordingHeader {
   std::uint32_t format = kRecordingFormat;

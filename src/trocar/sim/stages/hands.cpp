@@ -11,6 +11,7 @@ bool finite(const ToolInput& t) noexcept {
   return std::isfinite(t.yaw) && std::isfinite(t.pitch) && std::isfinite(t.roll) && std::isfinite(t.depth) &&
          std::isfinite(t.handle);
 }
+bool finite(const WristInput& w) noexcept { return std::isfinite(w.pitch) && std::isfinite(w.yaw); }
 
 float stepped(float from, float to, float most) noexcept { return from + std::clamp(to - from, -most, most); }
 
@@ -39,7 +40,8 @@ void change_instrument(StepContext& c, size_t t, std::int32_t wanted) noexcept {
   next.instrument = wanted;
   next.clips_left = magazine[wanted];
   tool = next;
-  interactions::start_here(next, c.state.touches[t]);
+  if (!c.state.joints.empty()) c.state.joints[t] = {};
+  interactions::start_here(next, {}, c.state.touches[t]);
   for (Vec3f& side : sides_of(c, t)) side = {};
   const size_t each = c.state.sheet_side.size() / c.model.hands.size(), membranes = c.model.membranes.size();
   std::fill_n(c.state.sheet_side.begin() + std::ptrdiff_t(t * each), each, Vec3f{});
@@ -52,8 +54,8 @@ void stop_at_walls(StepContext& c, size_t t, const kinematics::FulcrumPose& want
                    const kinematics::FulcrumPose& before) noexcept {
   for (const WallModel& wall : c.model.walls) {
     const interactions::Surface surface{&wall.skin, &wall.pose, {}};
-    const interactions::WallStop stop =
-        interactions::stop_at_walls(c.model.tool(c.state, t), wanted, before, {&surface, 1}, c.state.tools[t]);
+    const interactions::WallStop stop = interactions::stop_at_walls(
+        c.model.tool(c.state, t), wanted, before, joints_of(c.state, t), {&surface, 1}, c.state.tools[t]);
     if (stop.stopped) c.work.wall_stops[t] = stop;
   }
 }
@@ -63,6 +65,16 @@ bool holds_open_bag(const StepContext& c, size_t t) noexcept {
   for (const interactions::BagState& bag : interactions::part_of<interactions::Bag>(c.state.objects))
     if (bag.hand == std::int32_t(t) && bag.hoop > interactions::BagState::kShut) return true;
   return false;
+}
+
+/// Joints go where the hand wants them; what of its pose the instrument makes of that goes into the command.
+void bend(StepContext& c, size_t t, interactions::ToolCommand& command) noexcept {
+  const WristInput& wrist = c.input.wrists[t];
+  kinematics::Joints& joints = c.state.joints[t];
+  const kinematics::Arm arm = interactions::wanted_arm(
+      c.model.tool(c.state, t), command.pose, {double(wrist.pitch), double(wrist.yaw)}, c.state.tools[t], joints);
+  command.pose = arm.pose;
+  interactions::follow_joints(arm.joints, kTick, joints);
 }
 
 /// One hand follows its input. While it wants another instrument it lets go of the tissue, draws back and changes.
@@ -75,9 +87,15 @@ void move_hand(StepContext& c, size_t t) noexcept {
   if (known && in.instrument != tool.instrument) {
     // An empty hand opens its jaws; a bag's mouth is shut before it is drawn out.
     command = {tool.pose(), c.model.tool(c.state, t).can().bag ? 1.0 : 0.0};
-    const bool free = tool.holds == 0 && !holds_open_bag(c, t);
+    const bool free = tool.holds == 0 && !holds_open_bag(c, t) && !joints_of(c.state, t).bent();
     if (free) command.pose.depth = kParked;
     if (free && tool.depth <= kParked) change_instrument(c, t, in.instrument);
+  }
+  if (c.model.tool(c.state, t).bends.bends()) {
+    if (known && in.instrument != tool.instrument)
+      interactions::follow_joints({}, kTick, c.state.joints[t]);  // straight before it is drawn back
+    else
+      bend(c, t, command);
   }
   const kinematics::FulcrumPose wanted = command.pose, before = tool.pose();
   // At a wall the way in is of no use: most of the speed goes along it.
@@ -101,7 +119,7 @@ void move_hands(StepContext& c) noexcept {
   hear_declaration(c);
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     c.work.wall_stops[t] = {};
-    if (finite(c.input.tools[t]))
+    if (finite(c.input.tools[t]) && finite(c.input.wrists[t]))
       move_hand(c, t);
     else
       c.report.flags |= StepReport::kBadInput;

@@ -6,7 +6,6 @@
 namespace trocar::sim {
 namespace {
 
-using interactions::kToolParts;
 using interactions::ToolShape;
 
 constexpr int kRounds = 3;
@@ -21,10 +20,7 @@ struct Meeting {
   bool there = false;
 };
 
-ToolShape shape_of_hand(const StepContext& c, size_t t) noexcept {
-  const interactions::ToolState& tool = c.state.tools[t];
-  return interactions::shape_of(c.model.tool(c.state, t), tool.pose(), tool.aperture);
-}
+ToolShape shape_of_hand(const StepContext& c, size_t t) noexcept { return shape_of(c.model, c.state, t); }
 ToolShape before_of_hand(const StepContext& c, size_t t) noexcept {
   return interactions::shape_before(c.model.tool(c.state, t), c.state.touches[t]);
 }
@@ -34,24 +30,24 @@ Meeting meeting_of(const ToolShape& a0, const ToolShape& a, const ToolShape& b0,
                    double least) noexcept {
   Meeting deepest;
   deepest.contact.depth = least;
-  for (int p = 0; p < kToolParts; ++p)
-    for (int q = 0; q < kToolParts; ++q) {
+  for (int p = 0; p < end_of(a); p = interactions::next(p))
+    for (int q = 0; q < end_of(b); q = interactions::next(q)) {
       Vec3f side{};
-      const collision::RodContact now = collision::touch(a0.part[p], a.part[p], b0.part[q], b.part[q], side);
+      const collision::RodContact now = collision::touch(a0.rod(p), a.rod(p), b0.rod(q), b.rod(q), side);
       if (now.depth > deepest.contact.depth) deepest = {now, true};
     }
   return deepest;
 }
 
 double along(const interactions::ToolModel& tool, const ToolShape& shape, Vec3d place) noexcept {
-  return std::max(kNearTrocar, dot(place - tool.port, shape.frame.axis()));
+  return std::max(kNearTrocar, dot(place - tool.port, shape.shaft.axis()));
 }
 
 /// Turns the instrument about its trocar so that its axis moves by `way` where it is met.
 void shift(const interactions::ToolModel& tool, const ToolShape& shape, Vec3d place, Vec3d way,
            interactions::ToolState& state) noexcept {
   const double s = along(tool, shape, place);
-  const Vec3d to = tool.port + s * shape.frame.axis() + way;
+  const Vec3d to = tool.port + s * shape.shaft.axis() + way;
   kinematics::FulcrumPose pose = kinematics::inverse(tool.port, to, state.roll);
   pose.depth += state.depth - s;
   pose = kinematics::clamped(pose, tool.limits);
@@ -69,7 +65,7 @@ double wants(const StepContext& c, size_t t, const ToolShape& shape, Vec3d place
   if (in.instrument != c.state.tools[t].instrument) return 0;  // it is being drawn back
   const double s = along(tool, shape, place), deeper = goal.depth - c.state.tools[t].depth;
   const Vec3d axis = kinematics::forward(tool.port, goal).axis();
-  return dot((tool.port + (s + deeper) * axis) - (tool.port + s * shape.frame.axis()), n);
+  return dot((tool.port + (s + deeper) * axis) - (tool.port + s * shape.shaft.axis()), n);
 }
 
 template <class F>

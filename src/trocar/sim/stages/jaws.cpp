@@ -7,8 +7,7 @@ namespace trocar::sim {
 void work_jaws(StepContext& c) noexcept {
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     const interactions::ToolModel& model = c.model.tool(c.state, t);
-    const interactions::ToolState& tool = c.state.tools[t];
-    c.work.shapes[t] = interactions::shape_of(model, tool.pose(), tool.aperture);
+    c.work.shapes[t] = shape_of(c.model, c.state, t);
     Verbs::for_each([&](auto verb) {
       if (verb.does(model)) verb.work(c, t);
     });

@@ -44,9 +44,7 @@ PulseReader::PulseReader(const Model& model) : m_model(model), m_hosts(make_host
 double PulseReader::area(const State& state, int hand, int vessel) {
   const Vessel& v = m_model.vessels.list[size_t(vessel)];
   if (!v.pulses() || !presses(state, size_t(hand))) return 0;
-  const interactions::ToolState& tool = state.tools[size_t(hand)];
-  const interactions::ToolShape shape =
-      interactions::shape_of(m_model.tool(state, size_t(hand)), tool.pose(), tool.aperture);
+  const interactions::ToolShape shape = shape_of(m_model, state, size_t(hand));
   const std::span<Vec3d> line = std::span(m_line).first(v.path.points.size());
   pose_vessel(v.path, look_at_hosts(m_model, state, m_hosts), line);
   double sum = 0;

@@ -59,7 +59,7 @@ Vec3d sample_point(const Model& model, const State& state, const Work& work, con
   if (target.kind == VisibilityTarget::jaw) return work.shapes[i].part[interactions::kJawA + sample.where].b;
   if (target.kind == VisibilityTarget::shaft) {
     const Vec3d port = model.hands[i].port;
-    return port + sample.w * (work.shapes[i].pivot - port);
+    return port + sample.w * (work.shapes[i].shaft.tip - port);
   }
   if (target.kind == VisibilityTarget::mark) return mark_sample(model, state, model.marks[i], sample.where, eye);
   if (target.kind == VisibilityTarget::organ) return work.surfaces[i].position(sample.where);

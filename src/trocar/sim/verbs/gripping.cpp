@@ -11,7 +11,7 @@ void Gripping::work(StepContext& c, std::size_t t) noexcept {
   interactions::update_grip(model, c.work.shapes[t], tissue_of(c), tool);
   if (held == 0 && tool.holds > 0) tell(c, Event::grasped, int(t), tool.hold[0].body);
   if (held > 0 && tool.holds == 0) tell_lost(c, t, slips);
-  c.work.shapes[t] = interactions::shape_of(model, tool.pose(), tool.aperture);
+  c.work.shapes[t] = shape_of(c.model, c.state, t);
 }
 
 }  // namespace trocar::sim

@@ -125,7 +125,7 @@ bool foresee(const Moment& moment, int hand, Foreseen& out) {
   const interactions::ToolModel& applier = moment.model.tool(moment.state, size_t(hand));
   const interactions::ToolState& tool = moment.state.tools[size_t(hand)];
   if (!applier.can().set_clips || !tool.armed) return false;
-  const interactions::ToolShape shape = interactions::shape_of(applier, tool.pose(), tool.aperture);
+  const interactions::ToolShape shape = sim::shape_of(moment.model, moment.state, size_t(hand));
   interactions::TissueView view;
   view.strands = moment.model.strand_bodies;
   view.strand_states = moment.state.strands;

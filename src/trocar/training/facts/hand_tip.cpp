@@ -1,4 +1,7 @@
-// How far an instrument's tip is from something.
+// How far an instrument's tip is from something, and how it points there.
+#include <fmt/format.h>
+
+#include <trocar/numerics/portable.hpp>
 #include <trocar/training/facts/registry.hpp>
 #include <trocar/training/observe/hands.hpp>
 #include <trocar/training/observe/marks.hpp>
@@ -15,8 +18,31 @@ Value to_hand(const Moment& moment, const Arguments& a) {
                 tip_of(moment.model, moment.state, size_t(a[1].index)));
 }
 
+Value jaws_to_mark(const Moment& moment, const Arguments& a) {
+  const std::optional<Vec3d> normal = normal_of_mark(moment.model, moment.state, a[1].index);
+  if (!normal) return kUnknown;
+  const Vec3d axis = sim::tip_frame_of(moment.model, moment.state, size_t(a[0].index)).axis();
+  return portable::atan2(length(cross(axis, *normal)), -dot(axis, *normal));
+}
+std::string marks_that_face(const sim::Model& model, const Arguments& a) {
+  const sim::VisibilityTarget& target = model.targets[size_t(a[1].index)];
+  if (can_face(model, target)) return "";
+  return fmt::format("expected an organ or a disc, got \"{}\", which faces every way", target.name);
+}
+
 }  // namespace
 
+const Fact kHandJawsToMark{"hand.jaws_to_mark_deg",
+                           {{"hand", ArgumentKind::hand, "whose instrument"},
+                            {"mark", ArgumentKind::mark, "a disc or an organ that they point at"}},
+                           0,
+                           180,
+                           "Between the axis of the instrument's jaws and straight into the surface at the mark: 0 "
+                           "where they point into it, 90 along it.",
+                           anywhere,
+                           &stateless<jaws_to_mark>,
+                           false,
+                           marks_that_face};
 const Fact kHandTipToMark{"hand.tip_to_mark_mm",
                           {{"hand", ArgumentKind::hand, "whose instrument"}, {"mark", ArgumentKind::mark, "to which"}},
                           0,

@@ -12,7 +12,7 @@ Vec3d vector_of(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
 TraceSample sample_of(const sim::Model& model, const sim::State& state, std::size_t hand) {
   const interactions::ToolState& tool = state.tools[hand];
-  const kinematics::TipFrame frame = kinematics::forward(model.hands[hand].port, tool.pose());
+  const kinematics::TipFrame frame = sim::tip_frame_of(model, state, hand);
   TraceSample sample;
   sample.tip = frame.tip;
   sample.orientation = quat_from_mat3(frame.rotation);

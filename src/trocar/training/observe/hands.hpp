@@ -10,7 +10,7 @@ inline double norm(const double (&v)[3]) { return length(Vec3d{v[0], v[1], v[2]}
 inline size_t hands(const sim::Model& model) { return model.hands.size(); }
 
 inline Vec3d tip_of(const sim::Model& model, const sim::State& state, size_t hand) {
-  return kinematics::forward(model.hands[hand].port, state.tools[hand].pose()).tip;
+  return sim::tip_frame_of(model, state, hand).tip;
 }
 
 /// Where a strand's, an organ's or a fold's sample is.

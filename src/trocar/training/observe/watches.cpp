@@ -93,8 +93,7 @@ void CollisionWatch::update(const Handling& limits, const sim::Model& model, con
                             Mishaps& out) {
   std::array<Parts, sim::kMaxTools> now;
   for (size_t h = 0; h < hands(model); ++h) {
-    const interactions::ToolState& tool = state.tools[h];
-    const interactions::ToolShape shape = interactions::shape_of(model.tool(state, h), tool.pose(), tool.aperture);
+    const interactions::ToolShape shape = sim::shape_of(model, state, h);
     for (size_t p = 0; p < now[h].size(); ++p) now[h][p] = shape.part[p];
   }
   constexpr double kApart = 0.002;  // [m] between two meetings

@@ -76,6 +76,15 @@ bool Arms::turn_across(int hand, Vec3d direction) {
   return std::fabs(wanted - arm.roll) < kSquare;
 }
 
+bool Arms::bend(int hand, const sim::WristInput& to) {
+  constexpr double kBending = 1.2;  // [rad/s]
+  sim::WristInput& wrist = m_arm[size_t(hand)].wrist;
+  const auto most = float(kBending * sim::kTick);
+  wrist.pitch += std::clamp(to.pitch - wrist.pitch, -most, most);
+  wrist.yaw += std::clamp(to.yaw - wrist.yaw, -most, most);
+  return std::fabs(to.pitch - wrist.pitch) + std::fabs(to.yaw - wrist.yaw) < 1e-6f;
+}
+
 bool Arms::grip(int hand, double to, double seconds) {
   double& handle = m_arm[size_t(hand)].handle;
   const double pace = sim::kTick / seconds;
@@ -98,6 +107,7 @@ void Arms::fill(std::uint64_t tick, sim::Input& input) const {
     const Arm& arm = m_arm[size_t(h)];
     const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, arm.tip + tremor(h, tick), arm.roll);
     input.tools[h] = sim::tool_input(pose, float(arm.handle), arm.instrument);
+    input.wrists[h] = arm.wrist;
     input.pedals &= ~(sim::irrigates(h) | sim::sucks(h));
     if (arm.coagulating) input.pedals |= sim::kBlue;
     input.pedals |= (arm.irrigating ? sim::irrigates(h) : 0u) | (arm.sucking ? sim::sucks(h) : 0u);

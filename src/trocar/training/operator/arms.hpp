@@ -24,6 +24,7 @@ class Arms {
   struct Arm {
     Vec3d tip, port;
     double roll = 0, handle = 0;
+    sim::WristInput wrist;  ///< of an instrument that bends; `tip` is then the straight one's
     std::int32_t instrument = 0;
     bool moving = false;                       ///< in this tick
     bool irrigating = false, sucking = false;  ///< valves of a suction-irrigator
@@ -42,6 +43,8 @@ class Arms {
   bool move_to_depth(int hand, double depth, double speed);
   /// One tick of turning the jaws so that their plane stands across `direction`. True when they do.
   bool turn_across(int hand, Vec3d direction);
+  /// One tick of bending a wrist. True when it is bent so.
+  bool bend(int hand, const sim::WristInput& to);
   /// One tick of closing or opening the handle, all the way in `seconds`.
   bool grip(int hand, double to, double seconds);
 

@@ -239,8 +239,7 @@ class ClipAt final : public Skill {
   const char* misfit(Operator& op) const {
     constexpr double kSurer = 0.035, kMore = 0.01;  // [rad] and share that are kept from the limits
     const interactions::ToolModel& t = op.tool(m_hand);
-    const interactions::ToolState& now = op.tool_state(m_hand);
-    const interactions::ToolShape shape = interactions::shape_of(t, now.pose(), now.aperture);
+    const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), size_t(m_hand));
     const Vec3d local = interactions::to_jaw(shape, at(op));
     const double cover =
         interactions::leg_cover(local.z - (t.jaw_length - t.clip_length), op.radius(m_strand, m_place), t.clip_length);

@@ -153,10 +153,7 @@ class ClipVessel final : public Skill {
   Vec3d in_jaws(Operator& op, const interactions::ToolShape& shape) const {
     return interactions::to_jaw(shape, carrier(op).place);
   }
-  interactions::ToolShape shape(Operator& op) const {
-    const interactions::ToolState& tool = op.tool_state(m_hand);
-    return interactions::shape_of(op.tool(m_hand), tool.pose(), tool.aperture);
-  }
+  interactions::ToolShape shape(Operator& op) const { return sim::shape_of(op.model(), op.state(), size_t(m_hand)); }
   bool between_legs(Operator& op) const {
     constexpr double kShort = 0.002;  // [m]
     const interactions::ToolShape now = shape(op);

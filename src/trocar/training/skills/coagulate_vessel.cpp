@@ -76,8 +76,7 @@ class CoagulateVessel final : public Skill {
   /// How far along what is held the place lies from the jaws' middle.
   double from_jaws(Operator& op) const {
     constexpr double kAcross = 0.3;  // less, and the jaws lie along it
-    const interactions::ToolState& tool = op.tool_state(m_hand);
-    const interactions::ToolShape shape = interactions::shape_of(op.tool(m_hand), tool.pose(), tool.aperture);
+    const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), size_t(m_hand));
     const VesselCarrier now = carrier_at(op, bleeder(op).vessel, bleeder(op).s);
     const double across = dot(now.along, interactions::direction_from_jaw(shape, {0, 1, 0}));
     if (std::fabs(across) < kAcross) return 0;

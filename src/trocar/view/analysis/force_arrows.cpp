@@ -16,7 +16,7 @@ constexpr double kArrowThick = 0.0007, kHeadThick = 0.0018,
 void add_grip(const sim::Model& model, const sim::State& state, int hand, std::vector<ForceArrow>& to) {
   const interactions::ToolState& tool = state.tools[std::size_t(hand)];
   if (tool.holds == 0) return;
-  const interactions::ToolShape shape = shape_of(model.tool(state, std::size_t(hand)), tool.pose(), tool.aperture);
+  const interactions::ToolShape shape = sim::shape_of(model, state, std::size_t(hand));
   ForceArrow grip{ForceKind::grip, {}, {}, hand};
   for (int i = 0; i < tool.holds; ++i) {
     const interactions::Hold& h = tool.hold[i];
@@ -27,8 +27,7 @@ void add_grip(const sim::Model& model, const sim::State& state, int hand, std::v
 }
 
 void add_touches(const sim::Model& model, const sim::State& state, int hand, std::vector<ForceArrow>& to) {
-  const interactions::ToolState& tool = state.tools[std::size_t(hand)];
-  const interactions::ToolShape shape = shape_of(model.tool(state, std::size_t(hand)), tool.pose(), tool.aperture);
+  const interactions::ToolShape shape = sim::shape_of(model, state, std::size_t(hand));
   const interactions::TouchBook& book = state.touches[std::size_t(hand)];
   for (int i = 0; i < book.count; ++i)
     if (book.touch[i].anchored)

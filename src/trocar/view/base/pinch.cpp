@@ -100,7 +100,7 @@ std::vector<JawPress> jaws_on(BodyId body, const sim::Model& model, const sim::S
     const interactions::ToolState& tool = state.tools[t];
     if (!holds(tool, body)) continue;
     const interactions::ToolModel& m = model.tool(state, t);
-    presses.push_back({interactions::shape_of(m, tool.pose(), tool.aperture), m.jaw_length, 0.5 * m.jaw_width});
+    presses.push_back({sim::shape_of(model, state, t), m.jaw_length, 0.5 * m.jaw_width});
   }
   return presses;
 }

@@ -8,10 +8,50 @@ namespace trocar::view {
 
 using namespace metal;
 
-std::vector<InstrumentPart> instrument_parts(const ToolModel& tool) {
+namespace {
+
+std::vector<InstrumentPart> rigid_parts(const ToolModel& tool) {
   for (const KindShape& shape : kKindShapes)
     if (shape.kind == tool.kind) return shape.parts(tool);
   return {};
+}
+
+/// A rod with round ends about 0 and `length`.
+MeshBuffer knuckle(double from, double to, double radius) {
+  constexpr int kSteps = 6;
+  std::vector<TurnPoint> outline;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double a = 0.5 * portable::pi * (1 - double(i) / kSteps);
+    outline.push_back({from - radius * std::sin(a), i == 0 ? 0 : radius * std::cos(a), kClean});
+  }
+  for (int i = 0; i <= kSteps; ++i) {
+    const double a = 0.5 * portable::pi * i / kSteps;
+    outline.push_back({to + radius * std::sin(a), i == kSteps ? 0 : radius * std::cos(a), kClean});
+  }
+  return turned(outline, kAround);
+}
+
+/// Shaft and links; what is before the last hinge's end looks as it does on the rigid instrument.
+std::vector<InstrumentPart> bending_parts(const ToolModel& tool) {
+  constexpr double kHead = 0.0105, kNarrow = 0.92;  // [m] that the jaws' fork takes; of the shaft's radius
+  ToolModel head = tool;
+  head.shaft_length = kHead;
+  std::vector<InstrumentPart> parts = rigid_parts(head);
+  const double r = kNarrow * tool.shaft_radius;
+  parts.push_back({PartJoint::shaft, "insulated", shaft(tool, 0)});
+  const kinematics::Chain straight = kinematics::chain(tool.bends, {0, 0, 0}, {0, 0, 0, 0.1}, {}, tool.jaw_length);
+  for (int i = 0; i < straight.links; ++i) {
+    const double way = length(straight.bend[i + 1] - straight.bend[i]);
+    parts.push_back(
+        {PartJoint::link, "steel", knuckle(0, i + 1 < straight.links ? way : std::max(0.0, way - kHead), r), i});
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<InstrumentPart> instrument_parts(const ToolModel& tool) {
+  return tool.bends.bends() ? bending_parts(tool) : rigid_parts(tool);
 }
 
 std::vector<InstrumentPart> sleeve_parts(double radius, double reach, double from) {
@@ -54,7 +94,25 @@ std::vector<InstrumentPart> scope_parts(double radius) {
   return parts;
 }
 
-Placement placement_of(PartJoint joint, const interactions::ToolShape& shape) {
+namespace {
+
+Placement placed(Vec3d x, Vec3d z, Vec3d origin) {
+  return {Mat3f::from_columns(vec_cast<float>(x), vec_cast<float>(cross(z, x)), vec_cast<float>(z)),
+          vec_cast<float>(origin)};
+}
+
+/// A link is round: how it is turned about itself does not show.
+Placement placed_link(const interactions::Capsule& link, Vec3d opening) {
+  const Vec3d z = normalised(link.b - link.a);
+  const Vec3d off = opening - dot(opening, z) * z;
+  return placed(length(off) > 0.1 ? normalised(off) : any_perpendicular(z), z, link.a);
+}
+
+}  // namespace
+
+Placement placement_of(PartJoint joint, const interactions::ToolShape& shape, int link) {
+  if (joint == PartJoint::shaft) return placed(shape.shaft.opening(), shape.shaft.axis(), shape.shaft.tip);
+  if (joint == PartJoint::link) return placed_link(shape.link[link], shape.frame.opening());
   const Vec3d axis = shape.frame.axis(), open = shape.frame.opening();
   const double side = joint == PartJoint::jaw_b ? -1 : 1;
   Vec3d x = side * open, z = axis, origin = shape.pivot;

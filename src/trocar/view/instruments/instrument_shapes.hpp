@@ -2,7 +2,8 @@
 // jaws that turn about the pivot or shift apart. Fine features (teeth, windows, rivets) are drawing only.
 //
 // The body's frame: z along the axis (forward), x along the jaws' opening, origin at the pivot. A jaw's frame: inner
-// face at x = 0, z from the pivot to its tip; jaw b is jaw a turned by half a turn about the axis.
+// face at x = 0, z from the pivot to its tip; jaw b is jaw a turned by half a turn about the axis. Of an instrument
+// that bends the body is what the jaws hinge in, and shaft and links have frames of their own, from their ends on.
 #pragma once
 
 #include <string>
@@ -14,9 +15,10 @@
 namespace trocar::view {
 
 struct InstrumentPart {
-  enum class Joint { body, jaw_a, jaw_b } joint = Joint::body;
+  enum class Joint { body, jaw_a, jaw_b, shaft, link } joint = Joint::body;
   std::string look;
   MeshBuffer mesh;
+  int link = 0;  ///< which of an instrument that bends
 };
 
 std::vector<InstrumentPart> instrument_parts(const interactions::ToolModel& tool);
@@ -33,7 +35,7 @@ struct Placement {
   Mat3f rotation = Mat3f::identity();
   Vec3f translation;
 };
-Placement placement_of(InstrumentPart::Joint joint, const interactions::ToolShape& shape);
+Placement placement_of(InstrumentPart::Joint joint, const interactions::ToolShape& shape, int link = 0);
 /// How far jaws can be open while they are still in their trocar's sleeve: the mechanics do not know the sleeve.
 /// @param beyond how far the sleeve reaches past the pivot [m] @param radius inside the sleeve [m]
 double aperture_in_sleeve(const interactions::ToolModel& tool, double beyond, double radius);

@@ -72,7 +72,7 @@ std::vector<MetalDrawing::DrawnPart> MetalDrawing::made(const std::vector<Instru
                                                         render::Backend& backend) {
   std::vector<DrawnPart> drawn;
   for (const InstrumentPart& p : parts)
-    drawn.push_back({p.joint, &look(*m_model, p.look), rigid(p.mesh, detail, backend), detail});
+    drawn.push_back({p.joint, &look(*m_model, p.look), rigid(p.mesh, detail, backend), detail, p.link});
   return drawn;
 }
 
@@ -104,13 +104,14 @@ void MetalDrawing::make_hand(std::size_t h, const std::vector<PiercedWall>& pier
 double MetalDrawing::drawn_aperture(const sim::State& state, std::size_t hand) const {
   const interactions::ToolState& tool = state.tools[hand];
   const interactions::ToolModel& of = m_model->tool(state, hand);
-  const interactions::ToolShape shape = shape_of(of, tool.pose(), tool.aperture);
-  const double beyond = m_sleeve_end[hand] - dot(shape.pivot - m_model->hands[hand].port, shape.frame.axis());
+  const interactions::ToolShape shape = sim::shape_of(*m_model, state, hand);
+  const double beyond = m_sleeve_end[hand] - dot(shape.pivot - m_model->hands[hand].port, shape.shaft.axis());
   return std::min(tool.aperture, aperture_in_sleeve(of, beyond, m_sleeve_radius[hand]));
 }
 
 interactions::ToolShape MetalDrawing::shape_in_trocar(const sim::State& state, std::size_t hand) const {
-  return shape_of(m_model->tool(state, hand), state.tools[hand].pose(), drawn_aperture(state, hand));
+  return shape_of(m_model->tool(state, hand), state.tools[hand].pose(), sim::joints_of(state, hand),
+                  drawn_aperture(state, hand));
 }
 
 void MetalDrawing::update(const sim::State& state) {
@@ -168,7 +169,7 @@ void MetalDrawing::list_tools(const sim::State& state, const std::vector<PartSty
 void MetalDrawing::list_hand(const sim::State& state, std::size_t h, const FirstParts& first, const Listing& to) {
   const interactions::ToolShape shape = shape_in_trocar(state, h);
   const float soil = soil_on(state, h);
-  const Placement axis = placement_of(InstrumentPart::Joint::body, shape);
+  const Placement axis = placement_of(InstrumentPart::Joint::shaft, shape);
   for (DrawnPart& part : m_sleeves[h]) {
     DrawItem drawn = item({}, *part.look, first.tool + h);
     drawn.transform = to_world({axis.rotation, vec_cast<float>(m_model->hands[h].port)});
@@ -176,7 +177,7 @@ void MetalDrawing::list_hand(const sim::State& state, std::size_t h, const First
   }
   for (DrawnPart& part : m_tools[h][std::size_t(state.tools[h].instrument)]) {
     DrawItem drawn = item({}, *part.look, first.tool + h);
-    drawn.transform = to_world(placement_of(part.joint, shape));
+    drawn.transform = to_world(placement_of(part.joint, shape, part.link));
     drawn.material.soil = soil;
     to.add(part.drawn, drawn, part.detail);
   }
@@ -185,12 +186,11 @@ void MetalDrawing::list_hand(const sim::State& state, std::size_t h, const First
 void MetalDrawing::list_rods(const sim::State& state, std::size_t h, render::Frame& frame) const {
   const interactions::ToolShape shape = shape_in_trocar(state, h);
   const float pressed = pressure_of(state.tools[h]);
-  for (int k = 0; k < interactions::kToolParts; ++k) {  // a jaw is wider than it is thick
-    const collision::Capsule& rod = shape.part[k];
-    const double half =
-        k == interactions::kShaft ? rod.radius : std::max(rod.radius, 0.3 * m_model->tool(state, h).jaw_width);
-    frame.rods.push_back(
-        {vec_cast<float>(rod.a), vec_cast<float>(rod.b), float(half), k == interactions::kShaft ? 0 : pressed});
+  for (int k = interactions::kShaft; k < end_of(shape); k = interactions::next(k)) {  // a jaw is wider than it is thick
+    const collision::Capsule& rod = shape.rod(k);
+    const bool jaw = interactions::is_jaw(k);
+    const double half = jaw ? std::max(rod.radius, 0.3 * m_model->tool(state, h).jaw_width) : rod.radius;
+    frame.rods.push_back({vec_cast<float>(rod.a), vec_cast<float>(rod.b), float(half), jaw ? pressed : 0});
   }
 }
 

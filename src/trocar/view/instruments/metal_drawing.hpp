@@ -32,6 +32,7 @@ class MetalDrawing {
     const Look* look;
     RigidMesh drawn;
     Detail detail;
+    int link = 0;
   };
   /// The clip that lies ready in an applier's jaws.
   struct LoadedClip {

@@ -345,9 +345,10 @@ void BodyDrawing::update(const sim::State& state) {
   std::vector<collision::Capsule> rods;  // of instruments that hold nothing: what is held is pressed by its jaws
   for (std::size_t h = 0; h < m_model->hands.size(); ++h) {
     const interactions::ToolState& tool = state.tools[h];
-    const interactions::ToolShape shape = shape_of(m_model->tool(state, h), tool.pose(), tool.aperture);
+    const interactions::ToolShape shape = sim::shape_of(*m_model, state, h);
     for (std::int32_t k = 0; k < tool.holds; ++k) m_in_jaws.push_back(tool.hold[k].body);
-    if (tool.holds == 0) rods.insert(rods.end(), std::begin(shape.part), std::end(shape.part));
+    for (int part = 0; tool.holds == 0 && part < end_of(shape); part = interactions::next(part))
+      rods.push_back(shape.rod(part));
   }
   for (std::size_t i = 0; i < m_organs.size(); ++i)
     m_organs[i].update(state.solids[i], state.parted[i], rods, m_burns[i].update(state) ? &m_burns[i] : nullptr);

@@ -75,8 +75,7 @@ class ClearFat final : public Skill {
 
   /// Its bare metal: the wire's last millimetres, and the foot.
   std::array<interactions::Capsule, 2> metal(const Operator& op) const {
-    const interactions::ToolState& tool = op.tool_state(m_hand);
-    const interactions::ToolShape shape = interactions::shape_of(op.tool(m_hand), tool.pose(), tool.aperture);
+    const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), size_t(m_hand));
     interactions::Capsule wire = shape.part[interactions::kJawA];
     wire.a = wire.b - interactions::kBareWire * shape.frame.axis();
     return {wire, shape.part[interactions::kJawB]};

@@ -47,8 +47,7 @@ class StripFat final : public Skill {
     constexpr double kRoom = 0.006;  // [m] for half a shaft and a hand that is not quite steady
     for (int h = 0; h < int(hands(op.model())); ++h) {
       if (h == m_hand) continue;
-      const interactions::ToolState& tool = op.tool_state(h);
-      const interactions::ToolShape shape = interactions::shape_of(op.tool(h), tool.pose(), tool.aperture);
+      const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), size_t(h));
       for (const interactions::Capsule& rod : shape.part) {
         const auto near = geometry::closest_segments(op.arm(m_hand).port, place, rod.a, rod.b);
         if (length(near.on_second - near.on_first) < rod.radius + kRoom) return true;
