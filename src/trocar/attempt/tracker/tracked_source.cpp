@@ -96,6 +96,7 @@ void TrackedSource::follow(Led& led, const sim::State& state, const sim::Input& 
   const sim::ToolInput& theirs = given.tools[led.hand];
   const Vec3d port = m_model.tool(state, std::size_t(led.hand)).port;
   tool = sim::tool_input(led.pose.follow(seen->what, port, sim::pose_of(theirs)), theirs.handle, theirs.instrument);
+  m_wanted.wrists[led.hand] = given.wrists[led.hand];
   if (!led.tool->grip) return;
   const TrackerPlan::Grip& grip = *led.tool->grip;
   const auto values = m_tracker.values(grip.sensor);
