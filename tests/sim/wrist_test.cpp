@@ -38,8 +38,6 @@ const Model& redundant() {
   return model;
 }
 
-Vec3d tip(const Table& t) { return tip_frame_of(t.model, t.state, kGrasper).tip; }
-
 TEST(Wrist, BendsNoFasterThanItMayAndAsFarAsItCan) {
   Table t(wristed());
   t.steps(5);
