@@ -72,6 +72,12 @@ TEST(JsonEdit, WhatIsRemovedTakesItsCommaAndItsCommentAlong) {
   EXPECT_NE(one.find("{\"a\": 1}  // the first\n"), one.npos) << one;
 }
 
+TEST(JsonEdit, ABracketNeverEndsUpBehindACommentThatGoesToTheEndOfItsLine) {
+  EXPECT_EQ(json_remove("{\n  // why\n  \"a\": 1\n}", "/a"), "{\n  // why\n}");
+  EXPECT_EQ(json_remove("{\"a\": 1, // one\n \"b\": 2}", "/b"), "{\"a\": 1 // one\n}");
+  EXPECT_EQ(json_remove("[1, /* two */ 2]", "/1"), "[1 /* two */]");
+}
+
 TEST(JsonEdit, AnEmptyArrayIsFilledAndEmptiedAgain) {
   const std::string filled = json_set(kText, "/inner/empty/0", json_number(4));
   EXPECT_NE(filled.find("\"empty\": [4]"), filled.npos) << filled;

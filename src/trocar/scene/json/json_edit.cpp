@@ -208,6 +208,24 @@ std::string json_insert(std::string_view text, std::string_view array, std::size
   return put_part(std::string(text), *there, item, "", value);
 }
 
+namespace {
+
+/// What stands before spaces and line breaks.
+std::size_t back_over_space(std::string_view text, std::size_t at) {
+  while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '\n')) --at;
+  return at;
+}
+
+/// Does a comment that goes to the end of its line stand at `at`? From `begin` on there is nothing but space and
+/// comments.
+bool in_line_comment(std::string_view text, std::size_t begin, std::size_t at) {
+  const std::string_view gap = text.substr(begin, at - begin);
+  const std::size_t line = gap.rfind('\n');
+  return gap.find("//", line == gap.npos ? 0 : line) != gap.npos;
+}
+
+}  // namespace
+
 std::string json_remove(std::string_view text, std::string_view path) {
   const JsonDocument document = parsed(text);
   const JsonValue* there = json_at(document.root, path);
@@ -232,15 +250,15 @@ std::string json_remove(std::string_view text, std::string_view path) {
   }
   to = end_of_line_comment(text, to);
   if (which == 0) {
-    while (text[from - 1] == ' ' || text[from - 1] == '\n') --from;
+    from = back_over_space(text, from);
     const std::size_t end = after_space(text, to);
-    return out.erase(from, end - from);
+    return out.replace(from, end - from, in_line_comment(text, above.from + 1, from) ? "\n" : "");
   }
   const std::size_t comma = after_space(text, parts[which - 1].to);
   // the comment between the one before and this one stays with the one before
-  std::size_t begin = from;
-  while (begin > comma + 1 && (text[begin - 1] == ' ' || text[begin - 1] == '\n')) --begin;
-  out.erase(begin, to - begin);
+  const std::size_t begin = std::max(comma + 1, back_over_space(text, from));
+  const bool needs_line = in_line_comment(text, comma + 1, begin) && to < text.size() && text[to] != '\n';
+  out.replace(begin, to - begin, needs_line ? "\n" : "");
   return out.erase(comma, 1);
 }
 
