@@ -20,7 +20,7 @@ constexpr HelpLine kHelp[] = {
     {Device::keyboard, "Left Right Up Down", "tip sideways, up and down in the picture"},
     {Device::keyboard, "W S, PageUp PageDown", "deeper (away from you), back"},
     {Device::keyboard, "Q E", "roll the instrument, or the endoscope's picture"},
-    {Device::keyboard, "I M, J L; O", "bend a wrist up, down, left, right in the picture; straighten it"},
+    {Device::keyboard, "I, M, J, L, O", "bend a wrist up, down, left, right in the picture; straighten it"},
     {Device::keyboard, "G Enter", "close the jaws as long as it is held"},
     {Device::keyboard, "Space", "lock: jaws stay closed when let go; again: unlock"},
     {Device::keyboard, "X", "another instrument for this hand, another hand"},
