@@ -19,7 +19,8 @@ void* counted(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
-#if defined(__GNUC__) && !defined(__clang__)  // inlined at -O1, gcc takes these for a mismatched pair: both are malloc's
+#if defined(__GNUC__) && \
+    !defined(__clang__)  // inlined at -O1, gcc takes these for a mismatched pair: both are malloc's
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"
 #endif
 void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }

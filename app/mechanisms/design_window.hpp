@@ -1,5 +1,5 @@
-// `trocar mechanism FILE design` in a window: dimensions and drives by sliders, the mechanism as it stands, the way of a
-// frame, how near links come to each other, the optimiser, and saving.
+// `trocar mechanism FILE design` in a window: dimensions and drives by sliders, the mechanism as it stands, the way of
+// a frame, how near links come to each other, the optimiser, and saving.
 #pragma once
 
 #include <filesystem>

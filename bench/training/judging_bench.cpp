@@ -1,5 +1,5 @@
-// What judging costs a tick: the exercises that are shipped, in their scenes at rest, with every fact that they ask for. At
-// most 20 us in the mean on one core.
+// What judging costs a tick: the exercises that are shipped, in their scenes at rest, with every fact that they ask
+// for. At most 20 us in the mean on one core.
 #include <benchmark/benchmark.h>
 
 #include <trocar/scene/compile/compile.hpp>

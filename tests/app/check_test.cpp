@@ -68,11 +68,11 @@ class Check : public testing::Test {
 };
 
 TEST_F(Check, ShippedScenesAreGood) {
-  for (const char* scene : {"gynaecology/scene.json", "cutting/scene.json", "gallbladder/scene.json",
-                            "gallbladder_bed/scene.json", "gallbladder_bed_inflamed/scene.json",
-                            "gallbladder_bed_scarred/scene.json", "cholecystectomy_adherent/scene.json",
-                            "calot_inflamed/scene.json", "digestive/scene.json", "bowel/scene.json",
-                            "cholecystectomy/scene.json"}) {
+  for (const char* scene :
+       {"gynaecology/scene.json", "cutting/scene.json", "gallbladder/scene.json", "gallbladder_bed/scene.json",
+        "gallbladder_bed_inflamed/scene.json", "gallbladder_bed_scarred/scene.json",
+        "cholecystectomy_adherent/scene.json", "calot_inflamed/scene.json", "digestive/scene.json", "bowel/scene.json",
+        "cholecystectomy/scene.json"}) {
     const Json r = checked(scene, core::kDone);
     EXPECT_EQ(r["verdict"], "good") << r["doubts"].dump() << r["sinks"].dump();
     EXPECT_GT(r["stood_s"].get<double>(), 0);

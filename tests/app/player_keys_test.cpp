@@ -1,9 +1,9 @@
 // What a gamepad asks of the player.
+#include "player/player_keys.hpp"
+
 #include <gtest/gtest.h>
 
 #include <trocar/attempt/timeline.hpp>
-
-#include "player/player_keys.hpp"
 
 namespace trocar::app {
 namespace {

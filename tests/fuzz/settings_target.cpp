@@ -1,9 +1,9 @@
 // The settings reader. It takes what is right and leaves the rest, so whatever comes out must be within the limits.
+#include <trocar/attempt/paths.hpp>
 #include <trocar/training/store/attempt.hpp>
 
-#include <trocar/attempt/paths.hpp>
-#include "shell/settings.hpp"
 #include "archive.hpp"
+#include "shell/settings.hpp"
 #include "targets.hpp"
 
 namespace trocar::app {

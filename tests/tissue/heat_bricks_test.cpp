@@ -65,7 +65,8 @@ TEST(HeatBricks, WhereABrickLiesInMemoryChangesNoBit) {
   }
   for (int t = 0; t < 400; ++t) alone.tick();
   for (int t = 0; t < 6000; ++t) {
-    const HeatSource both[] = {coagulating({0.011, -0.007, -1e-3}, BodyId::strand(3), t % 1000 < 300 ? 15 : 0), wandering(t)};
+    const HeatSource both[] = {coagulating({0.011, -0.007, -1e-3}, BodyId::strand(3), t % 1000 < 300 ? 15 : 0),
+                               wandering(t)};
     alone.tick({both + 1, 1});
     crowded.tick(both);
   }
@@ -165,11 +166,11 @@ TEST(HeatBricks, FullMeansSaidAndBookedNotLost) {
 TEST(HeatBricks, TissueIsAskedForOncePerBrick) {
   static int asked;
   asked = 0;
-  const TissueShape counting{nullptr, [](const void* c, BodyId body, Vec3d corner, double cell,
-                                         std::span<std::uint8_t> tissue) noexcept {
-                               ++asked;
-                               fill_below(c, body, corner, cell, tissue);
-                             }};
+  const TissueShape counting{
+      nullptr, [](const void* c, BodyId body, Vec3d corner, double cell, std::span<std::uint8_t> tissue) noexcept {
+        ++asked;
+        fill_below(c, body, corner, cell, tissue);
+      }};
   Heated h(HeatDescription{}, counting);
   const HeatSource q = coagulating(kJustBelow);
   h.run(4, {&q, 1});

@@ -61,7 +61,8 @@ TEST(Calibration, DeadTissueReachesAsFarAsReadingsSay) {
   const std::array<Treated, 1> tip{{{kJustBelow, kJustBelow}}}, aside{{{kJustBelow, kJustBelow + Vec3d{0.02, 0, 0}}}};
   const double reach = spread(o.m, o.s, BodyId::strand(0), tip);
   EXPECT_NEAR(reach, o.coagulated_to(kTopCells), 1.5 * o.m.cell) << "[m]";
-  EXPECT_LE(spread(o.m, o.s, BodyId::strand(0), aside), reach) << "what lies along the way of an electrode is nearer to it";
+  EXPECT_LE(spread(o.m, o.s, BodyId::strand(0), aside), reach)
+      << "what lies along the way of an electrode is nearer to it";
   EXPECT_EQ(spread(o.m, o.s, BodyId::strand(1), tip), 0) << "another body";
   EXPECT_EQ(spread(o.m, o.s, BodyId::strand(0), {}), 0);
 }

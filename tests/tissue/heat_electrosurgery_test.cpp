@@ -62,7 +62,8 @@ TEST(Electrode, ItsPowerFallsAsTissueDries) {
     if (bipolar) o.e = bipolar_jaws();
     o.panel.blue_watts = o.panel.bipolar_watts = 60;
     const ElectrodeContact c =
-        bipolar ? ElectrodeContact{.body = BodyId::strand(0), .a = {0, 0, -0.3e-3}, .b = {0, 0, -2.7e-3}} : tip_at(kJustBelow);
+        bipolar ? ElectrodeContact{.body = BodyId::strand(0), .a = {0, 0, -0.3e-3}, .b = {0, 0, -2.7e-3}}
+                : tip_at(kJustBelow);
     o.press_for(0.104, kBlue, c);
     const double z_wet = o.last.impedance, watts = o.last.tissue;
     o.press_for(bipolar ? 4 : 10, kBlue, c);

@@ -44,7 +44,9 @@ struct Heated {
   void run(double seconds, std::span<const HeatSource> sources = {}) {
     for (int t = 0; t < int(seconds / m.tick + 0.5); ++t) tick(sources);
   }
-  double celsius(Vec3d at, BodyId body = BodyId::strand(0)) const { return double(reading(m, s, body, at).temperature); }
+  double celsius(Vec3d at, BodyId body = BodyId::strand(0)) const {
+    return double(reading(m, s, body, at).temperature);
+  }
   /// Given over booked, less 1. Only between steps.
   double imbalance() const {
     const HeatBooks& b = s.books;

@@ -181,7 +181,8 @@ TEST(Heat, DamageAtAConstantTemperatureIsArrheniusTimesTime) {
     const double wanted = std::exp(std::log(7.4e39) - 257.7e3 / (8.314462618 * (celsius + 273.15))) * seconds;
     expect_within("damage of 10 s at " + std::to_string(int(celsius)) + " C", "f32",
                   (double(h.s.damage[0]) - before) / wanted - 1, 0.005);
-    EXPECT_NEAR(double(reading(h.m, h.s, BodyId::strand(0), q.a).coagulated), 1 - std::exp(-double(h.s.damage[0])), 1e-5);
+    EXPECT_NEAR(double(reading(h.m, h.s, BodyId::strand(0), q.a).coagulated), 1 - std::exp(-double(h.s.damage[0])),
+                1e-5);
   }
   EXPECT_EQ(damage_rate({}, 42.9), 0);
 }

@@ -177,7 +177,8 @@ TEST(CriticalView, TheFactsNeverHoldWhileALobuleIsLeftInTheWindowsMiddle) {
   EXPECT_LT(t.open(), 0.9);
 }
 
-// The demonstration up to where its hook begins, but that it draws the gallbladder 17 mm instead of 5: with about 0.3 N.
+// The demonstration up to where its hook begins, but that it draws the gallbladder 17 mm instead of 5: with about 0.3
+// N.
 TEST(CriticalView, TractionAloneOpensNothing) {
   const Exercise exercise = read_exercise(TROCAR_SOURCE_DIR "/scenes/cholecystectomy/calot.json");
   Triangle t;

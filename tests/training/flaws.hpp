@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <functional>
 
-#include <trocar/training/observe/hands.hpp>
 #include <trocar/training/expert/performer.hpp>
+#include <trocar/training/observe/hands.hpp>
 
 namespace trocar::training::flaws {
 

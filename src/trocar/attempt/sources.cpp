@@ -201,8 +201,8 @@ std::unique_ptr<InputSource> make_source(const Lesson& lesson, const std::string
   if (const std::string file = argument("motion"); !file.empty())
     return std::make_unique<MotionSource>(lesson.model, file);
   if (const std::string file = argument("replay"); !file.empty()) return replay_source(lesson, file);
-  throw core::BadInput(
-      {{{"--input", 0, 0}, fmt::format("expected mouse, demo, motion:FILE, replay:FILE or box:PORT, got '{}'", input)}});
+  throw core::BadInput({{{"--input", 0, 0},
+                         fmt::format("expected mouse, demo, motion:FILE, replay:FILE or box:PORT, got '{}'", input)}});
 }
 
 }  // namespace trocar::attempt

@@ -11,9 +11,9 @@ namespace trocar::devices {
 struct DeviceReading {
   std::string name;  ///< as its maker calls it
   bool is_pad = false;
-  Gamepad pad;                   ///< where its buttons and sticks are known by name
-  std::vector<float> axes;       ///< -1..1, as they are numbered
-  std::vector<bool> buttons;     ///< down
+  Gamepad pad;                ///< where its buttons and sticks are known by name
+  std::vector<float> axes;    ///< -1..1, as they are numbered
+  std::vector<bool> buttons;  ///< down
 };
 
 }  // namespace trocar::devices

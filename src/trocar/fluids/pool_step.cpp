@@ -160,8 +160,8 @@ void substitute_across_v(const PoolKernels& x, const PoolModel& m, Rows rows, in
   if (j < rows.last) x.substitute(m.nx, w.sweep.data() + k, w.answer.data() + k + m.stride, w.answer.data() + k);
 }
 
-// [m] that may pass a face in a step, where a shorter one is possible: half of what changes how high a mound of 36 mm is
-// thrown, a third of what throws it too high.  Our choice
+// [m] that may pass a face in a step, where a shorter one is possible: half of what changes how high a mound of 36 mm
+// is thrown, a third of what throws it too high.  Our choice
 constexpr float kMostChurn = 0.008f;
 
 /// How many ticks the step that begins now takes.

@@ -26,7 +26,8 @@ inline constexpr double kBareWire = 0.004;
 /// Between skin and wire this counts as touching: skins' triangles are flat, tissue is not.          [m]  Our choice
 inline constexpr double kTouches = 0.0003;
 
-/// How far a place is off a hook's metal [m], as thick as tissue meets that (tool_contact.hpp): closed jaws are one rod.
+/// How far a place is off a hook's metal [m], as thick as tissue meets that (tool_contact.hpp): closed jaws are one
+/// rod.
 double off_wire(const ToolShape& shape, Vec3d place) noexcept;
 
 /// A hook: what is nearest to its bare end. Bipolar jaws: what they hold, from pad to pad.

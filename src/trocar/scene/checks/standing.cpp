@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <trocar/scene/checks/standing.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/scene/checks/standing.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/step.hpp>
 

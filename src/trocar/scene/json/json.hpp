@@ -65,8 +65,8 @@ void tell(std::vector<core::Fault>& faults, core::Fault fault);
 /// Reads `text`; what is wrong with it is appended to `faults`. Never throws on bad text.
 JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults);
 
-/// Texts that stand in for files, by path as given: lets tests feed readers without a disk, and editors read what is not
-/// saved yet.
+/// Texts that stand in for files, by path as given: lets tests feed readers without a disk, and editors read what is
+/// not saved yet.
 struct MemoryFiles : std::map<std::filesystem::path, std::string> {
   using map::map;
   bool over_disk = false;  ///< what is not here is read from the disk; paths are weakly canonical ones then

@@ -21,9 +21,8 @@ const std::string& name_of(const Model& model, BodyId body) {
   static const std::string nothing = "nothing", wall = "a wall";
   const std::string* name = body.is(BodyKind::wall) ? &wall : &nothing;
   visit(model, body, [&](auto ref) { name = &model_of(model, ref).name; });
-  interactions::visit_object(body, [&](auto kind) {
-    name = &kind.name(interactions::part_of<decltype(kind)>(model.objects), body.index());
-  });
+  interactions::visit_object(
+      body, [&](auto kind) { name = &kind.name(interactions::part_of<decltype(kind)>(model.objects), body.index()); });
   return *name;
 }
 

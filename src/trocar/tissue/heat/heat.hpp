@@ -276,8 +276,7 @@ struct Treated {
   Vec3d a, b;
 };
 /// How far the farthest cell that has died (O >= 1) is from the nearest of these [m]; 0 where none has.
-double spread(const HeatModel& model, const HeatState& state, BodyId body,
-              std::span<const Treated> treated) noexcept;
+double spread(const HeatModel& model, const HeatState& state, BodyId body, std::span<const Treated> treated) noexcept;
 
 /// The box around all bricks of a body, for callers with many points; false if there are none.
 bool heated_box(const HeatModel& model, const HeatState& state, BodyId body, Vec3d& low, Vec3d& high) noexcept;

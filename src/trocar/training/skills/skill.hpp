@@ -2,7 +2,8 @@
 // dry), run tick by tick on an Operator. A skill knows no exercise and no body of a scene: those are its parameters. It
 // looks at the State as eyes and fingers would, ends when it is done, or gives up and says why.
 //
-// A new skill is one file, here or in a room for its field, that defines a Skill and its SkillKind, and one line in skills.inl.
+// A new skill is one file, here or in a room for its field, that defines a Skill and its SkillKind, and one line in
+// skills.inl.
 //
 //   class Withdraw final : public Skill { Progress work(Operator& op) override; ... };
 //   extern const SkillKind kWithdraw{"withdraw", "draw an instrument back", {hand()}, 6, "...", nothing,

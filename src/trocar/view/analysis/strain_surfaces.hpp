@@ -36,7 +36,8 @@ class StrainSurfaces {
 
  private:
   void update_organ(sim::SolidRef solid, const sim::State& state, const AnalysisOptions& o, render::Backend& backend);
-  void update_organ(sim::CuttableRef organ, const sim::State& state, const AnalysisOptions& o, render::Backend& backend);
+  void update_organ(sim::CuttableRef organ, const sim::State& state, const AnalysisOptions& o,
+                    render::Backend& backend);
   void update_membrane(std::size_t i, const sim::State& state, const AnalysisOptions& o, render::Backend& backend);
   void update_strand(std::size_t i, const sim::State& state, const AnalysisOptions& o, render::Backend& backend);
 

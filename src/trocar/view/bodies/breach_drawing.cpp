@@ -12,7 +12,7 @@ constexpr std::uint32_t kPatch = kAround * kPatchRings + 1;  // vertices
 constexpr double kWider = 1.45;                              // than its bond's area: neighbours run into each other
 constexpr double kStandsOut = 0.0009, kGoesIn = 0.0014;      // [m] in its middle; at its rim, below what is drawn there
 constexpr double kCrumbs = 0.0005;                           // [m] how uneven it is
-constexpr std::uint8_t kBleeding = 110, kCrust = 205;          // Paint::blood while it bleeds, Paint::burn afterwards
+constexpr std::uint8_t kBleeding = 110, kCrust = 205;        // Paint::blood while it bleeds, Paint::burn afterwards
 
 /// Out of an organ's skin around one of its vertices.
 Vec3d out_of(const tissue::NodeView& nodes, const tissue::Skin& skin, int vertex) {
