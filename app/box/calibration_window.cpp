@@ -70,6 +70,16 @@ Json question_json(const BoxQuestion& q) {
           {"button", q.button}};
 }
 
+Window open_calibration_window() {
+  try {
+    return Window("Trocar: instrument box", {1000, 700});
+  } catch (const core::EnvironmentLacks& lacks) {
+    throw core::EnvironmentLacks(fmt::format(
+        "{}\nWithout a window: trocar box monitor PORT shows all channels, trocar box file the file to be filled in",
+        lacks.what()));
+  }
+}
+
 class CalibrationWindow {
  public:
   CalibrationWindow(Window& window, const CalibrationOptions& options)
@@ -377,7 +387,7 @@ void CalibrationWindow::save() {
 bool calibrate_in_window(const CalibrationOptions& options) {
   std::vector<core::Fault> ignored;
   const Settings settings = read_settings(settings_file(), ignored);
-  Window window("Trocar: instrument box", {1000, 700});
+  Window window = open_calibration_window();
   window.set_text_size(settings.text_size);
   return CalibrationWindow(window, options).run();
 }

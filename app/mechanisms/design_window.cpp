@@ -50,6 +50,15 @@ const char* unit_word(Measure measure) {
   return measure == Measure::angle ? " deg" : measure == Measure::length ? " mm" : "";
 }
 
+Window open_design_window(const DesignWindowOptions& o) {
+  try {
+    return Window("Trocar: " + o.description.name, o.size);
+  } catch (const core::EnvironmentLacks& lacks) {
+    throw core::EnvironmentLacks(
+        fmt::format("{}\nA mechanism without a window: trocar mechanism FILE pose, clearance, optimise", lacks.what()));
+  }
+}
+
 class DesignWindow {
  public:
   DesignWindow(Window& window, const DesignWindowOptions& options, EventLog& log)
@@ -390,7 +399,7 @@ void DesignWindow::picture() {
 void run_design_window(DesignWindowOptions options) {
   std::vector<core::Fault> ignored;
   const Settings settings = read_settings(settings_file(), ignored);
-  Window window("Trocar: " + options.description.name, options.size);
+  Window window = open_design_window(options);
   window.set_text_size(settings.text_size);
   EventLog log(EventLog::path_of(options.log));
   attempt::catch_interrupts();
