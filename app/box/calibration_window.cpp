@@ -20,9 +20,9 @@
 #include <trocar/devices/box/box_thread.hpp>
 
 #include "shell/event_log.hpp"
+#include "shell/open_window.hpp"
 #include "shell/settings.hpp"
 #include "shell/ui.hpp"
-#include "shell/window.hpp"
 
 namespace trocar::app {
 namespace {
@@ -68,16 +68,6 @@ Json question_json(const BoxQuestion& q) {
           {"value", q.value},
           {"pedal", q.pedal},
           {"button", q.button}};
-}
-
-Window open_calibration_window() {
-  try {
-    return Window("Trocar: instrument box", {1000, 700});
-  } catch (const core::EnvironmentLacks& lacks) {
-    throw core::EnvironmentLacks(fmt::format(
-        "{}\nWithout a window: trocar box monitor PORT shows all channels, trocar box file the file to be filled in",
-        lacks.what()));
-  }
 }
 
 class CalibrationWindow {
@@ -387,7 +377,9 @@ void CalibrationWindow::save() {
 bool calibrate_in_window(const CalibrationOptions& options) {
   std::vector<core::Fault> ignored;
   const Settings settings = read_settings(settings_file(), ignored);
-  Window window = open_calibration_window();
+  Window window = open_window(
+      "Trocar: instrument box", {1000, 700},
+      "Without a window: trocar box monitor PORT shows all channels, trocar box file the file to be filled in");
   window.set_text_size(settings.text_size);
   return CalibrationWindow(window, options).run();
 }

@@ -24,11 +24,11 @@
 #include <trocar/view/mechanisms/mechanism_drawing.hpp>
 
 #include "shell/event_log.hpp"
+#include "shell/open_window.hpp"
 #include "shell/pane_canvas.hpp"
 #include "shell/panes.hpp"
 #include "shell/settings.hpp"
 #include "shell/ui.hpp"
-#include "shell/window.hpp"
 
 namespace trocar::app {
 namespace {
@@ -48,15 +48,6 @@ double per_file(Measure measure) {
 }
 const char* unit_word(Measure measure) {
   return measure == Measure::angle ? " deg" : measure == Measure::length ? " mm" : "";
-}
-
-Window open_design_window(const DesignWindowOptions& o) {
-  try {
-    return Window("Trocar: " + o.description.name, o.size);
-  } catch (const core::EnvironmentLacks& lacks) {
-    throw core::EnvironmentLacks(
-        fmt::format("{}\nA mechanism without a window: trocar mechanism FILE pose, clearance, optimise", lacks.what()));
-  }
 }
 
 class DesignWindow {
@@ -399,7 +390,8 @@ void DesignWindow::picture() {
 void run_design_window(DesignWindowOptions options) {
   std::vector<core::Fault> ignored;
   const Settings settings = read_settings(settings_file(), ignored);
-  Window window = open_design_window(options);
+  Window window = open_window("Trocar: " + options.description.name, options.size,
+                              "A mechanism without a window: trocar mechanism FILE pose, clearance, optimise");
   window.set_text_size(settings.text_size);
   EventLog log(EventLog::path_of(options.log));
   attempt::catch_interrupts();

@@ -15,6 +15,7 @@
 #include <trocar/scene/json/json_text.hpp>
 
 #include "modeller/modeller_parts.hpp"
+#include "shell/open_window.hpp"
 #include "shell/panes.hpp"
 #include "shell/settings.hpp"
 
@@ -38,15 +39,6 @@ std::vector<fs::path> read_recent() {
   for (const scene::JsonValue& v : read.root.items)
     if (v.kind == scene::JsonValue::Kind::string && out.size() < kRecent) out.emplace_back(v.text);
   return out;
-}
-
-Window open_modeller_window(pictures::PictureSize size) {
-  try {
-    return Window("Trocar: modeller", size);
-  } catch (const core::EnvironmentLacks& lacks) {
-    throw core::EnvironmentLacks(
-        fmt::format("{}\nThe modeller without a window: trocar model --script FILE", lacks.what()));
-  }
 }
 
 }  // namespace
@@ -413,7 +405,8 @@ void run_modeller(const ModellerOptions& options) {
   std::vector<core::Fault> ignored;
   const Settings settings = read_settings(settings_file(), ignored);
   if (!options.file.empty()) modeller::Document::open(options.file);  // a wrong name is told before a window opens
-  Window window = open_modeller_window(options.size);
+  Window window =
+      open_window("Trocar: modeller", options.size, "The modeller without a window: trocar model --script FILE");
   window.set_text_size(settings.text_size);
   EventLog log(EventLog::path_of(options.log));
   attempt::catch_interrupts();

@@ -19,11 +19,11 @@
 
 #include "rooms/room_camera.hpp"
 #include "shell/event_log.hpp"
+#include "shell/open_window.hpp"
 #include "shell/pane_canvas.hpp"
 #include "shell/panes.hpp"
 #include "shell/settings.hpp"
 #include "shell/ui.hpp"
-#include "shell/window.hpp"
 
 namespace trocar::app {
 namespace {
@@ -34,15 +34,6 @@ constexpr double kRadian = portable::pi / 180, kTiltStep = 1 * kRadian;
 constexpr float kPanelWidth = 360, kPortReach = 14;  // [px]
 constexpr double kPlayedEvery = 0.05;                // [s] of a programme that is gone through
 constexpr double kGapShown = 0.06;                   // [m]
-
-Window open_room_window(const RoomWindowOptions& o) {
-  try {
-    return Window("Trocar: " + o.room.name, o.size);
-  } catch (const core::EnvironmentLacks& lacks) {
-    throw core::EnvironmentLacks(
-        fmt::format("{}\nA room without a window: trocar room FILE pose --shots FOLDER", lacks.what()));
-  }
-}
 
 class RoomWindow {
  public:
@@ -362,7 +353,8 @@ class RoomWindow {
 void run_room_window(RoomWindowOptions options) {
   std::vector<core::Fault> ignored;
   const Settings settings = read_settings(settings_file(), ignored);
-  Window window = open_room_window(options);
+  Window window = open_window("Trocar: " + options.room.name, options.size,
+                              "A room without a window: trocar room FILE pose --shots FOLDER");
   window.set_text_size(settings.text_size);
   EventLog log(EventLog::path_of(options.log));
   attempt::catch_interrupts();
