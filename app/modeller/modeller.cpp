@@ -259,6 +259,8 @@ void Modeller::log_widgets() {
   if (widgets == m_widgets && points == m_logged_points) return;
   m_widgets = widgets;
   m_logged_points = points;
+  Json gizmo = Json::object();
+  for (const auto& [word, spot] : gizmo_spots(m_gizmo, m_views[std::size_t(m_active)])) gizmo[word] = {spot.x, spot.y};
   Json places = Json::object();
   for (const ui::Widget& w : widgets) places[w.id] = {w.x, w.y};
   const Area& a = m_views[std::size_t(m_active)].area;
@@ -268,6 +270,7 @@ void Modeller::log_widgets() {
                          {"view", {a.x, a.y, a.width, a.height}},
                          {"selected", m_selected},
                          {"points", points},
+                         {"gizmo", gizmo},
                          {"widgets", places}});
 }
 
