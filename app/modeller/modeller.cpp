@@ -1,6 +1,7 @@
 #include "modeller/modeller.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <epoxy/gl.h>
@@ -235,6 +236,7 @@ void Modeller::take_file(fs::path chosen) {
       leave();
     }
     if (wanted == FileFor::save_as) save_as(chosen);
+    if (wanted == FileFor::body) ask_for_body(m_body_by, chosen);
     if (wanted == FileFor::scan) m_scan.open(chosen), m_scan_shown = true;
     if (wanted == FileFor::labels) m_scan.take_labels(chosen);
     if (wanted == FileFor::write_labels) m_scan.write_labels(chosen);
@@ -247,6 +249,18 @@ void Modeller::take_file(fs::path chosen) {
   } catch (const core::BadInput& bad) {
     tell(bad.what());
   }
+}
+
+/// What else is to be known of a body that a file shall become.
+void Modeller::ask_for_body(const std::string& operation, const fs::path& file) {
+  m_adding = operation;
+  m_asked.clear();
+  m_asked["file"] = file.lexically_proximate(m_document->root().parent_path()).generic_string();
+  std::string name = file.stem().string();
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  m_asked["name"] = free_name(name);
+  if (operation == "fit_spline") m_asked["cell_mm"] = "5";
 }
 
 void Modeller::log_widgets() {
@@ -320,8 +334,10 @@ bool Modeller::step(scene::JsonValue step) {
     return true;
   } catch (const core::BadInput& bad) {
     tell(bad.faults().front().message);
-    return false;
+  } catch (const core::EnvironmentLacks& lacks) {
+    tell(lacks.what());
   }
+  return false;
 }
 
 bool Modeller::set_key(const std::string& path, const scene::JsonValue& value) {

@@ -35,6 +35,10 @@ namespace trocar::app {
 
 namespace fs = std::filesystem;
 
+/// Endings of files that a body can be made of.
+inline constexpr std::array kBodyFiles = {".obj", ".stl",  ".ply", ".glb",  ".gltf", ".vtk",
+                                          ".msh", ".step", ".stp", ".iges", ".igs"};
+
 class Modeller {
  public:
   Modeller(Window& window, const ModellerOptions& options, EventLog& log);
@@ -49,6 +53,7 @@ class Modeller {
   void take_what_is_built();
   void keep_unsaved();
   void take_file(fs::path chosen);
+  void ask_for_body(const std::string& operation, const fs::path& file);
   bool may_close();
   void leave();
 
@@ -205,8 +210,10 @@ class Modeller {
     new_organ,
     scan,
     labels,
-    write_labels
+    write_labels,
+    body
   } m_file_for = FileFor::none;
+  std::string m_body_by;  ///< the operation that takes the file of a body
   enum class Question { none, unsaved, recover } m_question = Question::none;
   enum class After { none, quit, open, start } m_after = After::none;
   fs::path m_to_open;

@@ -238,6 +238,20 @@ def session(program, folder):
     m.hands.press("solid:organ")
     paint(m, file)
 
+    # a body from another program's file
+    cube = Path(folder) / "cube.obj"
+    corners = [f"v {100 + 20 * (i & 1)} {-150 + 20 * (i >> 1 & 1)} {-110 + 20 * (i >> 2)}" for i in range(8)]
+    sides = ["f 1 3 4 2", "f 5 6 8 7", "f 1 2 6 5", "f 3 7 8 4", "f 1 5 7 3", "f 2 4 8 6"]
+    cube.write_text("\n".join(corners + sides) + "\n", encoding="utf-8")
+    m.menu("Add", "Body from a file ...")
+    m.fill("file name", "cube.obj")
+    m.hands.press("Take")
+    m.hands.press("Add")
+    m.happened("step", 1, do="from_file")
+    shown("from_file")
+    m.keys("ctrl+z")
+    m.hands.press("solid:organ")
+
     # the test drive takes hold of the ball
     m.keys("f")
     m.keys("t")
