@@ -13,6 +13,7 @@
 #include <trocar/interactions/instrument/tool_kind.hpp>
 #include <trocar/kinematics/articulation.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
+#include <trocar/kinematics/port.hpp>
 #include <trocar/tissue/heat/electrosurgery.hpp>
 #include <trocar/tissue/heat/electrosurgery_seal.hpp>
 
@@ -154,10 +155,11 @@ struct ToolShape {
 inline int end_of(const ToolShape& shape) noexcept { return kFirstLink + shape.links; }
 constexpr int next(int part) noexcept { return part + 1 == kToolParts ? kFirstLink : part + 1; }
 
-/// Shape at `pose` and `aperture`, straight or as its joints bend it; the velocity is left zero.
+/// Shape at `pose` and `aperture`, straight or as its joints bend it; the velocity is left zero. About the trocar's
+/// place, or `shift` beside it.
 ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, double aperture) noexcept;
 ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, const kinematics::Joints& joints,
-                   double aperture) noexcept;
+                   double aperture, Vec3d shift = {0, 0, 0}) noexcept;
 
 /// A point in the jaw frame: x along the opening direction, y along the jaw-plane normal, z along the axis from pivot.
 Vec3d to_jaw(const ToolShape& shape, Vec3d world) noexcept;
@@ -166,6 +168,9 @@ Vec3d direction_from_jaw(const ToolShape& shape, Vec3d local) noexcept;
 
 /// The aperture at which the jaws touch tissue of `thickness` lying `along` from the pivot.
 double aperture_at(const ToolModel& model, double thickness, double along) noexcept;
+
+/// How much of an instrument that is so deep is between its trocar and the hand [m].
+double outside_of(const ToolModel& model, double depth) noexcept;
 
 /// Moves the instrument towards the commanded pose, no faster than hands can: 0.6 m/s at the tip and 4 rad/s, roll 8
 /// rad/s, handle 8 /s.
