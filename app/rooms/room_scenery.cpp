@@ -73,7 +73,7 @@ void show_clearance(view::Scenery& s, const RoomModel& model, const RoomPose& po
 
 void show_reach(view::Scenery& s, const RoomModel& model) {
   constexpr double kHalf = 1.0472;
-  constexpr view::room::Colour kColours[] = {
+  constexpr view::painted::Colour kColours[] = {
       {86, 180, 233, 90}, {230, 159, 0, 90}, {0, 158, 115, 90}, {204, 121, 167, 90}};
   for (std::size_t k = 0; k < model.room().ports.size(); ++k) {
     const scene::RoomPort& p = model.room().ports[k];

@@ -332,7 +332,7 @@ class RoomWindow {
   std::unique_ptr<RoomModel> m_model;
   std::unique_ptr<view::RoomDrawing> m_drawing;
   PaneCanvas m_canvas;
-  view::RoomOrbit m_orbit;
+  view::UprightOrbit m_orbit;
   render::Camera m_camera;
   Area m_area;
   RoomPose m_pose;

@@ -130,9 +130,9 @@ int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
     RoomCamera camera(bare, pictures::parse_size(words.size));
     for (const auto& [file, what, orbit] :
          {std::tuple("ports.png", "Heat: the score of the best pair with a port there; rings: the best pair",
-                     view::RoomOrbit{{0, 0.04, 0}, 0, 1.25, 0.95}),
+                     view::UprightOrbit{{0, 0.04, 0}, 0, 1.25, 0.95}),
           std::tuple("ports-side.png", "The best pair's instruments at the target",
-                     view::RoomOrbit{{0, 0.04, 0.05}, -0.7, 0.5, 1.2})}) {
+                     view::UprightOrbit{{0, 0.04, 0.05}, -0.7, 0.5, 1.2})}) {
       camera.take(bare, orbit, folder + "/" + file);
       shown.push_back({file, what});
     }
