@@ -196,9 +196,11 @@ class RoomWindow {
 
   void play() {
     if (!m_plays || !m_motion) return;
+    const double before = m_time;
     m_time += m_window.picture_time();
     if (m_time > m_motion->length) m_time = 0;
     show_time();
+    if (std::floor(before) != std::floor(m_time)) tell_log("played");
   }
 
   void draw() {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include <trocar/collision/rods.hpp>
@@ -31,6 +32,8 @@ struct ElectrodeModel {
   }
 };
 
+struct LinkageWorks;  // linkage_works.hpp
+
 struct ToolModel {
   std::string name;
   ToolKind kind = ToolKind::probe;
@@ -49,8 +52,9 @@ struct ToolModel {
   double clip_length = 0;  ///< [m]
   std::int32_t clips = 0;  ///< in the magazine at the start
   ElectrodeModel electrode;
-  LinkageModel linkage;            ///< between handle and jaws, where the file names a mechanism
-  kinematics::Articulation bends;  ///< a wrist, or more; without joints the instrument is rigid
+  LinkageModel linkage;                       ///< between handle and jaws, where the file names a mechanism
+  std::shared_ptr<const LinkageWorks> works;  ///< of that what is drawn; null: nothing
+  kinematics::Articulation bends;             ///< a wrist, or more; without joints the instrument is rigid
 
   const Abilities& can() const noexcept { return about(kind).can; }
 
@@ -63,7 +67,7 @@ struct ToolModel {
         v("clip_length", s.clip_length), v("clips", s.clips), v("foot", s.foot, core::only_if(s.foot > 0)),
         v("electrode", s.electrode, core::only_if(s.electrode.there)),
         v("linkage", s.linkage, core::only_if(s.linkage.there)), v("bends", s.bends, core::only_if(s.bends.bends())),
-        v("name", s.name, core::kNotHashed);
+        v("name", s.name, core::kNotHashed), v("works", s.works, core::kNotHashed);
   }
 };
 

@@ -177,7 +177,10 @@ void MetalDrawing::list_hand(const sim::State& state, std::size_t h, const First
   }
   for (DrawnPart& part : m_tools[h][std::size_t(state.tools[h].instrument)]) {
     DrawItem drawn = item({}, *part.look, first.tool + h);
-    drawn.transform = to_world(placement_of(part.joint, shape, part.link));
+    const bool works = part.joint == InstrumentPart::Joint::works;
+    drawn.transform =
+        to_world(works ? placement_of_works(m_model->tool(state, h), shape, part.link, drawn_aperture(state, h))
+                       : placement_of(part.joint, shape, part.link));
     drawn.material.soil = soil;
     to.add(part.drawn, drawn, part.detail);
   }
