@@ -215,7 +215,8 @@ TEST(InstrumentMechanism, AnArmsWristInDenavitHartenbergNumbersStandsWhereItsMec
   ASSERT_EQ(tool.bends.joints, 2) << "with yaw, pitch, depth and roll about its trocar six";
   EXPECT_FALSE(tool.bends.redundant());
   EXPECT_NEAR(tool.bends.length(), 0.0091, 1e-12);
-  EXPECT_NEAR(tool.bends.high[0], 80 * portable::pi / 180, 1e-12) << "the joint's own limits, not a motor's";
+  EXPECT_NEAR(tool.bends.high[0], 78 * 1.0186 * portable::pi / 180, 1e-12) << "as far as its motor turns it";
+  EXPECT_NEAR(tool.bends.high[1], 80 * portable::pi / 180, 1e-12) << "several turn it: its own";
   const kinematics::Mechanism m = kinematics::build(*i.wrist.mechanism.description);
   kinematics::Pose pose(m);
   for (const auto& [pitch, yaw] : {std::pair{0.0, 0.0}, {0.6, 0.0}, {0.0, -0.7}, {0.5, 0.9}, {-1.2, 0.4}}) {

@@ -174,7 +174,24 @@ class Chain {
       out.hinge[i].share *= factor * leads[joint];
     }
     out.joints = std::int32_t(rows.size());
+    for (std::size_t joint = 0; joint < rows.size(); ++joint) lead_itself(joint, leads[joint], out);
     return independent(std::move(rows)) ? "" : "joints that motors cannot turn each by itself";
+  }
+
+  /// The angle of a joint that is one hinge is that hinge's, and not that of the motor which turns it.
+  /// @param ratio  of the hinge's angle to the motor's
+  void lead_itself(std::size_t joint, double ratio, kinematics::Articulation& out) const {
+    int only = -1;
+    for (int i = 0; i < out.hinges; ++i) {
+      if (out.hinge[i].joint != std::int32_t(joint)) continue;
+      if (only >= 0) return;
+      only = i;
+    }
+    const auto q = std::size_t(m_hinges[std::size_t(only)].coordinate);
+    out.hinge[only].share /= ratio;
+    const double ends[2] = {ratio * out.low[joint], ratio * out.high[joint]};
+    out.low[joint] = std::max(std::min(ends[0], ends[1]), m_m.low[q]);
+    out.high[joint] = std::min(std::max(ends[0], ends[1]), m_m.high[q]);
   }
 
   const Mechanism& m_m;

@@ -13,7 +13,8 @@ namespace trocar::scene {
 /// z axis of the link "shaft" (either way), which all hinges cross squarely, and which the tip is on; they turn about
 /// the tip frame's x or y. What turns all hinges alike (vertebrae that share cables) is one joint; hinges that are
 /// coupled otherwise are a joint each, as whoever leads an instrument leads its joints, and motors follow: they must be
-/// able to. Joints have the limits of the coordinate that moves them, or their own where several do.
+/// able to. A joint's angle is that of its hinge; of several hinges that of the coordinate which turns them. Limits are
+/// those of both.
 /// @returns empty, or what is wrong: what is there in place of that
 std::string take_hinges(const kinematics::Mechanism& m, double jaw_length, kinematics::Articulation& out);
 
