@@ -49,7 +49,7 @@ class Tying {
     s = laid(m, laid_throws(path));
     const double centre = -3 * 0.5 * 1.6 * d - m_setup.loop_radius;
     const double y = centre;
-    posts[0] = {.present = true, .a = {0, y, -0.03}, .b = {0, y, 0.03}, .radius = m_setup.post_radius,
+    posts[0] = {.present = true, .a = {0, y, -0.2}, .b = {0, y, 0.2}, .radius = m_setup.post_radius,
                 .friction = m_setup.post_friction};
     take_tails();
     sign_a = 1;
@@ -98,6 +98,56 @@ class Tying {
     begin(throws_[0]);
     pull();
     for (std::size_t k = 1; k < throws_.size(); ++k) lay_next(throws_[k]), pull();
+  }
+
+  /// The hands give way until the tails hang loose, let go, and everything comes to rest.
+  void let_go(int rest_ticks = 500) {
+    for (int k = 0; k < 400 && std::max(length(pulls[0].force), length(pulls[1].force)) > 0.02; ++k) {
+      holds[0].x.x -= sign_a * m_setup.speed * m.tick;
+      holds[1].x.x += sign_a * m_setup.speed * m.tick;
+      tick();
+    }
+    release_hold(s, 0), release_hold(s, 1);
+    for (int k = 0; k < rest_ticks; ++k) tick();
+  }
+
+  /// Nodes where the tails leave the knot.
+  std::pair<int, int> knot_ends() const {
+    int a = m.nodes, b = 0;
+    for (int k = 0; k < s.self_count; ++k) a = std::min(a, int(s.self[k].a)), b = std::max(b, int(s.self[k].b) + 1);
+    return {a, b};
+  }
+
+  /// Force that the loop's two posts are drawn apart with [N]. The second post appears where the first is.
+  double loop_force() const { return 0.5 * (std::fabs(presses[0].force.x) + std::fabs(presses[1].force.x)); }
+  double opening() const { return posts[1].a.x - posts[0].a.x; }
+  void begin_loop() {
+    posts[1] = posts[0];
+    tick();
+  }
+  void draw_loop(double speed) {
+    for (int side = 0; side < 2; ++side) {
+      const double dx = (side == 0 ? -0.5 : 0.5) * speed * m.tick;
+      posts[side].a.x += dx, posts[side].b.x += dx;
+    }
+    tick();
+  }
+  /// Draws until the loop bears `force`, or is `most_opening` wide: what it bore at most.
+  double draw_to(double force, double most_opening, double speed = 0.01) {
+    double most = 0;
+    while (opening() < most_opening) {
+      draw_loop(speed);
+      most = std::max(most, loop_force());
+      if (loop_force() >= force) break;
+    }
+    return most;
+  }
+  /// Keeps the force for a time; the loop's opening in it [m].
+  double keep(double force, int most_ticks, double most_opening) {
+    const double before = opening();
+    for (int k = 0; k < most_ticks && opening() < most_opening; ++k)
+      draw_loop(std::max(-0.02, std::min(0.02, 0.04 * (force - loop_force()) / force)));
+    return opening() - before;
   }
 
   ThreadReport tick() {
