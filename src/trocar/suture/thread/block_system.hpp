@@ -62,6 +62,7 @@ class BlockSystem {
   int factor() noexcept;
   void solve() noexcept;
   Vec3d unknown(int i) const noexcept { return m_rhs[std::size_t(i)]; }
+  bool touches(int node) const noexcept { return m_place[std::size_t(node)] >= 0; }
   int coupled() const noexcept { return m_count; }
 
   template <class S, class V>

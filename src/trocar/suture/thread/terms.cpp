@@ -8,6 +8,9 @@
 namespace trocar::suture {
 namespace {
 
+constexpr double kSlack = 1e-3;  ///< of the breaking force: what pulls less is loose
+constexpr double kAhead = 0.7;   ///< that an element's ends are looked ahead, in spacings
+
 void add_inertia(Tick& t) {
   const double mass = t.m.stuff.mass * t.m.spacing;
   for (int i = 0; i < t.m.nodes; ++i) {
@@ -17,16 +20,30 @@ void add_inertia(Tick& t) {
   }
 }
 
+/// Stretch is so stiff that an element which turns while its length is taken along its old direction would be pulled
+/// back by its own turning: where the thread hangs loose it is linearised about where its ends are bound for.
 void add_stretch(Tick& t) {
-  const double stiffness = t.m.stuff.stretch / t.m.spacing;
+  const double stiffness = t.m.stuff.stretch / t.m.spacing, slack = kSlack * t.m.stuff.knotted_break_force;
   for (int e = 0; e + 1 < t.m.nodes; ++e) {
     if (!t.s.alive[e]) continue;
-    const double r = t.w.length[e], pull = stiffness * (r - t.m.spacing);
-    const Vec3d n = t.w.along[e];
+    Vec3d ahead{};
+    double r = t.w.length[e];
+    Vec3d n = t.w.along[e];
+    if (stiffness * (r - t.m.spacing) < slack && !t.w.system.touches(e) && !t.w.system.touches(e + 1)) {
+      ahead = t.h * (t.s.v[e + 1] - t.s.v[e]);
+      ahead -= dot(ahead, n) * n;
+      const double far = dot(ahead, ahead), most = kAhead * t.m.spacing;
+      if (far > most * most) ahead *= most / std::sqrt(far);
+      const Vec3d d = r * n + ahead;
+      r = length(d);
+      n = d / r;
+    }
+    const double pull = stiffness * (r - t.m.spacing);
     const Symmetric k = along_and_across(stiffness, pull > 0 ? pull / r : 0, n);
+    const Vec3d f = pull * n - k * ahead;
     t.w.system.add(e, e, 1, k), t.w.system.add(e + 1, e + 1, 1, k), t.w.system.add(e + 1, e, -1, k);
-    t.w.system.push(e, pull * n);
-    t.w.system.push(e + 1, -pull * n);
+    t.w.system.push(e, f);
+    t.w.system.push(e + 1, -f);
   }
 }
 
