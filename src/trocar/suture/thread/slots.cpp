@@ -17,7 +17,8 @@ double slip_along(const Tick& t, Vec3d holder, Vec3d d, double bound, double& s,
   const double along = dot(point_at(t.m, t.s, s) - holder, d);
   reached = std::fabs(along);
   if (!(reached > bound)) return 0;
-  const double slipped = along > 0 ? along - bound : along + bound;
+  const double stretched = t.w.length[place_at(t.m, s).element] / t.m.spacing;
+  const double slipped = (along > 0 ? along - bound : along + bound) / stretched;
   s -= slipped;
   return slipped;
 }

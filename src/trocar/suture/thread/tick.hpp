@@ -5,7 +5,7 @@
 
 namespace trocar::suture {
 
-inline constexpr double kGripStiffness = 10;  ///< of a hold, in stiffnesses of an element's stretch
+inline constexpr double kGripStiffness = 1;   ///< of a hold, in stiffnesses of an element's stretch
 inline constexpr double kTurnStiffness = 50;  ///< of a hold's direction, in stiffnesses of a node's bending
 
 /// What a tick has been given, and how far it has come.
