@@ -122,8 +122,8 @@ TEST(ThreadKnots, OverhandKnotsOfSeveralTurnsPullAsTheirBraidSays) {
 }
 
 struct Loaded {
-  double most = 0;   ///< force that the loop bore until it opened, or what was asked for [N]
-  double kept = 0;   ///< opening in the time it was kept [m]
+  double most = 0;  ///< force that the loop bore until it opened, or what was asked for [N]
+  double kept = 0;  ///< opening in the time it was kept [m]
   double slipped = 0;
 };
 /// Ties throws round a post, lets the tails go, and draws the loop open by two posts.

@@ -133,7 +133,10 @@ void add_passages(Tick& t) {
     const ThreadPlace at = place_at(t.m, p.s);
     const double along = slip_stiffness(k, passage_bound(t, n), p.reached);
     const Symmetric stiff = along_and_across(along, k, passage_direction(t, n, at.element));
-    add_spring(t, at, stiff, stiff * (passage_target(t, n) - point_at(t.m, t.s, p.s)));
+    const SmoothPlace smooth = smooth_place(t.m, p.s);
+    t.w.system.add_term(smooth.nodes, smooth.c, 3, stiff);
+    const Vec3d f = stiff * (passage_target(t, n) - smooth.of(t.s.x));
+    for (int j = 0; j < 3; ++j) t.w.system.push(smooth.nodes[j], smooth.c[j] * f);
   }
 }
 
