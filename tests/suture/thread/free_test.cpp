@@ -27,7 +27,7 @@ TEST(Thread, HangsInACatenary) {
   ThreadStuff stuff = elastic("3-0", "silk");
   stuff.bend = 1e-12, stuff.twist = 1e-12;
   const double length_of = 0.15, span = 0.1;
-  const ThreadModel m = build({.stuff = stuff, .length = length_of});
+  const ThreadModel m = build({.stuff = stuff, .length = length_of, .drag = 10});
   std::vector<Vec3d> path;
   for (int i = 0; i <= 200; ++i) {
     const double u = i / 200.0;
