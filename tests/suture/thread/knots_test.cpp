@@ -157,12 +157,6 @@ TEST(ThreadKnots, AReefKnotHoldsFiveNewtonAndAGrannySlipsMore) {
   }
 }
 
-TEST(ThreadKnots, ASingleThrowDoesNotHold) {
-  const Loaded throw_ = load("silk", {{1, 1}}, 2, 5, 3000, nullptr);
-  say("K12, single throw of silk bears at most [N]", throw_.most, "less than 5");
-  EXPECT_LT(throw_.most, 5);
-}
-
 // K11, its order. How far the forces themselves are from those of Koninckx et al. stands in docs/validation.md.
 TEST(ThreadKnots, OpposedThrowsHoldMoreThanTurnsOfOneThrow) {
   for (const char* make : {"PDS", "silk"}) {
