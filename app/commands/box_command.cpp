@@ -9,6 +9,7 @@
 
 #include <trocar/attempt/box/box_file.hpp>
 #include <trocar/attempt/box/box_playback.hpp>
+#include <trocar/attempt/box/soft_ports.hpp>
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
@@ -57,6 +58,7 @@ struct SimulateChoice {
   std::uint64_t seed = 0;
   bool raw = false, framed = false, wave = false;
   double hz = 0, noise = 0, drop = 0, corrupt = 0, latency_ms = 0, lead_in = 1, seconds = 0;
+  double port_drift_mm = 0, port_stiffness = 0;
   int baud = 0;
 };
 
@@ -87,6 +89,9 @@ int simulate(const SimulateChoice& o, bool json) {
   const devices::BoxWiring wiring = wiring_of(o.wiring, o.raw, o.framed, o.baud);
   if (o.exercise.empty() && (!o.motion.empty() || !o.replay.empty() || o.wave))
     throw core::BadInput({{{"--exercise", 0, 0}, "expected the exercise in whose scene these hands move, got none"}});
+  const attempt::SoftPorts ports{1000 * o.port_stiffness, o.port_drift_mm / 1000, o.seed + 1};
+  if (o.exercise.empty() && ports.moves())
+    throw core::BadInput({{{"--exercise", 0, 0}, "expected the exercise whose ports give or drift, got none"}});
   attempt::catch_interrupts();
   devices::SoftwareBoxSettings settings;
   settings.raw = wiring.raw;
@@ -102,7 +107,8 @@ int simulate(const SimulateChoice& o, bool json) {
   devices::SoftwareBox::Motion motion = [&wiring](double seconds) { return attempt::waving_block(wiring, seconds); };
   if (!o.exercise.empty()) {
     lesson = attempt::load_lesson(o.exercise, o.seed);
-    playback = std::make_unique<attempt::BoxPlayback>(lesson->model, wiring, inputs_of(o, *lesson), o.lead_in);
+    playback = std::make_unique<attempt::BoxPlayback>(
+        lesson->model, wiring, attempt::measured_through(lesson->model, ports, inputs_of(o, *lesson)), o.lead_in);
     warn_of_reach(playback->beyond());
     motion = [&playback](double seconds) { return playback->at(seconds); };
   }
@@ -244,6 +250,10 @@ void add_simulate(CLI::App& box, Chosen& chosen) {
   c->add_option("--drop", o->drop, "share of blocks that are lost")->check(CLI::Range(0.0, 1.0));
   c->add_option("--corrupt", o->corrupt, "share of bytes that arrive as others")->check(CLI::Range(0.0, 1.0));
   c->add_option("--latency", o->latency_ms, "that the line adds [ms]")->check(CLI::Range(0.0, 1000.0));
+  c->add_option("--port-drift", o->port_drift_mm, "how far its rubber ports wander; default: not")
+      ->check(number_between(0, 20, "mm"));
+  c->add_option("--port-stiffness", o->port_stiffness, "of its rubber ports, which give; default: rigid")
+      ->check(number_between(0.1, 1000, "N/mm"));
   c->add_option("--clock", o->clock,
                 "real: its hands move as time passes | requests: by a period a request, for who simulates slower")
       ->capture_default_str()

@@ -40,7 +40,7 @@ using studies::PairClearance;
 
 constexpr float kDeskPanel = 400;  // [px]
 constexpr double kSwing = 3;       // a drive's way and back, played [s]
-constexpr view::room::Colour kMeets{226, 84, 40}, kNear{240, 190, 60};
+constexpr view::painted::Colour kMeets{226, 84, 40}, kNear{240, 190, 60};
 constexpr std::size_t kShownPairs = 5;
 
 double per_file(Measure measure) {
@@ -102,7 +102,7 @@ class DesignWindow {
   std::unique_ptr<render::Backend> m_backend;
   DesignDesk m_desk;
   view::MechanismDrawing m_drawing;
-  view::RoomOrbit m_orbit;
+  view::UprightOrbit m_orbit;
   PaneCanvas m_canvas;
   render::Camera m_camera;
   Area m_area;
@@ -119,7 +119,7 @@ class DesignWindow {
 
 /// After a drive or a dimension has been changed.
 void DesignWindow::stand(bool other_shapes) {
-  std::vector<std::pair<int, view::room::Colour>> marked;
+  std::vector<std::pair<int, view::painted::Colour>> marked;
   if (const auto& clearance = m_desk.clearance())
     for (const PairClearance& pair : clearance->pairs) {
       const double gap = m_desk.gap_now(pair);

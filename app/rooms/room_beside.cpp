@@ -8,11 +8,11 @@
 #include <trocar/scene/operating_room/room_file.hpp>
 
 #include "rooms/room_camera.hpp"
+#include "rooms/room_hands.hpp"
 
 namespace trocar::app {
 namespace {
 
-constexpr double kSamePortBeside = 0.002;                // of a hand's trocar and an arm's port [m]
 constexpr std::chrono::milliseconds kRoomPictures{100};  // pictures, at least
 constexpr int kRestShare = 9;                            // times what the last one took: the simulation comes first
 constexpr int kRoomEye = 7;                              // exposure memory
@@ -46,13 +46,9 @@ RoomBeside::RoomBeside(Window& main, render::Backend& backend, const std::string
 RoomBeside::~RoomBeside() = default;
 
 void RoomBeside::follow(const sim::Model& model, const sim::State& state) {
-  for (std::size_t a = 0; a < m_room->arms().size(); ++a)
-    for (std::size_t h = 0; h < model.hands.size(); ++h) {
-      if (length(m_room->arms()[a].port - model.hands[h].port) > kSamePortBeside) continue;
-      const interactions::ToolState& t = state.tools[h];
-      const kinematics::TipFrame tip = kinematics::forward(model.hands[h].port, {t.yaw, t.pitch, t.roll, t.depth});
-      m_room->lead(m_pose, int(a), {tip.tip, true, tip.rotation});
-    }
+  const RoomHands hands(*m_room, model);
+  for (const RoomHands::Link& link : hands.links()) m_room->lead(m_pose, link.arm, hands.goal(link, state));
+  m_pose.tips = hands.tips(state);
 }
 
 void RoomBeside::show(const sim::Model& model, const sim::State& state) {

@@ -7,7 +7,8 @@ RoomCamera::RoomCamera(const view::Scenery& scenery, pictures::PictureSize size)
   m_drawing = std::make_unique<view::RoomDrawing>(*m_backend, scenery);
 }
 
-void RoomCamera::take(const view::Scenery& scenery, const view::RoomOrbit& orbit, const std::filesystem::path& file) {
+void RoomCamera::take(const view::Scenery& scenery, const view::UprightOrbit& orbit,
+                      const std::filesystem::path& file) {
   m_drawing->move(scenery);
   render::draw_frame(*m_backend, m_drawing->frame(orbit), render::Target::off_screen(m_size.width, m_size.height));
   render::write_png(file.string(), m_backend->read_pixels());

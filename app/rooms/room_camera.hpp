@@ -15,7 +15,7 @@ class RoomCamera {
  public:
   /// @throws core::EnvironmentLacks without OpenGL
   RoomCamera(const view::Scenery& scenery, pictures::PictureSize size);
-  void take(const view::Scenery& scenery, const view::RoomOrbit& orbit, const std::filesystem::path& file);
+  void take(const view::Scenery& scenery, const view::UprightOrbit& orbit, const std::filesystem::path& file);
 
  private:
   pictures::PictureSize m_size;
@@ -26,7 +26,7 @@ class RoomCamera {
 
 struct RoomView {
   const char* name;
-  view::RoomOrbit orbit;
+  view::UprightOrbit orbit;
 };
 /// From where rooms are shown: all of it, from the feet, the abdomen, from above.
 std::vector<RoomView> room_views();

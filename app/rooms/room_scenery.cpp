@@ -17,7 +17,7 @@ view::Scenery scenery_of(const RoomModel& model, const RoomPose& pose) {
   s.table_width = room.table.width;
   s.table_thickness = room.table.thickness;
   for (std::size_t k = 0; k < room.staff.size(); ++k) {
-    const RoomModel::Body b = model.person(int(k), pose.tilt);
+    const RoomModel::Body b = model.person(int(k), pose);
     const scene::RoomPerson& p = room.staff[k];
     view::Scenery::Person out;
     out.facing = b.facing;
@@ -35,8 +35,10 @@ view::Scenery scenery_of(const RoomModel& model, const RoomPose& pose) {
   }
   for (const scene::RoomPort& p : room.ports) {
     Vec3d out = model.figure().normal(p.position.x, p.position.y);
-    for (const scene::RoomInstrument& i : room.instruments)
-      if (i.port == p.name) out = (p.position - i.tip) / length(p.position - i.tip);
+    for (std::size_t i = 0; i < room.instruments.size(); ++i)
+      if (const Vec3d way = p.position - model.tip_of(pose, int(i));
+          room.instruments[i].port == p.name && length(way) > 0)
+        out = way / length(way);
     for (std::size_t a = 0; a < model.arms().size(); ++a)
       if (model.arms()[a].described->port == p.name) {
         const Vec3d axis = model.shaft(pose, int(a)).r.column(2);
@@ -44,8 +46,9 @@ view::Scenery scenery_of(const RoomModel& model, const RoomPose& pose) {
       }
     s.ports.push_back({p.position, out, p.diameter / 2});
   }
-  for (const scene::RoomInstrument& i : room.instruments)
-    s.instruments.push_back({i.tip, model.handle(i), i.radius, i.camera});
+  for (std::size_t i = 0; i < room.instruments.size(); ++i)
+    s.instruments.push_back({model.tip_of(pose, int(i)), model.handle(pose, int(i)), room.instruments[i].radius,
+                             room.instruments[i].camera});
   for (std::size_t a = 0; a < model.arms().size(); ++a) {
     const studies::ArmModel& arm = model.arms()[a];
     view::Scenery::Arm out;
@@ -73,7 +76,7 @@ void show_clearance(view::Scenery& s, const RoomModel& model, const RoomPose& po
 
 void show_reach(view::Scenery& s, const RoomModel& model) {
   constexpr double kHalf = 1.0472;
-  constexpr view::room::Colour kColours[] = {
+  constexpr view::painted::Colour kColours[] = {
       {86, 180, 233, 90}, {230, 159, 0, 90}, {0, 158, 115, 90}, {204, 121, 167, 90}};
   for (std::size_t k = 0; k < model.room().ports.size(); ++k) {
     const scene::RoomPort& p = model.room().ports[k];

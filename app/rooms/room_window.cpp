@@ -196,9 +196,11 @@ class RoomWindow {
 
   void play() {
     if (!m_plays || !m_motion) return;
+    const double before = m_time;
     m_time += m_window.picture_time();
     if (m_time > m_motion->length) m_time = 0;
     show_time();
+    if (std::floor(before) != std::floor(m_time)) tell_log("played");
   }
 
   void draw() {
@@ -312,15 +314,16 @@ class RoomWindow {
     m_window.draw_panels();
     m_window.show();
     const std::vector<ui::Widget> widgets = ui::take_widgets();
-    if (m_log.on() && widgets != m_widgets) {
-      m_widgets = widgets;
-      Json places = Json::object();
-      for (const ui::Widget& w : widgets) places[w.id] = {w.x, w.y};
-      Json ports = Json::object();
-      for (const scene::RoomPort& p : m_room.ports)
-        if (const auto s = spot(p.position)) ports[p.name] = {int(s->x), int(s->y)};
-      m_log.event("screen", {{"name", "room"}, {"widgets", places}, {"ports", ports}});
-    }
+    if (!m_log.on()) return;
+    Json ports = Json::object();
+    for (const scene::RoomPort& p : m_room.ports)
+      if (const auto s = spot(p.position)) ports[p.name] = {int(s->x), int(s->y)};
+    if (widgets == m_widgets && ports == m_told_ports) return;
+    m_widgets = widgets;
+    m_told_ports = ports;
+    Json places = Json::object();
+    for (const ui::Widget& w : widgets) places[w.id] = {w.x, w.y};
+    m_log.event("screen", {{"name", "room"}, {"widgets", places}, {"ports", ports}});
   }
 
   Window& m_window;
@@ -332,7 +335,7 @@ class RoomWindow {
   std::unique_ptr<RoomModel> m_model;
   std::unique_ptr<view::RoomDrawing> m_drawing;
   PaneCanvas m_canvas;
-  view::RoomOrbit m_orbit;
+  view::UprightOrbit m_orbit;
   render::Camera m_camera;
   Area m_area;
   RoomPose m_pose;
@@ -340,6 +343,7 @@ class RoomWindow {
   std::optional<RoomMotion> m_motion;
   MotionReport m_report;
   std::vector<ui::Widget> m_widgets;
+  Json m_told_ports;
   std::string m_said;
   double m_time = 0;
   float m_drawn_width = 0;

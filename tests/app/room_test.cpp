@@ -1,5 +1,6 @@
 // `trocar room`: how a room stands, motions that can and cannot be done, ports, and what it says of faults.
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
 
@@ -48,6 +49,31 @@ TEST(Room, APlanHasSetsThatReachAndKnowsOrgansOfItsScene) {
   const Outcome wrong = trocar({"room", "telemanipulated", "plan", "--target", "gallblader"});
   EXPECT_EQ(wrong.exit, 2);
   EXPECT_NE(wrong.err.find("did you mean \"gallbladder\"?"), std::string::npos) << wrong.err;
+}
+
+TEST(Room, CheckSaysHowARoomStandsAndWhetherAProgrammeCanBeDone) {
+  const std::string rooms = TROCAR_SOURCE_DIR "/scenes/rooms/";
+  const Outcome good = trocar({"check", rooms + "telemanipulated.json", rooms + "programmes/triangle.json", "--json"});
+  ASSERT_EQ(good.exit, 0) << good.err;
+  EXPECT_EQ(good.json()["files"][0]["kind"], "room");
+  EXPECT_EQ(good.json()["files"][0]["arms"], 2);
+  EXPECT_EQ(good.json()["files"][1]["kind"], "programme");
+  EXPECT_EQ(good.json()["files"][1]["room"], "telemanipulated");
+  const Outcome bad = trocar({"check", rooms + "programmes/too_far.json", "--json"});
+  EXPECT_EQ(bad.exit, 1);
+  EXPECT_EQ(bad.json()["files"][0]["verdict"], "it cannot be done");
+  EXPECT_FALSE(bad.json()["files"][0]["wrong"].empty());
+}
+
+TEST(Room, CheckTellsAllFaultsOfARoomInOnePass) {
+  const std::filesystem::path folder = std::filesystem::path(TROCAR_BINARY_DIR) / "test-files" / "room-check";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "bad.json") << R"({"format": 1, "name": "bad", "arms": [{"name": "a", "mechanism": "none.json",
+ "port": "nowhere", "on": "ceiling", "base": [1, 0, 0], "stand_mm": [0, 0]}], "margin_mm": -1})";
+  const Outcome o = trocar({"check", (folder / "bad.json").string()});
+  EXPECT_EQ(o.exit, 2);
+  for (const char* told : {"none.json", "ceiling", "margin_mm"})
+    EXPECT_NE(o.err.find(told), std::string::npos) << told << "\n" << o.err;
 }
 
 TEST(Room, WrongWordsExitWithTwo) {

@@ -415,6 +415,8 @@ TEST(Fields, EveryFieldOfAStateThatIsListedCountsInItsHash) {
   states[2].bonds.emplace_back(1);
   states[2].declaring = 1;                                                       // hashed only while the key is down
   for (interactions::TouchBook& t : states[7].touches) t.joints.angle[0] = 0.3;  // only where something is bent
+  for (interactions::TouchBook& t : states[7].touches) t.shift.x = 0.001;        // only where a trocar has moved
+  states[7].ports.resize(2);
   for (State& state : states) {
     Changes changes([&] { return hash_of(state); }, changed);
     changes.through(state, "State");
@@ -433,6 +435,7 @@ TEST(Fields, EveryFieldOfAModelThatIsListedCountsInItsSeal) {
       model.vessels.bleeder.vessel = 0;  // what no scene has is hashed as well where it is there
       model.wet.pool_at_start.saline = 1;
       model.instruments_push = true;
+      if (!model.hands.empty()) model.hands[0].give.stiffness = 1000;
       model.bonds.emplace_back().bonds.emplace_back();
       model.bonds.back().breaches = true;
       if (m == &small::model()) model.solids[0].skin.more = model.solids[0].skin.weights;

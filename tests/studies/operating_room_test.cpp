@@ -216,13 +216,81 @@ TEST(PortPlanning, ArmsThatAreDockedAtTheBestSetReachTheTarget) {
   for (std::size_t k = 1; k < plan.pairs.size(); ++k) EXPECT_GE(plan.pairs[k - 1].rank, plan.pairs[k].rank);
 }
 
+/// A closed box.
+InTheWay box(const std::string& name, Vec3d low, Vec3d high) {
+  InTheWay organ{name, {}};
+  for (int k = 0; k < 8; ++k)
+    organ.mesh.positions.push_back({k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z});
+  organ.mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                          {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return organ;
+}
+
+TEST(WaysIn, SayHowMuchOfAWayIsInsideAndNothingOfWhatSurroundsItsEnd) {
+  const InTheWay organ = box("liver", {-0.01, -0.01, -0.02}, {0.01, 0.012, 0.02});
+  EXPECT_NEAR(way_through(organ.mesh, {0.001, 0.002, 0.1}, {0.001, 0.002, -0.1}), 0.04, 1e-12);
+  EXPECT_NEAR(way_through(organ.mesh, {-0.1, 0.003, 0.001}, {0.1, 0.003, 0.001}), 0.02, 1e-12);
+  EXPECT_EQ(way_through(organ.mesh, {0.001, 0.002, 0.1}, {0.001, 0.002, 0}), 0) << "it ends in there";
+  EXPECT_EQ(way_through(organ.mesh, {0.02, 0, 0.1}, {0.02, 0, -0.1}), 0) << "past it";
+  const WaysIn ways = ways_in({organ}, {0, 0, 0.1}, {{0, 0, -0.1}, {0.05, 0, -0.1}, {0.001, 0, -0.1}, {0.06, 0, 0}});
+  EXPECT_EQ(ways.blocked, 0.5);
+  EXPECT_EQ(ways.first, "liver");
+  EXPECT_GT(ways.longest, 0.039);
+}
+
+TEST(PortPlanning, APortFromWhichAllWaysGoThroughAnOrganIsWorthATenth) {
+  PortPlanOptions o = gallbladder();
+  const Vec3d place{-0.06, 0.08, shipped().figure().front(-0.06, 0.08)}, middle = 0.5 * (o.low + o.high);
+  const PortCandidate free = judge_port(shipped(), o, {}, place);
+  EXPECT_EQ(free.ways.blocked, 0);
+  const Vec3d between = 0.5 * (place + middle);
+  o.organs = {box("omentum", between - Vec3d{0.05, 0.05, 0.005}, between + Vec3d{0.05, 0.05, 0.005})};
+  const PortCandidate blocked = judge_port(shipped(), o, {}, place);
+  EXPECT_EQ(blocked.ways.blocked, 1);
+  EXPECT_EQ(blocked.ways.first, "omentum");
+  EXPECT_NEAR(blocked.alone, 0.1 * free.alone, 1e-12);
+}
+
+TEST(PortPlanning, PrefersPortsWithAFreeWayToThoseWhoseWayIsBlocked) {
+  PortPlanOptions o = gallbladder();
+  o.set_up = false;
+  const PortPlan before = plan_ports(shipped(), o);
+  const Vec3d place = before.candidates[std::size_t(before.pairs[0].left)].place;
+  const Vec3d between = place + 0.4 * (before.target - place);
+  o.organs = {box("omentum", between - Vec3d{0.03, 0.03, 0.005}, between + Vec3d{0.03, 0.03, 0.005})};
+  const PortPlan after = plan_ports(shipped(), o);
+  EXPECT_GT(length(after.candidates[std::size_t(after.pairs[0].left)].place - place), 0.01);
+  EXPECT_LT(after.candidates[std::size_t(after.pairs[0].left)].ways.blocked, 0.5);
+}
+
+TEST(PortPlanning, BasesThatAreTurnedAboutTheirPortsReachNoLessThanThoseThatAreNot) {
+  PortPlanOptions o = gallbladder();
+  o.set_up = false;
+  const PortPlan fixed = plan_ports(shipped(), o);
+  o.set_up = true;
+  const PortPlan turned = plan_ports(shipped(), o);
+  EXPECT_GE(turned.pairs[0].rank, fixed.pairs[0].rank);
+  int gained = 0;
+  for (const PortPair& p : turned.pairs) gained += p.turned[0] != 0 || p.turned[1] != 0;
+  for (const PortPair& p : fixed.pairs) EXPECT_EQ(p.turned[0], 0);
+  std::printf("    %d of %zu sets with a base turned; rank %.3f, without %.3f\n", gained, turned.pairs.size(),
+              turned.pairs[0].rank, fixed.pairs[0].rank);
+}
+
+TEST(OperatingRoom, ABaseFartherFromItsColumnThanSetUpJointsReachIsTold) {
+  scene::Room room = shipped().room();
+  for (int a = 0; a < 2; ++a) EXPECT_LE(shipped().beyond_set_up(a), 0) << a;
+  room.arms[0].x -= 2;
+  EXPECT_GT(RoomModel(room).beyond_set_up(0), 0.5);
+}
+
 TEST(OperatingRoom, AHandThatCannotReachItsInstrumentIsTold) {
   scene::Room room = shipped().room();
   const RoomModel near(room);
-  EXPECT_EQ(near.person(0, {}).beyond_reach, 0);
+  EXPECT_EQ(near.person(0, near.start()).beyond_reach, 0);
   room.staff[0].x = 1.6;
   const RoomModel far(room);
-  EXPECT_GT(far.person(0, {}).beyond_reach, 0.5);
+  EXPECT_GT(far.person(0, far.start()).beyond_reach, 0.5);
 }
 
 }  // namespace

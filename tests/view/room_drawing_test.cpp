@@ -71,8 +71,8 @@ TEST(RoomDrawing, HeatIsPaintedOnTheSkinOnly) {
   EXPECT_EQ(triangles(), bare);
 }
 
-TEST(RoomOrbit, KeepsItsDistanceWhileItTurnsAndStaysAboveTheFloor) {
-  RoomOrbit o;
+TEST(UprightOrbit, KeepsItsDistanceWhileItTurnsAndStaysAboveTheFloor) {
+  UprightOrbit o;
   for (int k = 0; k < 50; ++k) o.turn(0.3, -0.1);
   EXPECT_NEAR(length(o.eye() - o.target), o.distance, 1e-12);
   EXPECT_GE(o.pitch, -0.15);

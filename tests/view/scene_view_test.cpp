@@ -709,7 +709,9 @@ TEST(InstrumentShapes, JawsInTheirSleeveFitIntoIt) {
         const interactions::ToolShape shape = shape_of(tool, {0, 0, 0, 0.1}, aperture);
         const Placement body = placement_of(InstrumentPart::Joint::body, shape);
         for (const InstrumentPart& part : instrument_parts(tool)) {
-          const Placement place = placement_of(part.joint, shape);
+          const Placement place = part.joint == InstrumentPart::Joint::works
+                                      ? placement_of_works(tool, shape, part.link, aperture)
+                                      : placement_of(part.joint, shape);
           for (const Vec3f& p : part.mesh.positions) {
             const Vec3f off = place.rotation * p + place.translation - body.translation;
             const float along = dot(off, body.rotation.column(2));

@@ -1,5 +1,6 @@
 // trocar check: what a scene, organ, instrument, tissue table or exercise compiles to, what flows in a file of vessels,
-// what a mesh of tetrahedra holds, or every fault that they have.
+// how an operating room stands and whether a programme can be done, what a mesh of tetrahedra holds, or every fault
+// that they have.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 
 #include "commands/checks/check_exercise.hpp"
 #include "commands/checks/check_mesh.hpp"
+#include "commands/checks/check_room.hpp"
 #include "commands/checks/check_scene.hpp"
 #include "commands/checks/check_vessels.hpp"
 #include "commands/command.hpp"
@@ -107,6 +109,8 @@ Json check_one(const fs::path& path, double unit) {
   if (!faults.empty()) throw core::BadInput(scene::check_file(path));  // with what else is wrong beside the JSON
   Json out{{"file", path.string()}};
   const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
+  if (is_programme_file(document.root)) return describe_programme(path);
+  if (is_room_file(document.root)) return describe_room(path);
   if (attempt::is_exercise(path)) {
     out["kind"] = "exercise";
     out.update(describe_exercise(path));
@@ -136,6 +140,7 @@ void print_checks(const Json& r) {
   fmt::print("{}: {}, {}\n", r["file"].get<std::string>(), r["kind"].get<std::string>(),
              r.value("verdict", std::string("good")));
   if (r["kind"] == "exercise") return print_exercise(r);
+  if (r.contains("wrong")) print_room(r);
   if (r.contains("mesh")) print_mesh(r);
   if (r.contains("vessels")) print_vessels(r);
   if (r.contains("tissues")) print_tissues(r["tissues"]);
@@ -152,7 +157,9 @@ int check(const std::vector<std::string>& files, double unit, bool json) {
   for (const std::string& file : files) {
     try {
       results.push_back(check_one(file, unit));
-      still = still && results.back().value("verdict", std::string()) != kSinks;
+      const Json& last = results.back();
+      still =
+          still && last.value("verdict", std::string()) != kSinks && (!last.contains("wrong") || last["wrong"].empty());
       if (!json) print_checks(results.back());
     } catch (const core::BadInput& bad) {  // go on: all faults of all files in one pass
       faults.insert(faults.end(), bad.faults().begin(), bad.faults().end());
@@ -170,9 +177,10 @@ void add_check(CLI::App& program, Chosen& chosen) {
   auto unit_mm = std::make_shared<double>(1.0);
   CLI::App* c = add_command(program, chosen, "check", "Say what files compile to or hold, or all their faults",
                             "trocar check scenes/organs/uterus.json scenes/gynaecology/sterilisation.json liver.msh");
-  c->add_option(
-       "files", *files,
-       "scenes, organs, instruments, tissue tables, vessels, mechanisms, exercises; meshes of tetrahedra (.msh, .vtk)")
+  c->add_option("files", *files,
+                "scenes, organs, instruments, tissue tables, vessels, mechanisms, exercises, operating rooms and their "
+                "programmes; "
+                "meshes of tetrahedra (.msh, .vtk)")
       ->required();
   c->add_option("--unit-mm", *unit_mm, "the unit of meshes' coordinates in mm")
       ->check(number_between(1e-6, 1e6, "mm"))

@@ -58,14 +58,16 @@ int answer_pose(const RoomModel& model, const RoomWords& words, bool json) {
   for (std::size_t a = 0; a < model.arms().size(); ++a) {
     const ArmModel& arm = model.arms()[a];
     const double gap = port_gap(model.shaft(pose, int(a)), arm.port);
-    good = good && gap < 1e-4;
+    const double beyond = model.beyond_set_up(int(a));
+    good = good && gap < 1e-4 && beyond <= 0;
     arms.push_back({{"name", arm.described->name},
                     {"port", arm.described->port},
                     {"tip_mm", mm(model.tip(pose, int(a)).p)},
-                    {"beside_port_mm", 1e3 * gap}});
+                    {"beside_port_mm", 1e3 * gap},
+                    {"beyond_set_up_mm", 1e3 * std::max(0.0, beyond)}});
   }
   for (std::size_t k = 0; k < model.room().staff.size(); ++k) {
-    const RoomModel::Body body = model.person(int(k), pose.tilt);
+    const RoomModel::Body body = model.person(int(k), pose);
     const scene::RoomPerson& p = model.room().staff[k];
     good = good && body.beyond_reach <= 0;
     people.push_back(
@@ -95,9 +97,13 @@ int answer_pose(const RoomModel& model, const RoomWords& words, bool json) {
       model.room().name, degrees(pose.tilt.head_down), degrees(pose.tilt.left_down),
       model.can_tilt(pose.tilt) ? "" : ", which it cannot", g.x, g.y, g.z);
   for (const Json& a : arms)
-    fmt::print("  arm {:12} port {:12} tip ({:7.1f}, {:7.1f}, {:7.1f}) mm, shaft {:.4f} mm beside its port\n",
+    fmt::print("  arm {:12} port {:12} tip ({:7.1f}, {:7.1f}, {:7.1f}) mm, shaft {:.4f} mm beside its port{}\n",
                a["name"].get<std::string>(), a["port"].get<std::string>(), a["tip_mm"][0].get<double>(),
-               a["tip_mm"][1].get<double>(), a["tip_mm"][2].get<double>(), a["beside_port_mm"].get<double>());
+               a["tip_mm"][1].get<double>(), a["tip_mm"][2].get<double>(), a["beside_port_mm"].get<double>(),
+               a["beyond_set_up_mm"].get<double>() > 0
+                   ? fmt::format("; its base is {:.0f} mm farther from its column than set-up joints reach",
+                                 a["beyond_set_up_mm"].get<double>())
+                   : "");
   for (const Json& p : people)
     fmt::print("  {:14} {:14} {}\n", p["name"].get<std::string>(), p["role"].get<std::string>(),
                p["beyond_reach_mm"].get<double>() > 0

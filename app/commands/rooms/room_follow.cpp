@@ -9,52 +9,38 @@
 #include <trocar/core/error.hpp>
 #include <trocar/sim/recording/recording.hpp>
 
+#include "rooms/room_hands.hpp"
+
 namespace trocar::app {
 
 using namespace studies;
 
-namespace {
-
-constexpr double kSamePort = 0.002;  // [m]
-
-struct HandOfArm {
-  int hand = -1;
-  Vec3d port;
-};
-
-}  // namespace
-
 RoomMotion motion_of_recording(const RoomModel& model, const std::string& file, double seconds) {
   auto recording = std::make_shared<const sim::Recording>(sim::read_recording(file));
   if (recording->inputs.empty()) throw core::BadInput({{{file, 0, 0}, "expected a recording with inputs, got none"}});
-  const std::unique_ptr<attempt::Lesson> lesson =
+  const std::shared_ptr<const attempt::Lesson> lesson =
       attempt::load_lesson(recording->header.exercise, recording->header.seed);
-  std::vector<HandOfArm> hands(model.arms().size());
+  const RoomHands hands(model, lesson->model);
   RoomMotion motion;
-  std::string known;
-  for (std::size_t h = 0; h < lesson->model.hands.size(); ++h) {
-    const sim::HandModel& hand = lesson->model.hands[h];
-    known += fmt::format("{}{} ({:.0f}, {:.0f}, {:.0f})", known.empty() ? "" : "; ", hand.name, 1e3 * hand.port.x,
-                         1e3 * hand.port.y, 1e3 * hand.port.z);
-    for (std::size_t a = 0; a < hands.size(); ++a)
-      if (length(model.arms()[a].port - hand.port) < kSamePort) {
-        hands[a] = {int(h), hand.port};
-        motion.moves.push_back(int(a));
-      }
+  std::vector<RoomHands::Link> link_of(model.arms().size());
+  for (const RoomHands::Link& link : hands.links()) {
+    motion.moves.push_back(link.arm);
+    link_of[std::size_t(link.arm)] = link;
   }
   if (motion.moves.empty())
     throw core::BadInput(
         {{{model.room().file, 0, 0},
-          fmt::format("expected an arm at the port of one of the recording's hands ({}), got none", known)}});
+          fmt::format("expected an arm at the port of one of the recording's hands ({}), got none", hands.known())}});
   const double recorded = double(recording->inputs.size() - 1) / double(core::kTicksPerSecond);
   motion.length = seconds > 0 ? std::min(seconds, recorded) : recorded;
-  motion.goal = [recording, hands](int arm, double at) {
-    const auto tick = std::min(recording->inputs.size() - 1, std::size_t(at * double(core::kTicksPerSecond) + 0.5));
-    const HandOfArm& hand = hands[std::size_t(arm)];
-    const sim::ToolInput& t = recording->inputs[tick].tools[hand.hand];
-    const kinematics::TipFrame tip = kinematics::forward(hand.port, {t.yaw, t.pitch, t.roll, t.depth});
-    return ArmGoal{tip.tip, true, tip.rotation};
+  const auto input = [recording](double at) -> const sim::Input& {
+    return recording
+        ->inputs[std::min(recording->inputs.size() - 1, std::size_t(at * double(core::kTicksPerSecond) + 0.5))];
   };
+  motion.goal = [input, hands, link_of, lesson](int arm, double at) {
+    return hands.goal(link_of[std::size_t(arm)], input(at));
+  };
+  motion.tips = [input, hands, lesson](double at) { return hands.tips(input(at)); };
   const scene::RoomTilt still = model.room().table.tilt;
   motion.tilt = [still](double) { return still; };
   return motion;

@@ -1,6 +1,7 @@
 // trocar room ... plan: where to put ports.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -25,39 +26,63 @@ namespace {
 double to_degrees(double angle) { return angle * 180 / portable::pi; }
 Json to_mm(Vec3d v) { return Json{1e3 * v.x, 1e3 * v.y, 1e3 * v.z}; }
 
-/// A box of the room's targets, or the bounds of an organ of its scene.
-void find_target(const RoomModel& model, const std::string& name, PortPlanOptions& o) {
-  const scene::Room& room = model.room();
+/// The scene whose ports the room has, or none.
+std::unique_ptr<const sim::Model> scene_of(const scene::Room& room) {
+  if (room.scene.empty()) return nullptr;
+  const std::filesystem::path path = std::filesystem::path(room.file).parent_path() / room.scene;
+  return std::make_unique<const sim::Model>(scene::compile(scene::read_scene(path)));
+}
+
+geometry::TriMesh mesh_of(const tissue::Skin& skin) {
+  geometry::TriMesh mesh;
+  for (const auto& p : skin.rest) mesh.positions.push_back(vec_cast<double>(p));
+  for (const auto& t : skin.triangles) mesh.triangles.push_back({int(t[0]), int(t[1]), int(t[2])});
+  return mesh;
+}
+
+/// Organs and closed pouches of the scene.
+std::vector<InTheWay> organs_of(const sim::Model& model) {
+  std::vector<InTheWay> all;
+  for (int i = 0; i < model.organs(); ++i) all.push_back({model.organ_name(i), mesh_of(model.skin(i))});
+  for (const sim::MembraneBody& m : model.membranes)
+    if (m.sheet.closed()) all.push_back({m.name, mesh_of(m.skin)});
+  return all;
+}
+
+/// A box of the room's targets, or the bounds of an organ of its scene. What is worked at is in nobody's way.
+void find_target(const scene::Room& room, const std::string& name, PortPlanOptions& o) {
   std::vector<std::string> known;
+  const auto aim_at = [&o](const std::string& target) {
+    std::erase_if(o.organs, [&](const InTheWay& organ) { return organ.name == target; });
+  };
   for (const scene::RoomTarget& t : room.targets) {
     known.push_back(t.name);
-    if (t.name == name || name.empty()) {
-      o.low = t.low, o.high = t.high;
-      return;
-    }
+    if (t.name != name && !name.empty()) continue;
+    o.low = t.low, o.high = t.high;
+    return aim_at(t.name);
   }
-  if (!room.scene.empty() && !name.empty()) {
-    const std::filesystem::path path = std::filesystem::path(room.file).parent_path() / room.scene;
-    const sim::Model compiled = scene::compile(scene::read_scene(path));
-    for (int i = 0; i < compiled.organs(); ++i) {
-      known.push_back(compiled.organ_name(i));
-      if (known.back() != name) continue;
-      o.low = {1e9, 1e9, 1e9}, o.high = {-1e9, -1e9, -1e9};
-      for (int v = 0; v < compiled.skin(i).size(); ++v) {
-        const Vec3d p = vec_cast<double>(compiled.skin(i).rest[std::size_t(v)]);
-        for (int k = 0; k < 3; ++k) o.low[k] = std::min(o.low[k], p[k]), o.high[k] = std::max(o.high[k], p[k]);
-      }
-      return;
-    }
+  for (const InTheWay& organ : o.organs) {
+    known.push_back(organ.name);
+    if (organ.name != name) continue;
+    o.low = {1e9, 1e9, 1e9}, o.high = {-1e9, -1e9, -1e9};
+    for (const Vec3d& p : organ.mesh.positions)
+      for (int k = 0; k < 3; ++k) o.low[k] = std::min(o.low[k], p[k]), o.high[k] = std::max(o.high[k], p[k]);
+    return aim_at(name);
   }
   throw core::BadInput({{{"--target", 0, 0}, scene::unknown_name("target", name, known)}});
+}
+
+std::string ways_text(const WaysIn& ways) {
+  return fmt::format("{:.0f} % of the ways through {} (up to {:.0f} mm)", 100 * ways.blocked, ways.first,
+                     1e3 * ways.longest);
 }
 
 }  // namespace
 
 int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
   PortPlanOptions o;
-  find_target(model, words.target, o);
+  if (const auto scene = scene_of(model.room())) o.organs = organs_of(*scene);
+  find_target(model.room(), words.target, o);
   o.spacing = 1e-3 * words.grid_mm;
   o.sets = words.sets;
   o.scope = words.with;
@@ -79,7 +104,9 @@ int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
                 {"elevation_deg", to_degrees(c.elevation)},
                 {"azimuth_deg", to_degrees(c.azimuth)},
                 {"depth_mm", 1e3 * c.depth},
-                {"lever", c.lever}};
+                {"lever", c.lever},
+                {"blocked", c.ways.blocked},
+                {"blocked_by", c.ways.first}};
   };
   for (const PortPair& p : plan.pairs) {
     Json set{{"score", p.score},
@@ -89,7 +116,9 @@ int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
              {"manipulation_deg", to_degrees(p.manipulation)},
              {"handles_clear_mm", 1e3 * p.clearance},
              {"patient_clear_mm", 1e3 * p.patient_clearance}};
-    if (p.with_arms) set["arms_reach"] = p.arms_reach, set["arms_clear_mm"] = 1e3 * p.arms_clearance;
+    if (p.with_arms)
+      set["arms_reach"] = p.arms_reach, set["arms_clear_mm"] = 1e3 * p.arms_clearance,
+      set["bases_turned_deg"] = {to_degrees(p.turned[0]), to_degrees(p.turned[1])};
     sets.push_back(std::move(set));
   }
   for (const PortCandidate& c : plan.candidates)
@@ -98,6 +127,7 @@ int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
            {"kind", "plan"},
            {"scope", o.scope},
            {"target_mm", to_mm(plan.target)},
+           {"sight", {{"blocked", plan.sight.blocked}, {"blocked_by", plan.sight.first}}},
            {"candidates", plan.candidates.size()},
            {"pairs", plan.looked_at},
            {"sets", sets},
@@ -130,9 +160,9 @@ int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
     RoomCamera camera(bare, pictures::parse_size(words.size));
     for (const auto& [file, what, orbit] :
          {std::tuple("ports.png", "Heat: the score of the best pair with a port there; rings: the best pair",
-                     view::RoomOrbit{{0, 0.04, 0}, 0, 1.25, 0.95}),
+                     view::UprightOrbit{{0, 0.04, 0}, 0, 1.25, 0.95}),
           std::tuple("ports-side.png", "The best pair's instruments at the target",
-                     view::RoomOrbit{{0, 0.04, 0.05}, -0.7, 0.5, 1.2})}) {
+                     view::UprightOrbit{{0, 0.04, 0.05}, -0.7, 0.5, 1.2})}) {
       camera.take(bare, orbit, folder + "/" + file);
       shown.push_back({file, what});
     }
@@ -161,8 +191,13 @@ int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
         1e3 * r.place.z, to_degrees(p.manipulation), to_degrees(l.azimuth), to_degrees(r.azimuth),
         to_degrees(l.elevation), to_degrees(r.elevation), l.lever, r.lever,
         1e3 * std::min(p.clearance, p.patient_clearance),
-        p.with_arms ? fmt::format("  {:.2f}, {:.0f}", p.arms_reach, 1e3 * p.arms_clearance) : "");
+        p.with_arms ? fmt::format("  {:.2f}, {:.0f}; bases turned {:.0f}, {:.0f} deg", p.arms_reach,
+                                  1e3 * p.arms_clearance, to_degrees(p.turned[0]), to_degrees(p.turned[1]))
+                    : "");
+    for (const auto& [side, c] : {std::pair{"left", &l}, {"right", &r}})
+      if (c->ways.blocked > 0) fmt::print("        {}: {}\n", side, ways_text(c->ways));
   }
+  if (plan.sight.blocked > 0) fmt::print("  endoscope: {}\n", ways_text(plan.sight));
   if (!good) fmt::print("  no pair of places does: none reaches the target, clear of each other and the patient\n");
   if (out.contains("report")) fmt::print("  {}\n", out["report"].get<std::string>());
   return good ? core::kDone : core::kGoalNotReached;

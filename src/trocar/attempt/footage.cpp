@@ -80,6 +80,8 @@ void blend(const sim::Model& model, const sim::State& a, const sim::State& b, do
   for (std::size_t t = 0; t < out.joints.size(); ++t)
     for (int j = 0; j < kinematics::kMaxJoints; ++j)
       out.joints[t].angle[j] = mixed(a.joints[t].angle[j], b.joints[t].angle[j], f);
+  for (std::size_t t = 0; t < out.ports.size(); ++t)
+    out.ports[t].shift = a.ports[t].shift + f * (b.ports[t].shift - a.ports[t].shift);
   blend_scope(a.scope, b.scope, f, out.scope);
   blend_lens(a.fluids.smoke, b.fluids.smoke, f, out.fluids.smoke);
 }

@@ -148,9 +148,7 @@ void HandPilot::move_tool(const devices::HandCommand& command, const kinematics:
   if (m_inserting[size_t(command.led)] && !moved) return;
   m_inserting[size_t(command.led)] = false;
   // Of an instrument that bends, too, the straight one's tip is led; a redundant one's has another pose for it.
-  const Vec3d is_at = tool.bends.redundant()
-                          ? sim::tip_frame_of(m_model, state, size_t(command.led)).tip
-                          : kinematics::forward(tool.port, state.tools[size_t(command.led)].pose()).tip;
+  const Vec3d is_at = sim::led_place(m_model, state, size_t(command.led));
   const kinematics::TipFrame commanded = kinematics::forward(tool.port, pose_of(input));
   Vec3d tip = commanded.tip + as_vector(devices::in_space(command.tip, as_array(view.right), as_array(view.up),
                                                           as_array(commanded.axis())));

@@ -96,21 +96,27 @@ std::string plan_html(const RoomModel& model, const PortPlan& plan, const std::v
   std::vector<std::vector<std::string>> lines;
   for (const PortPair& p : plan.pairs) {
     const PortCandidate &l = plan.candidates[std::size_t(p.left)], &r = plan.candidates[std::size_t(p.right)];
-    lines.push_back(
-        {fmt::format("{:.3f}", p.score), at(l.place), at(r.place), deg(p.manipulation),
-         deg(l.azimuth) + ", " + deg(r.azimuth), deg(l.elevation) + ", " + deg(r.elevation),
-         fmt::format("{:.2f}, {:.2f}", l.lever, r.lever),
-         fmt::format("{:.0f}", 1e3 * std::min(p.clearance, p.patient_clearance)),
-         p.with_arms ? fmt::format("{:.0f} %, {:.0f} mm", 100 * p.arms_reach, 1e3 * p.arms_clearance) : "-"});
+    const auto ways = [](const WaysIn& w) {
+      return w.blocked > 0 ? fmt::format("{:.0f} % by {}", 100 * w.blocked, w.first) : std::string("free");
+    };
+    lines.push_back({fmt::format("{:.3f}", p.score), at(l.place), at(r.place), deg(p.manipulation),
+                     deg(l.azimuth) + ", " + deg(r.azimuth), deg(l.elevation) + ", " + deg(r.elevation),
+                     fmt::format("{:.2f}, {:.2f}", l.lever, r.lever),
+                     fmt::format("{:.0f}", 1e3 * std::min(p.clearance, p.patient_clearance)),
+                     ways(l.ways) + ", " + ways(r.ways),
+                     p.with_arms ? fmt::format("{:.0f} %, {:.0f} mm, {} and {}", 100 * p.arms_reach,
+                                               1e3 * p.arms_clearance, deg(p.turned[0]), deg(p.turned[1]))
+                                 : "-"});
   }
   Json sections = Json::array();
   sections.push_back({{"heading", "On the abdomen"}, {"drawing", figures_html(pictures)}, {"legend", ""}});
   sections.push_back(
       {{"heading", "The best sets"},
-       {"table", room_table("Pairs of ports for the left and the right hand",
-                            {"rank", "score", "left [mm]", "right [mm]", "manipulation [deg]", "azimuths [deg]",
-                             "elevations [deg]", "levers", "clear [mm]", "arms: reach, clear"},
-                            lines)},
+       {"table",
+        room_table("Pairs of ports for the left and the right hand",
+                   {"rank", "score", "left [mm]", "right [mm]", "manipulation [deg]", "azimuths [deg]",
+                    "elevations [deg]", "levers", "clear [mm]", "ways in", "arms: reach, clear, bases turned [deg]"},
+                   lines)},
        {"note",
         "Best are a manipulation angle of 60 degrees, equal azimuths and an elevation of 60 degrees (Hanna, Shimi and "
         "Cuschieri 1997); how much a departure costs is ours."}});

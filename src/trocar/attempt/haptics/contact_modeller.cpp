@@ -28,16 +28,16 @@ Vec3d at_tip(Vec3d force, Vec3d axis, double share) {
   return dot(force, axis) * axis + share * (force - dot(force, axis) * axis);
 }
 
-double share_of(const interactions::ToolModel& tool, const ToolShape& shape, Vec3d place, double depth) {
-  return depth > 0 ? std::clamp(dot(place - tool.port, shape.frame.axis()) / depth, 0.0, 1.0) : 1.0;
+double share_of(Vec3d port, const ToolShape& shape, Vec3d place, double depth) {
+  return depth > 0 ? std::clamp(dot(place - port, shape.shaft.axis()) / depth, 0.0, 1.0) : 1.0;
 }
 
 /// Where it is touched along the shaft, as a share of the depth; all the way where nothing is known.
-double touched_share(const interactions::ToolModel& tool, const ToolShape& shape, const TouchBook& book, double depth) {
+double touched_share(Vec3d port, const ToolShape& shape, const TouchBook& book, double depth) {
   double sum = 0, force = 0;
   for (const Touch* t = book.touch; t != book.touch + book.count; ++t) {
     if (!t->anchored || !(t->force > 0)) continue;
-    sum += double(t->force) * share_of(tool, shape, place_of(shape, *t), depth);
+    sum += double(t->force) * share_of(port, shape, place_of(shape, *t), depth);
     force += double(t->force);
   }
   return force > 0 ? sum / force : 1.0;
@@ -67,11 +67,11 @@ struct Sides {
   }
 };
 
-Sides sides_of(const interactions::ToolModel& tool, const ToolShape& shape, const TouchBook& book, double depth) {
+Sides sides_of(Vec3d port, const ToolShape& shape, const TouchBook& book, double depth) {
   Sides sides;
   for (const Touch* t = book.touch; t != book.touch + book.count; ++t)
     if (t->anchored && t->force > 0)
-      sides.add(at_tip(-press_of(*t), shape.frame.axis(), share_of(tool, shape, place_of(shape, *t), depth)));
+      sides.add(at_tip(-press_of(*t), shape.shaft.axis(), share_of(port, shape, place_of(shape, *t), depth)));
   return sides;
 }
 
@@ -81,16 +81,23 @@ ToolShape shape_now(const sim::Model& model, const sim::State& state, int hand) 
   return sim::shape_of(model, state, size_t(hand));
 }
 
+/// How far in along the shaft the place is that the hand leads: the straight instrument's tip, or a redundant one's
+/// own.
+double led_depth(const sim::Model& model, const sim::State& state, int hand, const ToolShape& shape) {
+  if (!model.tool(state, size_t(hand)).bends.redundant()) return state.tools[size_t(hand)].depth;
+  return std::max(0.0, dot(shape.frame.tip - sim::port_of(model, state, size_t(hand)), shape.shaft.axis()));
+}
+
 Vec3d vector_of(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
 TipForces forces_at_tip(const sim::Model& model, const sim::State& state, int hand) noexcept {
   const interactions::ToolState& tool = state.tools[size_t(hand)];
-  const interactions::ToolModel& held = model.tool(state, size_t(hand));
   const ToolShape shape = shape_now(model, state, hand);
-  const double share = touched_share(held, shape, state.touches[size_t(hand)], tool.depth);
-  return {at_tip(vector_of(tool.contact_force), shape.frame.axis(), share),
+  const double share = touched_share(sim::port_of(model, state, size_t(hand)), shape, state.touches[size_t(hand)],
+                                     led_depth(model, state, hand, shape));
+  return {at_tip(vector_of(tool.contact_force), shape.shaft.axis(), share),
           tool.holds > 0 ? vector_of(tool.pull) : Vec3d{}};
 }
 
@@ -112,7 +119,9 @@ void StiffnessEstimate::add(double place, double force) noexcept {
 void ContactModeller::touch(const sim::State& state, Vec3d wanted, Vec3d force, LocalModel& out) noexcept {
   const TouchBook& book = state.touches[size_t(m_hand)];
   const interactions::ToolModel& tool = m_model.tool(state, size_t(m_hand));
-  Sides sides = sides_of(tool, shape_now(m_model, state, m_hand), book, state.tools[size_t(m_hand)].depth);
+  const ToolShape shape = shape_now(m_model, state, m_hand);
+  Sides sides =
+      sides_of(sim::port_of(m_model, state, size_t(m_hand)), shape, book, led_depth(m_model, state, m_hand, shape));
   const double size = length(force);
   if (!(size > kLeastForce)) {
     m_touched.forget();
@@ -151,21 +160,21 @@ void ContactModeller::hold(Vec3d wanted, Vec3d pull, LocalModel& out) noexcept {
 /// Metal that is near, as far as there is room for planes: other instruments do not give way.
 void ContactModeller::meet_instruments(const sim::State& state, Vec3d wanted, LocalModel& out) const noexcept {
   const ToolShape own = shape_now(m_model, state, m_hand);
-  const Vec3d port = m_model.hands[size_t(m_hand)].port;
-  const double depth = state.tools[size_t(m_hand)].depth;
+  const Vec3d port = sim::port_of(m_model, state, size_t(m_hand));
+  const double depth = led_depth(m_model, state, m_hand, own);
   for (int other = 0; other < int(m_model.hands.size()) && out.planes < devices::kMostPlanes; ++other) {
     if (other == m_hand) continue;
     const ToolShape theirs = shape_now(m_model, state, other);
     collision::RodContact nearest;
     nearest.depth = -kNear;
-    for (const collision::Capsule& a : own.part)
-      for (const collision::Capsule& b : theirs.part) {
+    for (int p = interactions::kShaft; p < end_of(own); p = interactions::next(p))
+      for (int q = interactions::kShaft; q < end_of(theirs); q = interactions::next(q)) {
         Vec3f side{};
-        const collision::RodContact c = collision::touch(a, b, side);
+        const collision::RodContact c = collision::touch(own.rod(p), theirs.rod(q), side);
         if (c.depth > nearest.depth) nearest = c;
       }
     if (!(nearest.depth > -kNear)) continue;
-    const double share = std::max(kLeastShare, dot(nearest.on_first - port, own.frame.axis()) / std::max(depth, 1e-3));
+    const double share = std::max(kLeastShare, dot(nearest.on_first - port, own.shaft.axis()) / std::max(depth, 1e-3));
     if (out.planes == 0) out.stiffness = kMetal;
     out.plane[out.planes++] = {wanted + (nearest.depth / share) * -nearest.normal, -nearest.normal};
   }
@@ -183,7 +192,7 @@ Vec3d ContactModeller::averaged(Vec3d contact) noexcept {
 LocalModel ContactModeller::of(const sim::State& state, Vec3d wanted, double seal) noexcept {
   LocalModel out;
   out.tick = state.tick;
-  out.port = m_model.hands[size_t(m_hand)].port;
+  out.port = sim::port_of(m_model, state, size_t(m_hand));
   out.seal_friction = seal;
   const TipForces forces = forces_at_tip(m_model, state, m_hand);
   touch(state, wanted, averaged(forces.contact), out);

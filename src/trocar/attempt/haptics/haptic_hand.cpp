@@ -112,7 +112,7 @@ void HapticHand::lead(const sim::State& state, sim::Input& input) noexcept {
     return;
   }
   const devices::HapticSample& sample = m_report.sample;
-  const Vec3d is_at = kinematics::forward(held.port, state.tools[size_t(m_hand)].pose()).tip;
+  const Vec3d is_at = sim::led_place(m_model, state, size_t(m_hand));
   const bool lifted = (sample.switches & kLifts) != 0, changed = m_changes != state.tools[size_t(m_hand)].changes;
   if (!m_placed) {
     take_place(state, told);

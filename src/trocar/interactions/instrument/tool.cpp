@@ -58,16 +58,17 @@ ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, 
 }
 
 ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, const kinematics::Joints& joints,
-                   double aperture) noexcept {
+                   double aperture, Vec3d shift) noexcept {
   ToolShape s;
+  const Vec3d port = model.port + shift;
   if (model.bends.bends()) {
-    const kinematics::Chain chain = kinematics::chain(model.bends, model.port, pose, joints, model.jaw_length);
+    const kinematics::Chain chain = kinematics::chain(model.bends, port, pose, joints, model.jaw_length);
     s.frame = chain.tip;
     s.shaft = chain.shaft;
     s.pivot = chain.bend[chain.links];
     lay_links(model, chain, s);
   } else {
-    s.frame = kinematics::forward(model.port, pose);
+    s.frame = kinematics::forward(port, pose);
     s.pivot = s.frame.tip - model.jaw_length * s.frame.axis();
     s.shaft = {s.pivot, s.frame.rotation};
   }
@@ -94,6 +95,10 @@ double aperture_at(const ToolModel& model, double thickness, double along) noexc
   const double reach = std::max(along, 0.003);
   const double half = portable::atan2(0.5 * thickness, reach);
   return std::min(1.0, 2.0 * half / model.opening);
+}
+
+double outside_of(const ToolModel& model, double depth) noexcept {
+  return std::max(kinematics::kLeastOutside, model.shaft_length - depth);
 }
 
 void follow(const ToolModel& model, const ToolCommand& command, double dt, ToolState& state) noexcept {

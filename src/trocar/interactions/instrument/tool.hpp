@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include <trocar/collision/rods.hpp>
@@ -13,6 +14,7 @@
 #include <trocar/interactions/instrument/tool_kind.hpp>
 #include <trocar/kinematics/articulation.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
+#include <trocar/kinematics/port.hpp>
 #include <trocar/tissue/heat/electrosurgery.hpp>
 #include <trocar/tissue/heat/electrosurgery_seal.hpp>
 
@@ -29,6 +31,8 @@ struct ElectrodeModel {
     v("current", s.current), v("seal", s.seal), v("there", s.there, core::kNotHashed);
   }
 };
+
+struct LinkageWorks;  // linkage_works.hpp
 
 struct ToolModel {
   std::string name;
@@ -48,8 +52,9 @@ struct ToolModel {
   double clip_length = 0;  ///< [m]
   std::int32_t clips = 0;  ///< in the magazine at the start
   ElectrodeModel electrode;
-  LinkageModel linkage;            ///< between handle and jaws, where the file names a mechanism
-  kinematics::Articulation bends;  ///< a wrist, or more; without joints the instrument is rigid
+  LinkageModel linkage;                       ///< between handle and jaws, where the file names a mechanism
+  std::shared_ptr<const LinkageWorks> works;  ///< of that what is drawn; null: nothing
+  kinematics::Articulation bends;             ///< a wrist, or more; without joints the instrument is rigid
 
   const Abilities& can() const noexcept { return about(kind).can; }
 
@@ -62,7 +67,7 @@ struct ToolModel {
         v("clip_length", s.clip_length), v("clips", s.clips), v("foot", s.foot, core::only_if(s.foot > 0)),
         v("electrode", s.electrode, core::only_if(s.electrode.there)),
         v("linkage", s.linkage, core::only_if(s.linkage.there)), v("bends", s.bends, core::only_if(s.bends.bends())),
-        v("name", s.name, core::kNotHashed);
+        v("name", s.name, core::kNotHashed), v("works", s.works, core::kNotHashed);
   }
 };
 
@@ -154,10 +159,11 @@ struct ToolShape {
 inline int end_of(const ToolShape& shape) noexcept { return kFirstLink + shape.links; }
 constexpr int next(int part) noexcept { return part + 1 == kToolParts ? kFirstLink : part + 1; }
 
-/// Shape at `pose` and `aperture`, straight or as its joints bend it; the velocity is left zero.
+/// Shape at `pose` and `aperture`, straight or as its joints bend it; the velocity is left zero. About the trocar's
+/// place, or `shift` beside it.
 ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, double aperture) noexcept;
 ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, const kinematics::Joints& joints,
-                   double aperture) noexcept;
+                   double aperture, Vec3d shift = {0, 0, 0}) noexcept;
 
 /// A point in the jaw frame: x along the opening direction, y along the jaw-plane normal, z along the axis from pivot.
 Vec3d to_jaw(const ToolShape& shape, Vec3d world) noexcept;
@@ -166,6 +172,9 @@ Vec3d direction_from_jaw(const ToolShape& shape, Vec3d local) noexcept;
 
 /// The aperture at which the jaws touch tissue of `thickness` lying `along` from the pivot.
 double aperture_at(const ToolModel& model, double thickness, double along) noexcept;
+
+/// How much of an instrument that is so deep is between its trocar and the hand [m].
+double outside_of(const ToolModel& model, double depth) noexcept;
 
 /// Moves the instrument towards the commanded pose, no faster than hands can: 0.6 m/s at the tip and 4 rad/s, roll 8
 /// rad/s, handle 8 /s.

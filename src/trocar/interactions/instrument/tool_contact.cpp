@@ -263,6 +263,14 @@ void wire_on_surface(Touching& c, BodyId body, const Surface& surface, int part,
 
 }  // namespace
 
+bool comes_near(const ToolShape& shape, const tissue::Box& box, double margin) noexcept {
+  if (meets_box(box, shape.part[kShaft].a, shape.frame.tip, margin)) return true;
+  for (int i = 0; i < shape.links; ++i)
+    if (meets_box(box, shape.link[i].a, shape.link[i].b, margin)) return true;
+  return shape.links > 0 && (meets_box(box, shape.part[kShaft].a, shape.part[kShaft].b, margin) ||
+                             meets_box(box, shape.pivot, shape.frame.tip, margin));
+}
+
 void tool_on_surface(Touching& touching, BodyId body, const Surface& surface, NetworkLoads& loads,
                      std::span<const Hold> holds) noexcept {
   const HeldSkin held{body, holds};

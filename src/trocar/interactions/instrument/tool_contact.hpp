@@ -19,6 +19,10 @@
 
 namespace trocar::interactions {
 
+/// May anything of the instrument be nearer to the box than `margin`? Its axis is asked, of a bent one each piece of
+/// it.
+bool comes_near(const ToolShape& shape, const tissue::Box& box, double margin) noexcept;
+
 /// What jaws hold, and the skin next to that, lies around them in a fold and not before them: only the shaft touches
 /// it, as with strands and folds.
 /// @param body  how holds name this organ

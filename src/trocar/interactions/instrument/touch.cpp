@@ -76,18 +76,19 @@ bool TouchBook::near(BodyId body, std::int32_t element) const noexcept {
   return at != touch + count && at->body == body && at->element == element;
 }
 
-void start_here(const ToolState& tool, const kinematics::Joints& joints, TouchBook& book) noexcept {
+void start_here(const ToolState& tool, const kinematics::Joints& joints, TouchBook& book, Vec3d shift) noexcept {
   book.yaw = tool.yaw;
   book.pitch = tool.pitch;
   book.roll = tool.roll;
   book.depth = tool.depth;
   book.aperture = tool.aperture;
   book.joints = joints;
+  book.shift = shift;
   book.count = book.reserved = 0;
 }
 
 ToolShape shape_before(const ToolModel& model, const TouchBook& book) noexcept {
-  return shape_of(model, {book.yaw, book.pitch, book.roll, book.depth}, book.joints, book.aperture);
+  return shape_of(model, {book.yaw, book.pitch, book.roll, book.depth}, book.joints, book.aperture, book.shift);
 }
 
 Touching::Touching(double friction, const ToolShape& was_at, const ToolShape& is_at, int number, const TouchBook& was,
@@ -168,12 +169,13 @@ void press_on(TouchBook& next, std::int32_t number, Vec3d force) noexcept {
              float(force.x * double(t.normal[0]) + force.y * double(t.normal[1]) + force.z * double(t.normal[2]));
 }
 
-void remember(const ToolState& tool, const kinematics::Joints& joints, TouchBook& next, TouchBook& book) noexcept {
+void remember(const ToolState& tool, const kinematics::Joints& joints, TouchBook& next, TouchBook& book,
+              Vec3d shift) noexcept {
   std::sort(next.touch, next.touch + next.count, before_in_book);
   for (Touch* t = next.touch; t != next.touch + next.count; ++t)
     t->force = std::clamp(t->force, 0.0f, t->body.is(BodyKind::wall) ? kMostAtWall : kMostSpringPress);
   std::copy(next.touch, next.touch + next.count, book.touch);
-  start_here(tool, joints, book);
+  start_here(tool, joints, book, shift);
   book.count = next.count;
 }
 
@@ -215,11 +217,12 @@ Vec3d touched_at(const ToolShape& shape, const TouchBook& book) noexcept {
 }  // namespace
 
 TrocarLoad load_at_trocar(const ToolModel& model, const ToolState& tool, const TouchBook& book) noexcept {
-  const ToolShape shape = shape_of(model, tool.pose(), book.joints, tool.aperture);
+  const ToolShape shape = shape_of(model, tool.pose(), book.joints, tool.aperture, book.shift);
+  const Vec3d port = model.port + book.shift;
   TrocarLoad r{};
-  const auto add = [&r, &model](Vec3d at, Vec3d force) {
+  const auto add = [&r, port](Vec3d at, Vec3d force) {
     r.force += force;
-    r.moment += cross(at - model.port, force);
+    r.moment += cross(at - port, force);
   };
   const double* contact = tool.contact_force;
   add(touched_at(shape, book), {contact[0], contact[1], contact[2]});
@@ -227,9 +230,8 @@ TrocarLoad load_at_trocar(const ToolModel& model, const ToolState& tool, const T
     const Hold& h = tool.hold[i];
     add(from_jaw(shape, {h.local[0], h.local[1], h.local[2]}), -Vec3d{h.force[0], h.force[1], h.force[2]});
   }
-  constexpr double kLeastOutside = 0.05;  // [m] of an instrument that is pushed in to its handle
   const Vec3d axis = shape.shaft.axis();
-  const double outside = std::max(kLeastOutside, model.shaft_length - tool.depth), along = dot(r.force, axis);
+  const double outside = outside_of(model, tool.depth), along = dot(r.force, axis);
   const Vec3d lever = cross(r.moment, axis) / outside;  // axis x lever = moment across the axis / outside
   r.by_hand = lever - along * axis;
   r.on_wall = r.force - along * axis + lever;

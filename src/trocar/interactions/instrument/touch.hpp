@@ -47,6 +47,7 @@ static_assert(sizeof(Touch) == 14 * 4, "no padding");
 struct TouchBook {
   double yaw = 0, pitch = 0, roll = 0, depth = 0, aperture = 1;  ///< where it was when it last touched
   kinematics::Joints joints;
+  Vec3d shift{0, 0, 0};  ///< of its trocar's fulcrum then [m]
   std::int32_t count = 0, reserved = 0;
   Touch touch[kMaxTouches];  ///< ascending in body, element, part
 
@@ -57,12 +58,14 @@ struct TouchBook {
   static void fields(S& s, V&& v) {
     v("yaw", s.yaw), v("pitch", s.pitch), v("roll", s.roll), v("depth", s.depth), v("aperture", s.aperture),
         v("count", s.count), v("touch", s.touch, core::FieldNote{.first = s.count, .each = true}),
-        v("joints", s.joints, core::only_if(s.joints.bent())), v("reserved", s.reserved, core::kNotHashed);
+        v("joints", s.joints, core::only_if(s.joints.bent())),
+        v("shift", s.shift, core::only_if(dot(s.shift, s.shift) > 0)), v("reserved", s.reserved, core::kNotHashed);
   }
 };
 
 /// An instrument that has not moved and touches nothing.
-void start_here(const ToolState& tool, const kinematics::Joints& joints, TouchBook& book) noexcept;
+void start_here(const ToolState& tool, const kinematics::Joints& joints, TouchBook& book,
+                Vec3d shift = {0, 0, 0}) noexcept;
 
 /// Where the tissue of a touch that is anchored sticks to the instrument [m], and the force of the instrument on the
 /// tissue there: along the normal only, averaged over some ten ticks [N].
@@ -127,7 +130,8 @@ class Touching {
 void press_on(TouchBook& next, std::int32_t number, Vec3d force_on_tissue) noexcept;
 
 /// After the tick: what is to be remembered.
-void remember(const ToolState& tool, const kinematics::Joints& joints, TouchBook& next, TouchBook& book) noexcept;
+void remember(const ToolState& tool, const kinematics::Joints& joints, TouchBook& next, TouchBook& book,
+              Vec3d shift = {0, 0, 0}) noexcept;
 
 void add_to_hash(core::Hasher& hasher, const TouchBook& book) noexcept;
 

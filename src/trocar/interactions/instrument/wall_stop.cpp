@@ -88,31 +88,33 @@ struct Ends {
 };
 /// Tip and links of an instrument that bends. Where a wall wants one of them, the point of the straight axis that is as
 /// far in goes: nearly the same way, and it is looked at again.
-Ends bent_ends(const ToolModel& model, const kinematics::FulcrumPose& pose, const kinematics::Joints& joints) noexcept {
-  const ToolShape s = shape_of(model, pose, joints, 0);
+Ends bent_ends(const ToolModel& model, Vec3d port, const kinematics::FulcrumPose& pose,
+               const kinematics::Joints& joints) noexcept {
+  const ToolShape s = shape_of(model, pose, joints, 0, port - model.port);
   const Vec3d axis = s.shaft.axis();
   Ends r;
   r.count = 0;
   const auto add = [&](Vec3d at, double radius) {
-    const double along = std::max(kFromTrocar, dot(at - model.port, axis));
-    r.probe[r.count++] = {at, radius, model.port + along * axis, along, false};
+    const double along = std::max(kFromTrocar, dot(at - port, axis));
+    r.probe[r.count++] = {at, radius, port + along * axis, along, false};
   };
   add(s.frame.tip, model.jaw_thickness);
   for (int i = 0; i < s.links; ++i) add(s.link[i].b, s.link[i].radius);
   return r;
 }
 
-Ends ends_of(const ToolModel& model, const kinematics::FulcrumPose& pose, const kinematics::Joints& joints) noexcept {
-  if (model.bends.bends()) return bent_ends(model, pose, joints);
-  const Vec3d tip = kinematics::forward(model.port, pose).tip;
+Ends ends_of(const ToolModel& model, Vec3d port, const kinematics::FulcrumPose& pose,
+             const kinematics::Joints& joints) noexcept {
+  if (model.bends.bends()) return bent_ends(model, port, pose, joints);
+  const Vec3d tip = kinematics::forward(port, pose).tip;
   if (!(model.foot > 0)) return {{{tip, model.jaw_thickness, tip, pose.depth, true}, {}}, 1};
-  const ToolShape s = shape_of(model, pose, 0);
+  const ToolShape s = shape_of(model, pose, {}, 0, port - model.port);
   const Capsule &wire = s.part[kJawA], &foot = s.part[kJawB];
   return {{{wire.b, wire.radius, tip, pose.depth, true}, {foot.b, foot.radius, tip, pose.depth, true}}, 2};
 }
 
-Vec3d axis_of(const ToolModel& model, const kinematics::FulcrumPose& pose) noexcept {
-  return kinematics::forward(model.port, pose).axis();
+Vec3d axis_of(Vec3d port, const kinematics::FulcrumPose& pose) noexcept {
+  return kinematics::forward(port, pose).axis();
 }
 
 /// How far beside the straight axis what bends may be.
@@ -120,29 +122,28 @@ double bent_reach(const ToolModel& model) noexcept {
   return model.bends.bends() ? model.bends.length() + model.jaw_length : 0.0;
 }
 
-Deepest deepest_of(const ToolModel& model, std::span<const Surface> walls, const kinematics::FulcrumPose& pose,
-                   const kinematics::Joints& joints) noexcept {
+Deepest deepest_of(const ToolModel& model, Vec3d port, std::span<const Surface> walls,
+                   const kinematics::FulcrumPose& pose, const kinematics::Joints& joints) noexcept {
   Deepest deepest;
-  const Vec3d axis = axis_of(model, pose);
+  const Vec3d axis = axis_of(port, pose);
   const double depth = pose.depth, reach = kWallReach + model.foot + bent_reach(model);
-  const Vec3d tip = model.port + depth * axis, start = model.port + std::min(kFromTrocar, depth) * axis;
-  const Ends ends = ends_of(model, pose, joints);
+  const Vec3d tip = port + depth * axis, start = port + std::min(kFromTrocar, depth) * axis;
+  const Ends ends = ends_of(model, port, pose, joints);
   for (const Surface& wall : walls) {
     if (!wall.pose->bounds.near_segment(start, tip, reach)) continue;
     const Blocks blocks = blocks_near(wall, start, tip, reach);
     if (!blocks.all && blocks.count == 0) continue;
     for (int i = 0; i < ends.count; ++i) look_at(wall, blocks, ends.probe[i], deepest);
     for (double s = depth - model.jaw_length - model.bends.length(); s > kFromTrocar; s -= kShaftSpacing)
-      look_at(wall, blocks, {model.port + s * axis, model.shaft_radius, model.port + s * axis, s, false}, deepest);
+      look_at(wall, blocks, {port + s * axis, model.shaft_radius, port + s * axis, s, false}, deepest);
   }
   return deepest;
 }
 
 /// No farther from `before` than the tip may go in a tick: a little that the shaft moves near the trocar is a lot
 /// there.
-void slow_down(const ToolModel& model, const kinematics::FulcrumPose& before, ToolState& tool) noexcept {
-  const double far =
-      length(kinematics::forward(model.port, tool.pose()).tip - kinematics::forward(model.port, before).tip);
+void slow_down(Vec3d port, const kinematics::FulcrumPose& before, ToolState& tool) noexcept {
+  const double far = length(kinematics::forward(port, tool.pose()).tip - kinematics::forward(port, before).tip);
   if (far <= kQuickestTip) return;
   const double share = kQuickestTip / far;
   tool.yaw = before.yaw + share * (tool.yaw - before.yaw);
@@ -154,16 +155,17 @@ void slow_down(const ToolModel& model, const kinematics::FulcrumPose& before, To
 
 WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wanted,
                        const kinematics::FulcrumPose& before, const kinematics::Joints& joints,
-                       std::span<const Surface> walls, ToolState& tool) noexcept {
+                       std::span<const Surface> walls, ToolState& tool, Vec3d shift) noexcept {
   WallStop stop;
+  const Vec3d port = model.port + shift;
   if (tool.depth <= kFromTrocar || wanted.depth < tool.depth - kWithdraws) return stop;
   Deepest last;
   for (int round = 0; round < kRounds; ++round) {
-    const Deepest d = deepest_of(model, walls, tool.pose(), joints);
+    const Deepest d = deepest_of(model, port, walls, tool.pose(), joints);
     if (d.depth <= 1e-9) break;
     last = d;
     const Vec3d to = d.probe.on_axis + d.depth * d.normal;
-    kinematics::FulcrumPose pose = kinematics::inverse(model.port, to, tool.roll);
+    kinematics::FulcrumPose pose = kinematics::inverse(port, to, tool.roll);
     if (!d.probe.tip) pose.depth = tool.depth;
     pose = kinematics::clamped(pose, model.limits);
     tool.yaw = pose.yaw;
@@ -174,12 +176,12 @@ WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wa
     stop.normal = d.normal;
   }
   if (!stop.stopped) return stop;
-  slow_down(model, before, tool);
+  slow_down(port, before, tool);
   const kinematics::FulcrumPose goal = kinematics::clamped(wanted, model.limits);
   const Probe& at = last.probe;
   const double along = at.tip ? tool.depth : at.along, goal_along = at.tip ? goal.depth : at.along;
-  stop.at = model.port + along * axis_of(model, tool.pose());
-  const Vec3d there = model.port + goal_along * axis_of(model, goal);
+  stop.at = port + along * axis_of(port, tool.pose());
+  const Vec3d there = port + goal_along * axis_of(port, goal);
   stop.force = std::clamp(kPress * dot(stop.at - there, stop.normal), 0.0, kMostStop);
   return stop;
 }

@@ -25,10 +25,11 @@ struct WallStop {
 /// @param wanted  where the hand wants the instrument
 /// @param before  where it was in the last tick: no wall moves it faster than a hand would
 /// @param joints  as they are; walls do not bend an instrument
+/// @param shift   of the trocar's fulcrum from its place
 /// @param walls   that never move; their normals point into the cavity
 WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wanted,
                        const kinematics::FulcrumPose& before, const kinematics::Joints& joints,
-                       std::span<const Surface> walls, ToolState& tool) noexcept;
+                       std::span<const Surface> walls, ToolState& tool, Vec3d shift = {0, 0, 0}) noexcept;
 
 /// Remembers the wall among what the instrument touches.
 void note_wall(const WallStop& stop, Touching& touching) noexcept;

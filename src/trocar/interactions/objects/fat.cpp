@@ -70,10 +70,16 @@ void touch_part(const tissue::FatModel& m, const tissue::FatState& s, BodyId bod
 
 /// Could the instrument be at any of them?
 bool is_near(const tissue::FatModel& m, const tissue::FatState& s, const ToolShape& shape) noexcept {
-  const Vec3d from = shape.part[kShaft].a, to = shape.frame.tip;
+  constexpr double kNearFat = 0.03;  // [m]
+  const auto near = [](Vec3d p, Vec3d from, Vec3d to) {
+    const Vec3d off = p - collision::nearest_on_axis({from, to, 0}, p);
+    return dot(off, off) < kNearFat * kNearFat;
+  };
   for (int n = 0; n < m.lobules(); n += 8) {  // those between them are not far
-    const Vec3d p = tissue::position(m, s, n), off = p - collision::nearest_on_axis({from, to, 0}, p);
-    if (dot(off, off) < 0.03 * 0.03) return true;
+    const Vec3d p = tissue::position(m, s, n);
+    if (near(p, shape.part[kShaft].a, shape.frame.tip)) return true;
+    for (int i = 0; i < shape.links; ++i)
+      if (near(p, shape.link[i].a, shape.link[i].b)) return true;
   }
   return false;
 }

@@ -65,6 +65,16 @@ std::vector<interactions::ToolModel> rack_of(const std::vector<interactions::Too
   return rack;
 }
 
+/// It wanders across the instrument as that is placed: in the skin, nearly.
+kinematics::PortModel give_of(const Port& port, const kinematics::TipFrame& placed) {
+  kinematics::PortModel give{port.stiffness, port.drift, 0, {}};
+  if (!give.moves()) return {};
+  give.seed = port.seed;
+  give.across[0] = any_perpendicular(placed.axis());
+  give.across[1] = cross(placed.axis(), give.across[0]);
+  return give;
+}
+
 }  // namespace
 
 void compile_hands(const Description& d, sim::Model& model, std::vector<core::Fault>& faults) {
@@ -88,6 +98,7 @@ void compile_hands(const Description& d, sim::Model& model, std::vector<core::Fa
     hand.name = port->name;
     hand.port = port->position;
     hand.seal_friction = port->seal_friction;
+    hand.give = give_of(*port, kinematics::forward(port->position, pose_of(model.start.tools[model.hands.size() - 1])));
     hand.rack = rack_of(tools, *instrument, *port);
   }
   model.instruments_push = d.instruments_push;

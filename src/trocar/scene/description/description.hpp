@@ -266,6 +266,9 @@ struct Port {
   double diameter = 0.005;
   core::Location at;
   double seal_friction = 0.5;  ///< along a shaft [N]
+  double stiffness = 0;        ///< of the wall about it, across a shaft; 0: rigid [N/m]
+  double drift = 0;            ///< how far it wanders [m]
+  std::uint64_t seed = 0;      ///< of that (vary.hpp)
 };
 
 /// Fluids of a scene: where they gather.

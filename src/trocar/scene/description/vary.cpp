@@ -337,6 +337,7 @@ void vary_anatomy(Description& d, std::uint64_t seed) {
 }  // namespace
 
 void vary(Description& d, std::uint64_t seed) {
+  for (std::size_t i = 0; i < d.ports.size(); ++i) d.ports[i].seed = core::Random(seed + i).next();
   if (!d.variation) return;
   const std::size_t strands = d.strands.size();
   vary_anatomy(d, seed);

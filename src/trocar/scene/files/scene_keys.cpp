@@ -52,7 +52,11 @@ const Table<Port>& port() {
        needed(R::vec3("position_mm", units::mm, &Port::position, -kFar, kFar, "the pivot, in the abdominal wall")),
        R::number("diameter_mm", units::mm, &Port::diameter, 2, 40, "inner diameter, default {}"),
        R::number("seal_friction_N", units::one, &Port::seal_friction, 0, 5,
-                 "of its seal along a shaft, felt with a haptic device; default {}")}};
+                 "of its seal along a shaft, felt with a haptic device; default {}"),
+       R::number("stiffness_N_mm", units::kilo, &Port::stiffness, 0, 100,
+                 "of the abdominal wall about it against a shaft that presses across itself; 0: rigid; default {}"),
+       R::number("drift_mm", units::mm, &Port::drift, 0, 10,
+                 "how far it wanders from its place while an operation goes on; default {}")}};
   return table;
 }
 

@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <trocar/kinematics/loops/close.hpp>
+#include <trocar/scene/mechanisms/hinge_chain.hpp>
 #include <trocar/scene/mechanisms/instrument_mechanism.hpp>
+#include <trocar/scene/mechanisms/linkage_works.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -47,6 +49,7 @@ class LedLinkage {
       m_why = words(m, report);
   }
   const std::string& why() const { return m_why; }
+  const kinematics::Pose& pose() const { return m_work.pose; }
 
   /// Angle between the jaws [rad] or their gap [m]; none, and why() says it, where it does not get there.
   std::optional<double> opening(double handle) {
@@ -96,13 +99,34 @@ std::optional<double> closing_slope(LedLinkage& led, double handle) {
 
 struct Ways {
   double opening[interactions::kLinkageSteps + 1] = {}, slope[interactions::kLinkageSteps + 1] = {};
+  std::vector<kinematics::Pose> poses;
 };
+
+/// Do the jaws go as the handle does, with the same leverage all the way? Then nothing is to be computed that is not
+/// without the linkage.
+bool as_the_handle(const Ways& ways) {
+  constexpr double kSame = 1e-6;  // of the way
+  constexpr int last = interactions::kLinkageSteps;
+  const double all = ways.opening[0] - ways.opening[last];
+  for (int k = 0; k <= last; ++k) {
+    const double aperture = (ways.opening[k] - ways.opening[last]) / all;
+    if (std::fabs(aperture - (1 - double(k) / last)) > kSame || std::fabs(ways.slope[k] - all) > 10 * kSame * all)
+      return false;
+  }
+  return true;
+}
+
+/// An angle as a file would have it, without what closing a loop leaves: to a billionth of a degree [rad].
+double as_written(double angle) {
+  return std::floor(angle * 180 / portable::pi * 1e9 + 0.5) / 1e9 * portable::pi / 180;
+}
 
 /// Empty, or what is wrong.
 std::string find_ways(LedLinkage& led, Ways& ways) {
   for (int k = 0; k <= interactions::kLinkageSteps; ++k) {
     const double handle = double(k) / interactions::kLinkageSteps;
     const auto opening = led.opening(handle);
+    ways.poses.push_back(led.pose());
     const auto slope = opening ? closing_slope(led, handle) : std::nullopt;
     if (!slope) return fmt::format("one that at handle {:.2f} is {}", handle, led.why());
     ways.opening[k] = *opening;
@@ -113,89 +137,6 @@ std::string find_ways(LedLinkage& led, Ways& ways) {
     if (!(ways.slope[k] > kLeastSlope * all))
       return fmt::format("one whose jaws do not close any more at handle {:.2f}",
                          double(k) / interactions::kLinkageSteps);
-  return "";
-}
-
-/// The hinge of a body of the chain; none, and what is wrong.
-std::optional<kinematics::Hinge> hinge_of(const Mechanism& m, int body, std::vector<int>& joints, std::string& why) {
-  const kinematics::Body& b = m.bodies[std::size_t(body)];
-  const kinematics::Frame& place = m.places[std::size_t(body)];
-  const double off = std::fabs(place.p.x) + std::fabs(place.p.y);
-  const double turn = length(kinematics::turn_between(Mat3d::identity(), place.r));
-  kinematics::Hinge hinge;
-  hinge.before = -place.p.z;
-  if (off > 1e-9 || turn > 1e-9 || hinge.before < -1e-12) {
-    why = "one that is turned or set aside";
-    return {};
-  }
-  hinge.joint = -1;
-  if (b.motion == kinematics::Motion::none) return hinge;
-  const double about_x = b.axis.x, about_y = b.axis.y;
-  if (b.motion != kinematics::Motion::turn || std::fabs(about_x) + std::fabs(about_y) < 1 - 1e-9 ||
-      std::fabs(about_x * about_y) > 1e-9) {
-    why = "one with another joint";
-    return {};
-  }
-  hinge.across = std::fabs(about_y) > 0.5 ? 1 : 0;
-  const auto from = m.expand_start[std::size_t(b.coordinate)], to = m.expand_start[std::size_t(b.coordinate) + 1];
-  if (to != from + 1 || m.offset[std::size_t(b.coordinate)] != 0) {
-    why = "one whose hinges follow several joints, or none";
-    return {};
-  }
-  const Mechanism::Entry& entry = m.expand[std::size_t(from)];
-  const auto known = std::find(joints.begin(), joints.end(), entry.u);
-  hinge.joint = std::int32_t(known - joints.begin());
-  if (known == joints.end()) joints.push_back(entry.u);
-  hinge.share = entry.ratio * (hinge.across ? about_y : about_x);
-  return hinge;
-}
-
-/// From the tip's body back to the shaft's, turned round; empty where they are not in one line.
-std::vector<int> bodies_between(const Mechanism& m, int shaft, int tip) {
-  std::vector<int> out;
-  for (int body = tip; body != shaft; body = m.bodies[std::size_t(body)].parent) {
-    if (body <= 0) return {};
-    out.insert(out.begin(), body);
-  }
-  return out;
-}
-
-/// Empty, or what is wrong.
-std::string take_chain(const Mechanism& m, double jaw_length, kinematics::Articulation& out) {
-  const int link = m.link("shaft"), frame = m.frame("tip");
-  if (link < 0) return "links " + names_of(m.links);
-  if (frame < 0) return "frames " + names_of(m.frame_names);
-  const kinematics::BodyFrame& tip = m.frames[std::size_t(frame)];
-  std::vector<int> joints;
-  std::string why;
-  double carried = 0;  // along bodies that do not turn
-  for (const int body : bodies_between(m, m.link_body[std::size_t(link)], tip.body)) {
-    std::optional<kinematics::Hinge> hinge = hinge_of(m, body, joints, why);
-    if (!hinge) return why;
-    carried += hinge->before;
-    if (hinge->joint < 0) continue;
-    if (out.hinges == kinematics::kMaxHinges) return fmt::format("more than {} hinges", kinematics::kMaxHinges);
-    hinge->before = carried;
-    carried = 0;
-    out.hinge[out.hinges++] = *hinge;
-  }
-  if (joints.empty()) return "one without";
-  if (int(joints.size()) > kinematics::kMaxJoints) return fmt::format("{} joints", joints.size());
-  out.joints = std::int32_t(joints.size());
-  out.after = carried - tip.local.p.z - jaw_length;
-  if (out.after < -1e-9)
-    return fmt::format("a tip {:.1f} mm after the last hinge, nearer than jaws of {:.1f} mm", -1000 * tip.local.p.z,
-                       1000 * jaw_length);
-  out.after = std::max(0.0, out.after);
-  if (out.links() > kinematics::kMaxLinks)
-    return fmt::format("{} straight pieces, more than {}", out.links(), kinematics::kMaxLinks);
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const auto q = std::size_t(m.independent[std::size_t(joints[j])]);
-    if (!std::isfinite(m.low[q]) || !std::isfinite(m.high[q]))
-      return fmt::format("'{}' without limits", m.coordinates[q]);
-    out.low[j] = m.low[q];
-    out.high[j] = m.high[q];
-  }
   return "";
 }
 
@@ -229,6 +170,11 @@ void take_linkage(const Instrument& i, interactions::ToolModel& tool, std::vecto
                                                 ways.opening[last] * 180 / portable::pi)});
     return;
   }
+  tool.works = works_of(m, ways.poses, upper, lower, i.jaw_length);
+  if (as_the_handle(ways) && (!parallel || std::fabs(ways.opening[0] - ways.opening[last] - i.parallel_gap) < 1e-9)) {
+    if (!parallel) tool.opening = as_written(ways.opening[0] - ways.opening[last]);
+    return;
+  }
   tool.linkage.there = true;
   for (int k = 0; k <= last; ++k) {
     tool.linkage.aperture[k] = (ways.opening[k] - ways.opening[last]) / (ways.opening[0] - ways.opening[last]);
@@ -245,12 +191,15 @@ void take_wrist(const Instrument& i, interactions::ToolModel& tool, std::vector<
     return;
   }
   if (!w.mechanism.description) return;  // the reader has told
-  const std::string why = take_chain(kinematics::build(*w.mechanism.description), i.jaw_length, tool.bends);
+  const std::string why = take_hinges(kinematics::build(*w.mechanism.description), i.jaw_length, tool.bends);
   if (why.empty()) return;
-  tool.bends = {};
-  faults.push_back({w.mechanism.at, fmt::format("expected hinges about x and y, one after the other along -z, between "
-                                                "the link 'shaft' and the frame 'tip', at most {} joints; got {}",
-                                                kinematics::kMaxJoints, why)});
+  faults.push_back(
+      {w.mechanism.at,
+       fmt::format(
+           "expected hinges between the link 'shaft' and the frame 'tip', along the shaft's axis and square to "
+           "it, at most {} joints, got {} (an arm that carries an instrument from outside belongs to the 'arms' "
+           "of a room)",
+           kinematics::kMaxJoints, why)});
 }
 
 }  // namespace trocar::scene

@@ -11,7 +11,8 @@ namespace trocar::scene {
 
 /// Closes the linkage's loop all along its handle's way. Jaws turn between the frames "tip_upper" and "tip_lower", or
 /// shift apart where the instrument's are parallel; leverage follows from their ways by virtual work. Sets the tool's
-/// linkage and opening. What does not close, or does not close the jaws all the way and one way, is a fault.
+/// linkage and opening, where the jaws do not go as the handle does anyway, and what of it is drawn. What does not
+/// close, or does not close the jaws all the way and one way, is a fault.
 void take_linkage(const Instrument& instrument, interactions::ToolModel& tool, std::vector<core::Fault>& faults);
 
 /// Sets what of the tool bends: a wrist of two hinges, or the chain of a mechanism from its link "shaft" to its frame

@@ -67,6 +67,7 @@ struct RoomArm {
   bool on_table = false;  ///< else on the floor: it does not tilt with the table
   Vec3d out, base;        ///< where its z and y point, any length; `out` zero: as the skin does at its port
   double x = 0, y = 0;    ///< where its stand is [m]
+  double set_up = 1.0;    ///< how far from its column set-up joints carry its base [m]
   std::string tip = "tip", shaft = "shaft";  ///< frames of the mechanism
   double fastest_turn = 2.0;                 ///< [rad/s] of a coordinate
   double fastest_slide = 0.2;                ///< [m/s]

@@ -162,6 +162,7 @@ class RoomReading {
     a.tip = o.text("tip", "tip");
     a.shaft = o.text("shaft", "shaft");
     a.fastest_turn = kDeg * o.number("fastest_deg_s", 2 / kDeg);
+    a.set_up = kMm * o.number("set_up_mm", 1000);
     a.fastest_slide = kMm * o.number("fastest_mm_s", 200);
     a.at = o.at();
     a.file_at = o.at("mechanism");

@@ -99,6 +99,8 @@ const Shape& room_arm_keys() {
        needed(keys::vec3("base", -1e4, 1e4, "direction from the port to its base, any length")),
        keys::vec3("out", -1e4, 1e4, "direction out along the shaft; default: as the skin's at the port"),
        needed(bounded_list(keys::numbers("stand_mm", -kFarInRoom, kFarInRoom, 2, "x and y of its column"), 2)),
+       keys::number("set_up_mm", 50, kFarInRoom,
+                    "how far from its column set-up joints carry its base, default 1000 (ours)"),
        keys::name("tip", "its frame that is led, default tip"),
        keys::name("shaft", "its frame whose z axis goes through the port, default shaft"),
        keys::number("fastest_deg_s", 1, 2000, "of its turning coordinates, default 114.6 (2 rad/s; ours)"),

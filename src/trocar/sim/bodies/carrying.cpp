@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <trocar/interactions/instrument/needle.hpp>
+#include <trocar/interactions/instrument/tool_contact.hpp>
 #include <trocar/sim/bodies/carrying.hpp>
 
 namespace trocar::sim {
@@ -10,9 +11,7 @@ void carry_along(const StepContext& c, const CarriedSkin& b) noexcept {
   interactions::CarriedExtent extent;
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     const interactions::ToolShape& shape = c.work.shapes[t];
-    if (!interactions::meets_box(b.surface.pose->bounds, shape.part[interactions::kShaft].a, shape.frame.tip,
-                                 kNearSheet))
-      continue;
+    if (!interactions::comes_near(shape, b.surface.pose->bounds, kNearSheet)) continue;
     const interactions::ToolState& tool = c.state.tools[t];
     std::array<std::int32_t, interactions::kMaxHolds> between;
     size_t held = 0;

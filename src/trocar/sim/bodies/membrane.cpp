@@ -32,8 +32,7 @@ void touch(StepContext& c, MembraneRef r, HandContact& hand) noexcept {
   double& gap = c.work.sheet_gaps[pair];
   gap = kNearSheet;
   if (bond != interactions::SheetBond::none ||
-      interactions::meets_box(c.work.sheet_poses[r.index].bounds, shape.part[interactions::kShaft].a, shape.frame.tip,
-                              kNearSheet))
+      interactions::comes_near(shape, c.work.sheet_poses[r.index].bounds, kNearSheet))
     interactions::tool_on_sheet(hand.touching, c.state.tools[hand.hand], r.id(), c.work.sheets[r.index], side, bond,
                                 c.work.membrane_loads[r.index], gap);
 }

@@ -78,6 +78,7 @@ State initial_state(const Model& model) {
   for (const interactions::StrandBody& body : model.strand_bodies) elements += size_t(body.nodes() - 1);
   const bool bends = model.bends();
   if (bends) s.joints.resize(model.hands.size());
+  if (model.ports_move()) s.ports.resize(model.hands.size());
   s.tool_side.resize(model.hands.size() * elements *
                      size_t(bends ? interactions::kMostParts : interactions::kToolParts));
   size_t triangles = 0;

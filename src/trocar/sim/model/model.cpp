@@ -53,6 +53,10 @@ bool Model::bends() const noexcept {
   return std::any_of(hands.begin(), hands.end(), in_rack);
 }
 
+bool Model::ports_move() const noexcept {
+  return std::any_of(hands.begin(), hands.end(), [](const HandModel& h) { return h.give.moves(); });
+}
+
 bool Model::irrigates() const noexcept {
   const auto has_bore = [](const interactions::ToolModel& t) { return t.can().irrigate; };
   const auto in_rack = [&](const HandModel& h) { return std::any_of(h.rack.begin(), h.rack.end(), has_bore); };

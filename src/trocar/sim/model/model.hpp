@@ -279,6 +279,7 @@ struct EnergyModel {
 struct HandModel {
   std::string name;                           ///< of the trocar: "left_lateral"
   Vec3d port;                                 ///< its fulcrum [m]
+  kinematics::PortModel give;                 ///< of the abdominal wall there; rigid unless the scene says
   double seal_friction = 0.5;                 ///< of its seal along a shaft, for who feels it; the step does not [N]
   std::vector<interactions::ToolModel> rack;  ///< 1..kMaxRack; the first is in the hand at the start
   std::int32_t membrane = -1;                 ///< that its jaws hold at the start; -1: they hold nothing
@@ -290,7 +291,8 @@ struct HandModel {
   static void fields(S& s, V&& v) {
     v("rack", s.rack, core::FieldNote{.sized = true}), v("membrane", s.membrane, core::only_if(s.membrane >= 0)),
         v("held", s.held, core::only_if(s.membrane >= 0)), v("name", s.name, core::kNotHashed),
-        v("port", s.port, core::kNotHashed), v("seal_friction", s.seal_friction, core::kNotHashed);
+        v("give", s.give, core::only_if(s.give.moves())), v("port", s.port, core::kNotHashed),
+        v("seal_friction", s.seal_friction, core::kNotHashed);
   }
 };
 
@@ -374,9 +376,10 @@ struct Model {
   /// The one it begins with.
   const interactions::ToolModel& placed(size_t hand) const noexcept { return hands[hand].rack.front(); }
 
-  bool bends() const noexcept;      ///< some instrument does, in some rack
-  bool irrigates() const noexcept;  ///< there are fluids, and a suction-irrigator in a rack
-  int free_nodes() const;           ///< nodes that move, all bodies
+  bool bends() const noexcept;       ///< some instrument does, in some rack
+  bool ports_move() const noexcept;  ///< some trocar's fulcrum does
+  bool irrigates() const noexcept;   ///< there are fluids, and a suction-irrigator in a rack
+  int free_nodes() const;            ///< nodes that move, all bodies
   int organs() const { return int(solids.size() + cuttables.size()); }
   int surfaces() const { return organs() + int(walls.size()); }  ///< organs first
   const std::string& organ_name(int organ) const;

@@ -82,6 +82,7 @@ struct State {
   /// of membranes, nodes of strands; empty for bodies that never tear.
   std::vector<std::vector<std::uint8_t>> overstretched_organs, overstretched_membranes, overstretched_strands;
   std::vector<kinematics::Joints> joints;        ///< (hands) where instruments bend; empty where none of them can
+  std::vector<kinematics::PortState> ports;      ///< (hands) where fulcra are; empty where all are rigid
   std::vector<interactions::TouchBook> touches;  ///< (hands) what instruments were near and where it sticks to them
   /// Blood, and what opens and closes its vessels; all empty in scenes without vessels.
   vessels::FlowState flow;
@@ -131,7 +132,7 @@ struct State {
         v("statics", s.statics, core::only_if(!s.statics.empty())),
         v("bonds", s.bonds, core::only_if(!s.bonds.empty())),
         v("declaring", s.declaring, core::only_if(s.declaring != 0)),
-        v("joints", s.joints, core::only_if(!s.joints.empty()));
+        v("joints", s.joints, core::only_if(!s.joints.empty())), v("ports", s.ports, core::only_if(!s.ports.empty()));
   }
 };
 
@@ -141,10 +142,19 @@ State drawn_bodies(const Model& model);
 
 /// How a hand's instrument is bent now; straight where none bends.
 kinematics::Joints joints_of(const State& state, size_t hand) noexcept;
+/// How far a trocar's fulcrum is from its place now, and where it is [m].
+Vec3d port_shift(const State& state, size_t hand) noexcept;
+Vec3d port_of(const Model& model, const State& state, size_t hand) noexcept;
+/// A pose that a hand leads, which is about the trocar's place, about the fulcrum as it is: the handle is the hand's.
+kinematics::FulcrumPose held_pose(const Model& model, const State& state, size_t hand,
+                                  const kinematics::FulcrumPose& pose) noexcept;
 /// A hand's instrument as it is now.
 interactions::ToolShape shape_of(const Model& model, const State& state, size_t hand) noexcept;
 /// The tip of its closed jaws, without the rest.
 kinematics::TipFrame tip_frame_of(const Model& model, const State& state, size_t hand) noexcept;
+
+/// The place that a hand leads: the straight instrument's tip, of a redundant one the tip that it has.
+Vec3d led_place(const Model& model, const State& state, size_t hand) noexcept;
 
 /// Where an organ's nodes are: valid until its next tick.
 tissue::NodeView nodes_of(const Model& model, const State& state, int organ) noexcept;

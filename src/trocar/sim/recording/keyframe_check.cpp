@@ -55,6 +55,9 @@ bool sound(const Model& model, const State& s) {
   for (const kinematics::Joints& joints : s.joints)
     for (const double angle : joints.angle)
       if (!(std::fabs(angle) < 1e3)) return false;
+  for (const kinematics::PortState& port : s.ports)
+    for (int k = 0; k < 3; ++k)
+      if (!(std::fabs(port.give[k]) < 1 && std::fabs(port.shift[k]) < 1)) return false;
   for (const std::vector<interactions::BondState>& bonds : s.bonds)
     for (const interactions::BondState& bond : bonds)
       if (!(bond.damage >= 0 && bond.damage <= 1)) return false;

@@ -121,6 +121,7 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   });
   for (auto& bonds : s.bonds) in.take(bonds.data(), bonds.size());
   in.take(s.joints.data(), s.joints.size());
+  in.take(s.ports.data(), s.ports.size());
   if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
   if (model.wet.there) lay_floor(model, s);
   state = std::move(s);

@@ -84,6 +84,7 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
   });
   for (const auto& bonds : s.bonds) put(out, bonds.data(), bonds.size());
   put(out, s.joints.data(), s.joints.size());
+  put(out, s.ports.data(), s.ports.size());
   return out;
 }
 

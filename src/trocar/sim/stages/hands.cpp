@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/interactions/instrument/lever.hpp>
 #include <trocar/sim/stages/hands.hpp>
 #include <trocar/sim/stages/stage.hpp>
 
@@ -41,7 +42,7 @@ void change_instrument(StepContext& c, size_t t, std::int32_t wanted) noexcept {
   next.clips_left = magazine[wanted];
   tool = next;
   if (!c.state.joints.empty()) c.state.joints[t] = {};
-  interactions::start_here(next, {}, c.state.touches[t]);
+  interactions::start_here(next, {}, c.state.touches[t], port_shift(c.state, t));
   for (Vec3f& side : sides_of(c, t)) side = {};
   const size_t each = c.state.sheet_side.size() / c.model.hands.size(), membranes = c.model.membranes.size();
   std::fill_n(c.state.sheet_side.begin() + std::ptrdiff_t(t * each), each, Vec3f{});
@@ -54,8 +55,9 @@ void stop_at_walls(StepContext& c, size_t t, const kinematics::FulcrumPose& want
                    const kinematics::FulcrumPose& before) noexcept {
   for (const WallModel& wall : c.model.walls) {
     const interactions::Surface surface{&wall.skin, &wall.pose, {}};
-    const interactions::WallStop stop = interactions::stop_at_walls(
-        c.model.tool(c.state, t), wanted, before, joints_of(c.state, t), {&surface, 1}, c.state.tools[t]);
+    const interactions::WallStop stop =
+        interactions::stop_at_walls(c.model.tool(c.state, t), wanted, before, joints_of(c.state, t), {&surface, 1},
+                                    c.state.tools[t], port_shift(c.state, t));
     if (stop.stopped) c.work.wall_stops[t] = stop;
   }
 }
@@ -77,13 +79,27 @@ void bend(StepContext& c, size_t t, interactions::ToolCommand& command) noexcept
   interactions::follow_joints(arm.joints, kTick, joints);
 }
 
+/// Trocars' fulcra give way to what pressed on them in the last tick, and wander.
+void move_ports(StepContext& c) noexcept {
+  for (size_t t = 0; t < c.state.ports.size(); ++t) {
+    const kinematics::PortModel& give = c.model.hands[t].give;
+    if (!give.moves()) continue;
+    const interactions::ToolModel& tool = c.model.tool(c.state, t);
+    const interactions::ToolState& state = c.state.tools[t];
+    const Vec3d on_wall = interactions::load_at_trocar(tool, state, c.state.touches[t]).on_wall;
+    c.state.ports[t] =
+        kinematics::moved(give, c.state.ports[t], on_wall, state.pose(), interactions::outside_of(tool, state.depth),
+                          double(c.state.tick) * kTick, kTick);
+  }
+}
+
 /// One hand follows its input. While it wants another instrument it lets go of the tissue, draws back and changes.
 void move_hand(StepContext& c, size_t t) noexcept {
   const ToolInput& in = c.input.tools[t];
   interactions::ToolState& tool = c.state.tools[t];
   const bool known = in.instrument >= 0 && size_t(in.instrument) < c.model.hands[t].rack.size();
   if (!known) c.report.flags |= StepReport::kBadInput;
-  interactions::ToolCommand command{pose_of(in), double(in.handle)};
+  interactions::ToolCommand command{held_pose(c.model, c.state, t, pose_of(in)), double(in.handle)};
   if (known && in.instrument != tool.instrument) {
     // An empty hand opens its jaws; a bag's mouth is shut before it is drawn out.
     command = {tool.pose(), c.model.tool(c.state, t).can().bag ? 1.0 : 0.0};
@@ -117,6 +133,7 @@ void hear_declaration(StepContext& c) noexcept {
 
 void move_hands(StepContext& c) noexcept {
   hear_declaration(c);
+  move_ports(c);
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     c.work.wall_stops[t] = {};
     if (finite(c.input.tools[t]) && finite(c.input.wrists[t]))

@@ -39,16 +39,16 @@ Meeting meeting_of(const ToolShape& a0, const ToolShape& a, const ToolShape& b0,
   return deepest;
 }
 
-double along(const interactions::ToolModel& tool, const ToolShape& shape, Vec3d place) noexcept {
-  return std::max(kNearTrocar, dot(place - tool.port, shape.shaft.axis()));
+double along(Vec3d port, const ToolShape& shape, Vec3d place) noexcept {
+  return std::max(kNearTrocar, dot(place - port, shape.shaft.axis()));
 }
 
 /// Turns the instrument about its trocar so that its axis moves by `way` where it is met.
-void shift(const interactions::ToolModel& tool, const ToolShape& shape, Vec3d place, Vec3d way,
+void shift(const interactions::ToolModel& tool, Vec3d port, const ToolShape& shape, Vec3d place, Vec3d way,
            interactions::ToolState& state) noexcept {
-  const double s = along(tool, shape, place);
-  const Vec3d to = tool.port + s * shape.shaft.axis() + way;
-  kinematics::FulcrumPose pose = kinematics::inverse(tool.port, to, state.roll);
+  const double s = along(port, shape, place);
+  const Vec3d to = port + s * shape.shaft.axis() + way;
+  kinematics::FulcrumPose pose = kinematics::inverse(port, to, state.roll);
   pose.depth += state.depth - s;
   pose = kinematics::clamped(pose, tool.limits);
   state.yaw = pose.yaw;
@@ -60,12 +60,17 @@ void shift(const interactions::ToolModel& tool, const ToolShape& shape, Vec3d pl
 double wants(const StepContext& c, size_t t, const ToolShape& shape, Vec3d place, Vec3d n) noexcept {
   const interactions::ToolModel& tool = c.model.tool(c.state, t);
   const ToolInput& in = c.input.tools[t];
-  const kinematics::FulcrumPose goal = kinematics::clamped(pose_of(in), tool.limits);
+  const WristInput& bent = c.input.wrists[t];
+  const Vec3d port = port_of(c.model, c.state, t);
+  const kinematics::FulcrumPose goal =
+      interactions::wanted_arm(tool, held_pose(c.model, c.state, t, pose_of(in)),
+                               {double(bent.pitch), double(bent.yaw)}, c.state.tools[t], joints_of(c.state, t))
+          .pose;
   if (!std::isfinite(goal.yaw) || !std::isfinite(goal.pitch) || !std::isfinite(goal.depth)) return 0;
   if (in.instrument != c.state.tools[t].instrument) return 0;  // it is being drawn back
-  const double s = along(tool, shape, place), deeper = goal.depth - c.state.tools[t].depth;
-  const Vec3d axis = kinematics::forward(tool.port, goal).axis();
-  return dot((tool.port + (s + deeper) * axis) - (tool.port + s * shape.shaft.axis()), n);
+  const double s = along(port, shape, place), deeper = goal.depth - c.state.tools[t].depth;
+  const Vec3d axis = kinematics::forward(port, goal).axis();
+  return dot((port + (s + deeper) * axis) - (port + s * shape.shaft.axis()), n);
 }
 
 template <class F>
@@ -90,8 +95,8 @@ void part_instruments(StepContext& c) noexcept {
       const Meeting m = meeting_of(before_of_hand(c, i), a, before_of_hand(c, j), b, 0);
       if (!m.there) return;
       const Vec3d half = 0.5 * m.contact.depth * m.contact.normal;
-      shift(c.model.tool(c.state, i), a, m.contact.on_first, -half, c.state.tools[i]);
-      shift(c.model.tool(c.state, j), b, m.contact.on_second, half, c.state.tools[j]);
+      shift(c.model.tool(c.state, i), port_of(c.model, c.state, i), a, m.contact.on_first, -half, c.state.tools[i]);
+      shift(c.model.tool(c.state, j), port_of(c.model, c.state, j), b, m.contact.on_second, half, c.state.tools[j]);
     });
 }
 

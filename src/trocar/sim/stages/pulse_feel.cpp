@@ -18,10 +18,11 @@ bool presses(const State& state, size_t hand) noexcept {
 }
 
 PulseTouch pulse_touch(const interactions::ToolShape& shape, Vec3d at, double radius) noexcept {
-  if (away(at, shape.part[interactions::kShaft].a, shape.frame.tip) > kNearSheet) return {};
+  if (shape.links == 0 && away(at, shape.part[interactions::kShaft].a, shape.frame.tip) > kNearSheet) return {};
   double nearest = kFelt;
   Vec3d towards;
-  for (const collision::Capsule& part : shape.part) {
+  for (int number = interactions::kShaft; number < end_of(shape); number = interactions::next(number)) {
+    const collision::Capsule& part = shape.rod(number);
     const Vec3d axis = on_segment(at, part.a, part.b);
     const double between = std::max(length(axis - at) - part.radius - radius, 0.0);
     if (between >= nearest) continue;

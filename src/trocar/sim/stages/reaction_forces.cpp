@@ -51,7 +51,7 @@ void gather_reaction_forces(StepContext& c) noexcept {
     const int held = tool.holds, slips = tool.slipped;
     interactions::slip(c.model.tool(c.state, t), c.work.shapes[t], view, tool);
     if (held > 0 && tool.holds == 0) tell_lost(c, t, slips);
-    interactions::remember(tool, joints_of(c.state, t), c.work.touches[t], c.state.touches[t]);
+    interactions::remember(tool, joints_of(c.state, t), c.work.touches[t], c.state.touches[t], port_shift(c.state, t));
   }
 }
 

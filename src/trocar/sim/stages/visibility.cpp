@@ -58,7 +58,7 @@ Vec3d sample_point(const Model& model, const State& state, const Work& work, con
   const size_t i = size_t(target.index);
   if (target.kind == VisibilityTarget::jaw) return work.shapes[i].part[interactions::kJawA + sample.where].b;
   if (target.kind == VisibilityTarget::shaft) {
-    const Vec3d port = model.hands[i].port;
+    const Vec3d port = port_of(model, state, i);
     return port + sample.w * (work.shapes[i].shaft.tip - port);
   }
   if (target.kind == VisibilityTarget::mark) return mark_sample(model, state, model.marks[i], sample.where, eye);
@@ -137,8 +137,11 @@ bool unoccluded(const Model& model, const State& state, const Work& work, Vec3d 
   }
   for (size_t t = 0; t < model.hands.size(); ++t) {
     if (int(t) == skip_tool) continue;
-    for (const interactions::Capsule& c : work.shapes[t].part)
+    const interactions::ToolShape& shape = work.shapes[t];
+    for (int part = interactions::kShaft; part < end_of(shape); part = interactions::next(part)) {
+      const interactions::Capsule& c = shape.rod(part);
       if (collision::passes_within(eye, end, c.a, c.b, c.radius)) return false;
+    }
   }
   return true;
 }

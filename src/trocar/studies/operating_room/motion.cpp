@@ -61,6 +61,7 @@ class Going {
     r.least_clearance = 1e9;
     RoomPose pose = m.start();
     pose.tilt = m_motion.tilt(0);
+    if (m_motion.tips) pose.tips = m_motion.tips(0);
     const int last = std::max(0, int(std::ceil(m_motion.length / o.step - 1e-9)));
     for (int k = 0; k <= last; ++k) {
       const double at = std::min(m_motion.length, k * o.step);
@@ -82,6 +83,7 @@ class Going {
     s.arms.resize(m.arms().size());
     const RoomPose before = pose;
     pose.tilt = m_motion.tilt(at);
+    if (m_motion.tips) pose.tips = m_motion.tips(at);
     if (!m.can_tilt(pose.tilt)) fault(MotionFaultKind::tilt, -1, "table", 0, {}, "the table cannot tilt so far");
     for (const int a : m_motion.moves) lead(pose, a, s, first);
     for (std::size_t a = 0; a < m.arms().size(); ++a) {

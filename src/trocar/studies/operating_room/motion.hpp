@@ -19,6 +19,7 @@ struct RoomMotion {
   std::vector<int> moves;  ///< arms that it leads; others stand
   std::function<ArmGoal(int arm, double at)> goal;
   std::function<scene::RoomTilt(double at)> tilt;
+  std::function<std::vector<Vec3d>(double at)> tips;  ///< RoomPose::tips; empty: what hands hold stays
 };
 /// From pose to pose with least jerk, at rest in each [Flash & Hogan 1985].
 RoomMotion motion_of(const RoomModel& model, const scene::Programme& programme);

@@ -17,7 +17,9 @@ constexpr double kEnough = 0.04;                         // clearance [m]
 constexpr double kHandle = 0.10, kHandleRadius = 0.035;  // of a hand at a handle [m]
 constexpr double kScopeOut = 0.15;
 constexpr double kArmsEnough = 0.02;  // clearance of arms [m]
-constexpr int kLookedAt = 4;          // times as many sets are tried with arms as are told
+constexpr double kBlockedCosts = 0.9;
+constexpr double kSetUpTurns[] = {20 * kDeg, -20 * kDeg, 40 * kDeg, -40 * kDeg};
+constexpr int kLookedAt = 4;  // times as many sets are tried with arms as are told
 
 Vec3d unit_of(Vec3d v) { return v / length(v); }
 double bell(double off, double width) { return portable::exp(-(off / width) * (off / width)); }
@@ -42,8 +44,14 @@ PlacedShape handle_of(Vec3d port, Vec3d target, double whole) {
   return {false, end - kHandle * out, end, kHandleRadius, Mat3d::identity()};
 }
 
-/// The room's two first arms at these ports: how much of the target they reach, how clear.
-void judge_arms(const RoomModel& model, const PortPlan& plan, PortPair& pair) {
+/// What two arms do at the target's points.
+struct ArmsThere {
+  double reach = 0, clearance = 0;
+  double worth() const { return reach * std::clamp(clearance / kArmsEnough, 0.0, 1.0); }
+};
+
+/// The room's two first arms at a pair's ports, their bases turned about these.
+ArmsThere arms_at(const RoomModel& model, const PortPlan& plan, const PortPair& pair, const double (&turned)[2]) {
   scene::Room room = model.room();
   const Vec3d places[2] = {plan.candidates[std::size_t(pair.left)].place,
                            plan.candidates[std::size_t(pair.right)].place};
@@ -52,21 +60,44 @@ void judge_arms(const RoomModel& model, const PortPlan& plan, PortPair& pair) {
   for (int k = 0; k < 2; ++k) {
     const int port = room.port(room.arms[std::size_t(k)].port);
     room.ports[std::size_t(port)].position = places[k];
-    room.arms[std::size_t(k)].out = unit_of(unit_of(places[k] - plan.target) + normals[k]);
+    scene::RoomArm& arm = room.arms[std::size_t(k)];
+    arm.out = unit_of(unit_of(places[k] - plan.target) + normals[k]);
+    arm.base = kinematics::turn_about(arm.out, turned[k]) * arm.base;
   }
   const RoomModel there(std::move(room));
   RoomPose pose = there.start();
+  ArmsThere out{0, 1e9};
+  for (int k = 0; k < 2; ++k)
+    if (there.beyond_set_up(k) > 0) return {};
   int reached = 0;
-  pair.with_arms = true;
-  pair.arms_clearance = 1e9;
   for (const Vec3d& p : plan.points) {
     bool both = true;
     for (int k = 0; k < 2; ++k) both = there.lead(pose, k, {.tip = p}).reached && both;
     reached += both;
     if (const std::vector<Near> nearest_now = there.nearest(pose); !nearest_now.empty())
-      pair.arms_clearance = std::min(pair.arms_clearance, nearest_now.front().distance);
+      out.clearance = std::min(out.clearance, nearest_now.front().distance);
   }
-  pair.arms_reach = double(reached) / double(plan.points.size());
+  out.reach = double(reached) / double(plan.points.size());
+  return out;
+}
+
+/// As the room has their bases; where that is not all that can be, each base in turn, the other as it is best so far.
+void judge_arms(const RoomModel& model, const PortPlan& plan, bool set_up, PortPair& pair) {
+  double turned[2] = {0, 0};
+  ArmsThere best = arms_at(model, plan, pair, turned);
+  for (int k = 0; set_up && k < 2 && best.worth() < 1; ++k) {
+    double kept = turned[k];
+    for (const double turn : kSetUpTurns) {
+      turned[k] = turn;
+      const ArmsThere now = arms_at(model, plan, pair, turned);
+      if (now.worth() > best.worth()) best = now, kept = turn;
+    }
+    turned[k] = kept;
+  }
+  pair.with_arms = true;
+  pair.arms_reach = best.reach;
+  pair.arms_clearance = best.clearance;
+  for (int k = 0; k < 2; ++k) pair.turned[k] = turned[k];
 }
 
 }  // namespace
@@ -89,7 +120,9 @@ PortCandidate judge_port(const RoomModel& model, const PortPlanOptions& o, Vec3d
   c.azimuth = azimuth_of(points[0] - place, points[0] - scope);
   c.lever = c.depth / std::max(1e-6, o.length - c.depth);
   const double halved = portable::log(std::max(1e-6, c.lever)) / portable::log(2.0);  // at 1 octave a half
-  c.alone = c.reach * bell(c.elevation - kBestElevation, kElevationWidth) * portable::exp(-0.6931 * halved * halved);
+  c.ways = ways_in(o.organs, place, points);
+  c.alone = (1 - kBlockedCosts * c.ways.blocked) * c.reach * bell(c.elevation - kBestElevation, kElevationWidth) *
+            portable::exp(-0.6931 * halved * halved);
   return c;
 }
 
@@ -120,6 +153,7 @@ PortPlan plan_ports(const RoomModel& model, const PortPlanOptions& o) {
   plan.scope = model.room().ports[std::size_t(scope)].position;
   plan.points = points_of(o);
   plan.target = plan.points[0];
+  plan.sight = ways_in(o.organs, plan.scope, plan.points);
   const int across = int(o.half_width / o.spacing), along = int((o.to - o.from) / o.spacing + 1e-9);
   for (int j = 0; j <= along; ++j)
     for (int i = -across; i <= across; ++i) {
@@ -156,7 +190,7 @@ PortPlan plan_ports(const RoomModel& model, const PortPlanOptions& o) {
   for (PortPair& pair : plan.pairs) {
     pair.rank = pair.score;
     if (!arms) continue;
-    judge_arms(model, plan, pair);
+    judge_arms(model, plan, o.set_up, pair);
     pair.rank *= pair.arms_reach * std::clamp(pair.arms_clearance / kArmsEnough, 0.0, 1.0);
   }
   std::stable_sort(plan.pairs.begin(), plan.pairs.end(),

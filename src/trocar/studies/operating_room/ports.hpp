@@ -10,6 +10,9 @@
 //   depth and lean (ours) clearance            of handles to each other, to the endoscope and to the patient: 40 mm are
 //   enough (ours)
 //
+//   ways in              of the straight ways from a port to the target's points, those through organs that are not the
+//   target: where all are, a tenth is left (ours; organs can be held aside)
+//
 // How wide each criterion is (kManipulationWidth, ...) is ours. A score is the product, 0 to 1.
 #pragma once
 
@@ -17,6 +20,7 @@
 #include <vector>
 
 #include <trocar/studies/operating_room/room_model.hpp>
+#include <trocar/studies/operating_room/ways_in.hpp>
 
 namespace trocar::studies {
 
@@ -29,13 +33,16 @@ struct PortPlanOptions {
   double length = 0.310;           ///< of instruments, tip to handle [m]
   double apart = 0.05;             ///< least distance of ports [m]
   int sets = 5;                    ///< told, each of them with other ports
+  std::vector<InTheWay> organs;    ///< that are not the target
+  bool set_up = true;              ///< arms' bases are turned about their ports, as set-up joints let them
 };
 
 struct PortCandidate {
   Vec3d place, normal;
   double reach = 0, lean = 0, elevation = 0, azimuth = 0;  ///< at the target's middle [rad]
   double depth = 0, lever = 0;                             ///< [m]; in to out
-  double alone = 0;                                        ///< 0..1: reach, lever, elevation
+  WaysIn ways;                                             ///< to the target's points
+  double alone = 0;                                        ///< 0..1: reach, lever, elevation, ways in
   double best = 0;                                         ///< score of the best pair with it
 };
 
@@ -47,11 +54,13 @@ struct PortPair {
   // where the room has two arms and they are docked there
   bool with_arms = false;
   double arms_reach = 0, arms_clearance = 0;  ///< share of corners and middle; least at those [m]
+  double turned[2] = {0, 0};                  ///< of their bases about their ports, from where the room has them [rad]
   double rank = 0;                            ///< score, with arms times their reach and clearance
 };
 
 struct PortPlan {
   Vec3d scope, target;
+  WaysIn sight;  ///< of the endoscope
   std::vector<Vec3d> points;
   std::vector<PortCandidate> candidates;
   std::vector<PortPair> pairs;  ///< the highest rank first

@@ -293,7 +293,7 @@ Reached RoomModel::lead(RoomPose& pose, int arm, const ArmGoal& goal) const {
 
 double RoomModel::clear(RoomPose& pose, int arm, const ArmGoal& goal, int tries) const {
   const ArmModel& a = m_arms[std::size_t(arm)];
-  std::vector<RoomPart> others = other_parts(pose.tilt);
+  std::vector<RoomPart> others = other_parts(pose);
   for (int k = 0; k < int(m_arms.size()); ++k)
     if (k != arm)
       for (RoomPart& p : arm_parts(pose, k)) others.push_back(std::move(p));
@@ -335,6 +335,21 @@ double RoomModel::clear(RoomPose& pose, int arm, const ArmGoal& goal, int tries)
   return best;
 }
 
+RoomModel::Stand RoomModel::stand_of(const ArmModel& a) const noexcept {
+  const Frame room = a.described->on_table ? Frame{} : table_frame(m_room.table.tilt);
+  Stand s;
+  s.hub = room * (a.dock * a.hub);
+  s.foot = {a.described->x, a.described->y, a.described->on_table ? top() - 0.05 : floor()};
+  s.head = {s.foot.x, s.foot.y, std::max(s.hub.z, s.foot.z + 0.1)};
+  return s;
+}
+
+double RoomModel::beyond_set_up(int arm) const noexcept {
+  const ArmModel& a = m_arms[std::size_t(arm)];
+  const Stand s = stand_of(a);
+  return length(s.hub - s.head) - a.described->set_up;
+}
+
 std::vector<RoomPart> RoomModel::arm_parts(const RoomPose& pose, int arm) const {
   const ArmModel& a = m_arms[std::size_t(arm)];
   const Frame fixed = base(arm, pose.tilt);
@@ -352,11 +367,8 @@ std::vector<RoomPart> RoomModel::arm_parts(const RoomPose& pose, int arm) const 
     parts.push_back(std::move(p));
   }
   // its stand: a column, and a beam to its base; on the floor it stays there, on the table it tilts
-  const scene::RoomTilt level = m_room.table.tilt;
-  const Frame room = a.described->on_table ? Frame{} : table_frame(level);
-  const Vec3d hub = room * (a.dock * a.hub),
-              foot{a.described->x, a.described->y, a.described->on_table ? top() - 0.05 : floor()};
-  const Vec3d head{foot.x, foot.y, std::max(hub.z, foot.z + 0.1)};
+  const Stand stand = stand_of(a);
+  const Vec3d &foot = stand.foot, &head = stand.head, &hub = stand.hub;
   const Frame back = a.described->on_table ? Frame{} : kinematics::inverse(table_frame(pose.tilt));
   for (const auto& [from, to, radius] : {std::tuple(foot, head, kColumn), std::tuple(head, hub, kBeam)}) {
     RoomPart p;
@@ -369,9 +381,15 @@ std::vector<RoomPart> RoomModel::arm_parts(const RoomPose& pose, int arm) const 
   return parts;
 }
 
-Vec3d RoomModel::handle(const scene::RoomInstrument& i) const noexcept {
-  const Vec3d port = m_room.ports[std::size_t(m_room.port(i.port))].position;
-  return i.tip + i.length * unit(port - i.tip);
+Vec3d RoomModel::tip_of(const RoomPose& pose, int instrument) const noexcept {
+  const auto k = std::size_t(instrument);
+  return k < pose.tips.size() ? pose.tips[k] : m_room.instruments[k].tip;
+}
+
+Vec3d RoomModel::handle(const RoomPose& pose, int instrument) const noexcept {
+  const scene::RoomInstrument& i = m_room.instruments[std::size_t(instrument)];
+  const Vec3d port = m_room.ports[std::size_t(m_room.port(i.port))].position, tip = tip_of(pose, instrument);
+  return length(port - tip) > 1e-6 ? tip + i.length * unit(port - tip) : tip + Vec3d{0, 0, i.length};
 }
 
 PlacedShape RoomModel::screen(const scene::RoomMonitor& m) const noexcept {
@@ -380,12 +398,12 @@ PlacedShape RoomModel::screen(const scene::RoomMonitor& m) const noexcept {
   return {true, m.at_place, {0.436 * m.diagonal, 0.02, 0.245 * m.diagonal}, 0, Mat3d::from_columns(x, y, z)};
 }
 
-RoomModel::Body RoomModel::person(int index, const scene::RoomTilt& tilt) const {
+RoomModel::Body RoomModel::person(int index, const RoomPose& pose) const {
   const scene::RoomPerson& p = m_room.staff[std::size_t(index)];
-  const Frame table = table_frame(tilt);
+  const Frame table = table_frame(pose.tilt);
   std::vector<Vec3d> held;
-  for (const scene::RoomInstrument& i : m_room.instruments)
-    if (i.held_by == p.name) held.push_back(table * handle(i));
+  for (std::size_t i = 0; i < m_room.instruments.size(); ++i)
+    if (m_room.instruments[i].held_by == p.name) held.push_back(table * handle(pose, int(i)));
   Body b;
   const double h = p.stature, ground = floor() + p.step;
   Vec3d aim = held.empty() ? Vec3d{0, std::clamp(p.y, -0.5, 0.5), 0} : held[0];
@@ -420,7 +438,7 @@ RoomModel::Body RoomModel::person(int index, const scene::RoomTilt& tilt) const 
   return b;
 }
 
-std::vector<RoomPart> RoomModel::other_parts(const scene::RoomTilt& tilt) const {
+std::vector<RoomPart> RoomModel::other_parts(const RoomPose& pose) const {
   std::vector<RoomPart> parts;
   const auto add = [&](const std::string& name, const PlacedShape& shape) {
     RoomPart p;
@@ -435,14 +453,15 @@ std::vector<RoomPart> RoomModel::other_parts(const scene::RoomTilt& tilt) const 
                 {t.width / 2, (to - from) / 2, t.thickness / 2},
                 0,
                 Mat3d::identity()});
-  for (const scene::RoomInstrument& i : m_room.instruments) {
-    const Vec3d port = m_room.ports[std::size_t(m_room.port(i.port))].position, end = handle(i);
-    const Vec3d out = unit(end - i.tip);
+  for (std::size_t k = 0; k < m_room.instruments.size(); ++k) {
+    const scene::RoomInstrument& i = m_room.instruments[k];
+    const Vec3d port = m_room.ports[std::size_t(m_room.port(i.port))].position, end = handle(pose, int(k));
+    const Vec3d out = unit(end - tip_of(pose, int(k)));
     if (dot(end - port, out) > kBesidePort) add(i.name, rod(port + 0.02 * out, end, i.camera ? 0.02 : 0.012));
   }
-  const Frame back = kinematics::inverse(table_frame(tilt));
+  const Frame back = kinematics::inverse(table_frame(pose.tilt));
   for (std::size_t k = 0; k < m_room.staff.size(); ++k)
-    for (const geometry::Limb& l : person(int(k), tilt).limbs)
+    for (const geometry::Limb& l : person(int(k), pose).limbs)
       add(m_room.staff[k].name, moved(back, rod(l.a, l.b, std::max(l.radius_a, l.radius_b))));
   for (const scene::RoomMonitor& m : m_room.monitors) add(m.name, moved(back, screen(m)));
   return parts;
@@ -509,7 +528,7 @@ std::vector<Near> RoomModel::nearest(const RoomPose& pose, int arm, const std::v
 
 std::vector<Near> RoomModel::nearest(const RoomPose& pose) const {
   std::vector<Near> all;
-  const std::vector<RoomPart> others = other_parts(pose.tilt);
+  const std::vector<RoomPart> others = other_parts(pose);
   for (int k = 0; k < int(m_arms.size()); ++k) {
     std::vector<RoomPart> with = others;
     for (int o = k + 1; o < int(m_arms.size()); ++o)

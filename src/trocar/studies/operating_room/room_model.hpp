@@ -56,6 +56,7 @@ struct RoomPose {
   scene::RoomTilt tilt;
   std::vector<std::vector<double>> u;    ///< (arms) independent coordinates
   std::vector<kinematics::Pose> frames;  ///< (arms) of their mechanisms
+  std::vector<Vec3d> tips;               ///< (instruments) that hands hold; fewer: where the room has them [m]
 };
 
 /// What became of leading an arm.
@@ -101,6 +102,8 @@ class RoomModel {
   RoomPose start() const;
   /// Sets frames of what u says.
   void place(RoomPose& pose) const;
+  /// How much farther an arm's base is from its column than its set-up joints carry it; 0 or less: it is not [m].
+  double beyond_set_up(int arm) const noexcept;
   /// An arm's fixed frame in the patient's.
   Frame base(int arm, const scene::RoomTilt& tilt) const noexcept;
   Frame tip(const RoomPose& pose, int arm) const noexcept;
@@ -114,7 +117,7 @@ class RoomModel {
 
   /// Everything that stands there, in the patient's frame.
   std::vector<RoomPart> arm_parts(const RoomPose& pose, int arm) const;
-  std::vector<RoomPart> other_parts(const scene::RoomTilt& tilt) const;  ///< table, people, instruments, monitors
+  std::vector<RoomPart> other_parts(const RoomPose& pose) const;  ///< table, people, instruments, monitors
   /// Of every arm to the patient and to every other thing or arm, the nearest pair of parts each, nearest first.
   std::vector<Near> nearest(const RoomPose& pose) const;
   std::vector<Near> nearest(const RoomPose& pose, int arm, const std::vector<RoomPart>& others) const;
@@ -126,12 +129,18 @@ class RoomModel {
     Vec3d shoulder[2], elbow[2], hand[2];
     double beyond_reach = 0;  ///< how far what they hold is beyond their reach [m]
   };
-  Body person(int index, const scene::RoomTilt& tilt) const;
-  /// End of an instrument that a hand holds [m].
-  Vec3d handle(const scene::RoomInstrument& instrument) const noexcept;
+  Body person(int index, const RoomPose& pose) const;
+  /// Tip of an instrument that a hand holds, and where that hand is [m].
+  Vec3d tip_of(const RoomPose& pose, int instrument) const noexcept;
+  Vec3d handle(const RoomPose& pose, int instrument) const noexcept;
   PlacedShape screen(const scene::RoomMonitor& monitor) const noexcept;  ///< in the room
 
  private:
+  /// A column and a beam that carry an arm, in the room where it stands on the floor.
+  struct Stand {
+    Vec3d foot, head, hub;
+  };
+  Stand stand_of(const ArmModel& arm) const noexcept;
   void build_arm(const scene::RoomArm& described);
   scene::Room m_room;
   geometry::Figure m_figure;

@@ -91,24 +91,22 @@ void SightWatch::update(const Handling& limits, const sim::Model& model, const s
 
 void CollisionWatch::update(const Handling& limits, const sim::Model& model, const sim::State& state, double dt,
                             Mishaps& out) {
-  std::array<Parts, sim::kMaxTools> now;
-  for (size_t h = 0; h < hands(model); ++h) {
-    const interactions::ToolShape shape = sim::shape_of(model, state, h);
-    for (size_t p = 0; p < now[h].size(); ++p) now[h][p] = shape.part[p];
-  }
+  Parts now;
+  for (size_t h = 0; h < hands(model); ++h) now[h] = sim::shape_of(model, state, h);
   constexpr double kApart = 0.002;  // [m] between two meetings
-  const auto velocity = [&](size_t hand, size_t part, double s) {
-    const collision::Capsule &a = m_before[hand][part], &b = now[hand][part];
+  const auto velocity = [&](size_t hand, int part, double s) {
+    const bool was_there = part < end_of(m_before[hand]);  // another instrument may have fewer links
+    const collision::Capsule &b = now[hand].rod(part), &a = was_there ? m_before[hand].rod(part) : b;
     return ((b.a + s * (b.b - b.a)) - (a.a + s * (a.b - a.a))) / dt;
   };
   for (size_t i = 0; i < hands(model); ++i)
     for (size_t j = i + 1; j < hands(model); ++j) {
       bool near = false, fast = false;
       Vec3d where;
-      for (size_t p = 0; p < now[i].size(); ++p)
-        for (size_t q = 0; q < now[j].size(); ++q) {
+      for (int p = interactions::kShaft; p < end_of(now[i]); p = interactions::next(p))
+        for (int q = interactions::kShaft; q < end_of(now[j]); q = interactions::next(q)) {
           Vec3f side{};
-          const collision::RodContact c = collision::touch(now[i][p], now[j][q], side);
+          const collision::RodContact c = collision::touch(now[i].rod(p), now[j].rod(q), side);
           if (c.depth <= -kApart) continue;
           near = true;
           if (c.depth <= 0) continue;

@@ -116,8 +116,8 @@ class CollisionWatch {
   void update(const Handling& limits, const sim::Model& model, const sim::State& state, double dt, Mishaps& out);
 
  private:
-  using Parts = std::array<collision::Capsule, interactions::kToolParts>;
-  std::array<Parts, sim::kMaxTools> m_before{};
+  using Parts = std::array<interactions::ToolShape, sim::kMaxTools>;
+  Parts m_before{};
   std::array<std::array<bool, sim::kMaxTools>, sim::kMaxTools> m_touching{};
   bool m_begun = false;
 };

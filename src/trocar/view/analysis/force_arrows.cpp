@@ -79,7 +79,7 @@ std::vector<ForceArrow> forces_of(const sim::Model& model, const sim::State& sta
     add_touches(model, state, h, all);
     const auto hand = std::size_t(h);
     const Vec3d on_wall = load_at_trocar(model.tool(state, hand), state.tools[hand], state.touches[hand]).on_wall;
-    all.push_back({ForceKind::trocar, model.hands[hand].port, on_wall, h});
+    all.push_back({ForceKind::trocar, sim::port_of(model, state, hand), on_wall, h});
   }
   std::erase_if(all, [](const ForceArrow& a) { return !(length(a.force) >= kLeastForce); });
   return all;

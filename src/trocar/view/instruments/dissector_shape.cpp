@@ -62,8 +62,7 @@ MeshBuffer jaw(const ToolModel& tool, float side) {
 
 std::vector<InstrumentPart> dissector_parts(const ToolModel& tool) {
   std::vector<InstrumentPart> parts;
-  parts.push_back({PartJoint::body, "insulated", shaft(tool, kHingeFrom)});
-  parts.push_back({PartJoint::body, "steel", hinge(tool.shaft_radius)});
+  add_hinge(parts, tool);
   parts.push_back({PartJoint::jaw_a, "steel", jaw(tool, 1)});
   parts.push_back({PartJoint::jaw_b, "steel", jaw(tool, -1)});
   return parts;

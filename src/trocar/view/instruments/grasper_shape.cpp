@@ -72,8 +72,7 @@ MeshBuffer grasper_jaw(const ToolModel& tool) {
 
 std::vector<InstrumentPart> grasper_parts(const ToolModel& tool) {
   std::vector<InstrumentPart> parts;
-  parts.push_back({PartJoint::body, "insulated", shaft(tool, kHingeFrom)});
-  parts.push_back({PartJoint::body, "steel", hinge(tool.shaft_radius)});
+  add_hinge(parts, tool);
   parts.push_back({PartJoint::jaw_a, "steel", grasper_jaw(tool)});
   parts.push_back({PartJoint::jaw_b, "steel", grasper_jaw(tool)});
   return parts;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/interactions/instrument/linkage_works.hpp>
 #include <trocar/view/instruments/kind_shapes.hpp>
 #include <trocar/view/instruments/metal_parts.hpp>
 
@@ -124,6 +125,15 @@ Placement placement_of(PartJoint joint, const interactions::ToolShape& shape, in
   }
   const Vec3d y = cross(z, x);
   return {Mat3f::from_columns(vec_cast<float>(x), vec_cast<float>(y), vec_cast<float>(z)), vec_cast<float>(origin)};
+}
+
+Placement placement_of_works(const ToolModel& tool, const interactions::ToolShape& shape, int part, double aperture) {
+  const Placement body = placement_of(PartJoint::body, shape);
+  const kinematics::Frame at =
+      interactions::at_handle(tool.works->parts[std::size_t(part)], interactions::handle_of(tool.linkage, aperture));
+  const Mat3f r = Mat3f::from_columns(vec_cast<float>(at.r.column(0)), vec_cast<float>(at.r.column(1)),
+                                      vec_cast<float>(at.r.column(2)));
+  return {body.rotation * r, body.translation + body.rotation * vec_cast<float>(at.p)};
 }
 
 double aperture_in_sleeve(const ToolModel& tool, double beyond, double radius) {

@@ -15,10 +15,10 @@
 namespace trocar::view {
 
 struct InstrumentPart {
-  enum class Joint { body, jaw_a, jaw_b, shaft, link } joint = Joint::body;
+  enum class Joint { body, jaw_a, jaw_b, shaft, link, works } joint = Joint::body;
   std::string look;
   MeshBuffer mesh;
-  int link = 0;  ///< which of an instrument that bends
+  int link = 0;  ///< which of an instrument that bends, or of its linkage's parts
 };
 
 std::vector<InstrumentPart> instrument_parts(const interactions::ToolModel& tool);
@@ -36,6 +36,9 @@ struct Placement {
   Vec3f translation;
 };
 Placement placement_of(InstrumentPart::Joint joint, const interactions::ToolShape& shape, int link = 0);
+/// The same of a part of the linkage between handle and jaws, which stands as jaws that are so far open have it.
+Placement placement_of_works(const interactions::ToolModel& tool, const interactions::ToolShape& shape, int part,
+                             double aperture);
 /// How far jaws can be open while they are still in their trocar's sleeve: the mechanics do not know the sleeve.
 /// @param beyond how far the sleeve reaches past the pivot [m] @param radius inside the sleeve [m]
 double aperture_in_sleeve(const interactions::ToolModel& tool, double beyond, double radius);

@@ -105,13 +105,13 @@ double MetalDrawing::drawn_aperture(const sim::State& state, std::size_t hand) c
   const interactions::ToolState& tool = state.tools[hand];
   const interactions::ToolModel& of = m_model->tool(state, hand);
   const interactions::ToolShape shape = sim::shape_of(*m_model, state, hand);
-  const double beyond = m_sleeve_end[hand] - dot(shape.pivot - m_model->hands[hand].port, shape.shaft.axis());
+  const double beyond = m_sleeve_end[hand] - dot(shape.pivot - sim::port_of(*m_model, state, hand), shape.shaft.axis());
   return std::min(tool.aperture, aperture_in_sleeve(of, beyond, m_sleeve_radius[hand]));
 }
 
 interactions::ToolShape MetalDrawing::shape_in_trocar(const sim::State& state, std::size_t hand) const {
   return shape_of(m_model->tool(state, hand), state.tools[hand].pose(), sim::joints_of(state, hand),
-                  drawn_aperture(state, hand));
+                  drawn_aperture(state, hand), sim::port_shift(state, hand));
 }
 
 void MetalDrawing::update(const sim::State& state) {
@@ -172,12 +172,15 @@ void MetalDrawing::list_hand(const sim::State& state, std::size_t h, const First
   const Placement axis = placement_of(InstrumentPart::Joint::shaft, shape);
   for (DrawnPart& part : m_sleeves[h]) {
     DrawItem drawn = item({}, *part.look, first.tool + h);
-    drawn.transform = to_world({axis.rotation, vec_cast<float>(m_model->hands[h].port)});
+    drawn.transform = to_world({axis.rotation, vec_cast<float>(sim::port_of(*m_model, state, h))});
     to.add(part.drawn, drawn, part.detail);
   }
   for (DrawnPart& part : m_tools[h][std::size_t(state.tools[h].instrument)]) {
     DrawItem drawn = item({}, *part.look, first.tool + h);
-    drawn.transform = to_world(placement_of(part.joint, shape, part.link));
+    const bool works = part.joint == InstrumentPart::Joint::works;
+    drawn.transform =
+        to_world(works ? placement_of_works(m_model->tool(state, h), shape, part.link, drawn_aperture(state, h))
+                       : placement_of(part.joint, shape, part.link));
     drawn.material.soil = soil;
     to.add(part.drawn, drawn, part.detail);
   }

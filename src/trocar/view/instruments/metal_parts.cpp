@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/interactions/instrument/linkage_works.hpp>
 #include <trocar/view/instruments/metal_parts.hpp>
 
 namespace trocar::view::metal {
@@ -67,6 +68,119 @@ MeshBuffer hinge(double radius) {
   merge(b, beam({0, 0, -0.0075}, {0, 0, -0.0022}, 0.26 * radius, 0.36 * radius, 0.3, kJoint));
   merge(b, rivet(0.3 * radius, at + cheek, 0.93 * radius));
   return b;
+}
+
+namespace {
+
+using interactions::LinkageWorks;
+
+constexpr double kBarFlat = 0.6;  // of a round rod's thickness across the fork: bars are flat there
+
+/// A rod with round ends; flat ones are thinner along y.
+MeshBuffer rod_between(const interactions::WorksRod& rod, bool flat) {
+  constexpr int kSteps = 5, kSides = 20;
+  const double length = trocar::length(rod.b - rod.a), r = rod.radius;
+  std::vector<TurnPoint> outline;
+  for (int end = 0; end < 2; ++end)
+    for (int i = 0; i <= kSteps; ++i) {
+      const double a = 0.5 * portable::pi * (end == 0 ? 1 - double(i) / kSteps : double(i) / kSteps);
+      const bool pole = (end == 0) == (i == 0) && (i == 0 || i == kSteps);
+      outline.push_back({end == 0 ? -r * std::sin(a) : length + r * std::sin(a), pole ? 0 : r * std::cos(a), kClean});
+    }
+  const MeshBuffer upright = turned(outline, kSides);
+  const Vec3d z = length > 0 ? (rod.b - rod.a) / length : Vec3d{0, 0, 1};
+  const Vec3d off = Vec3d{0, 1, 0} - z.y * z;
+  const Vec3d y = trocar::length(off) > 0.1 ? normalised(off) : any_perpendicular(z);
+  const double thick = flat ? kBarFlat : 1;
+  MeshBuffer b;
+  append(b, upright, Mat3f::from_columns(vec_cast<float>(cross(y, z)), vec_cast<float>(thick * y), vec_cast<float>(z)),
+         vec_cast<float>(rod.a));
+  return b;
+}
+
+/// Across the fork, with a head on either side.
+MeshBuffer pin(Vec3d at, double radius, double half_length) {
+  const MeshBuffer upright = turned({{-half_length, 0, kJoint},
+                                     {-half_length, radius, kJoint},
+                                     {-half_length, radius, kClean},
+                                     {half_length, radius, kClean},
+                                     {half_length, radius, kJoint},
+                                     {half_length, 0, kJoint}},
+                                    16);
+  MeshBuffer b;
+  append(b, upright, Mat3f::from_columns({0, 0, 1}, {1, 0, 0}, {0, 1, 0}), vec_cast<float>(at));
+  return b;
+}
+
+/// What moves as one: rods, and pins where it meets others. A rod along the shaft ends inside that.
+MeshBuffer works_part(const LinkageWorks::Part& part, double radius, double shaft_end) {
+  MeshBuffer b;
+  for (interactions::WorksRod rod : part.rods) {
+    const bool along = std::fabs(rod.b.x - rod.a.x) < 1e-9 && std::fabs(rod.a.y) < 1e-9;
+    for (Vec3d* end : {&rod.a, &rod.b})
+      if (along) end->z = std::max(end->z, -shaft_end - 0.012);
+    merge(b, rod_between(rod, !along));
+  }
+  for (const Vec3d& at : part.pins) merge(b, pin({at.x, 0, at.z}, 0.16 * radius, 0.58 * radius));
+  return b;
+}
+
+/// Of a jaw: a flat piece from the hinge back to where the linkage takes hold of it. In the jaw's own frame.
+MeshBuffer tail_of(const LinkageWorks::Tail& tail, double radius) {
+  const double side = tail.jaw == 0 ? 1 : -1, y = 0.16 * radius, half_thick = 0.11 * radius, wide = 0.26 * radius;
+  const auto own = [&](Vec3d p) { return Vec3d{side * p.x, y, p.z}; };
+  const auto piece = [&](Vec3d from, Vec3d to) {
+    const Vec3d way = to - from, z = normalised(way, {0, 0, 1}), across = cross(Vec3d{0, 1, 0}, z);
+    const Vec3d over = 0.5 * wide * z;
+    return bar({{from - over, wide * across, half_thick * Vec3d{0, 1, 0}, kClean},
+                {to + over, wide * across, half_thick * Vec3d{0, 1, 0}, kClean}},
+               0.3);
+  };
+  MeshBuffer b = piece({0, y, 0}, own(tail.open));
+  if (trocar::length(tail.closed - tail.open) > 1e-6) merge(b, piece(own(tail.open), own(tail.closed)));
+  return b;
+}
+
+/// Two cheeks from the shaft's end to the hinge, apart far enough for bars and tails between them.
+MeshBuffer long_fork(double radius, double shaft_end) {
+  MeshBuffer b;
+  const double at = 0.76 * radius, thick = 0.13 * radius, wide = 0.45 * radius;
+  merge(b, turned({{-shaft_end - 0.0006, radius * 0.99, kClean},
+                   {-shaft_end - 0.0006, radius * 0.99, kClean},
+                   {-shaft_end, radius * 0.94, kClean},
+                   {-shaft_end, radius * 0.94, kHollow},
+                   {-shaft_end, 0, kHollow}},
+                  kAround));
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3d x{1, 0, 0}, y{0, 1, 0};
+    std::vector<BarSection> sections;
+    for (const double z :
+         {-shaft_end - 0.0004, -0.8 * shaft_end, -0.4 * shaft_end, -0.0016, -0.0006, 0.0003, 0.0009, 0.0013, 0.0016}) {
+      const double round = std::sqrt(std::max(0.03, 1 - std::pow(std::max(0.0, z + 0.0002) / 0.0018, 2)));
+      sections.push_back({{0, side * at, z}, wide * round * x, thick * y, stained(z, 0.33)});
+    }
+    merge(b, bar(sections, 0.12));
+  }
+  merge(b, rivet(0.3 * radius, at + thick, 0.93 * radius));
+  return b;
+}
+
+}  // namespace
+
+void add_hinge(std::vector<InstrumentPart>& parts, const ToolModel& tool) {
+  const double radius = tool.shaft_radius;
+  if (!tool.works || tool.bends.bends()) {
+    parts.push_back({PartJoint::body, "insulated", shaft(tool, kHingeFrom)});
+    parts.push_back({PartJoint::body, "steel", hinge(radius)});
+    return;
+  }
+  const LinkageWorks& works = *tool.works;
+  parts.push_back({PartJoint::body, "insulated", shaft(tool, -works.shaft_end)});
+  parts.push_back({PartJoint::body, "steel", long_fork(radius, works.shaft_end)});
+  for (std::size_t k = 0; k < works.parts.size(); ++k)
+    parts.push_back({PartJoint::works, "steel", works_part(works.parts[k], radius, works.shaft_end), int(k)});
+  for (const LinkageWorks::Tail& tail : works.tails)
+    parts.push_back({tail.jaw == 0 ? PartJoint::jaw_a : PartJoint::jaw_b, "steel", tail_of(tail, radius)});
 }
 
 MeshBuffer jaw_root(double radius) {

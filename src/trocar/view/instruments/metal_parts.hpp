@@ -25,6 +25,10 @@ Paint stained(double z, double most);
 MeshBuffer hinge(double radius);
 inline constexpr double kHingeFrom = -0.0098;  ///< the shaft's end before it [m]
 
+/// Shaft and fork of an instrument whose jaws turn; where a linkage drives them (ToolModel::works), a longer fork with
+/// its rods and bars in it, and the tails of the jaws.
+void add_hinge(std::vector<InstrumentPart>& parts, const ToolModel& tool);
+
 /// Root of a jaw, between the fork's cheeks beside its fellow's: an eye around the rivet.
 MeshBuffer jaw_root(double radius);
 

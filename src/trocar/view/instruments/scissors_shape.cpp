@@ -49,8 +49,7 @@ MeshBuffer blade(const ToolModel& tool, double bend) {
 
 std::vector<InstrumentPart> scissors_parts(const ToolModel& tool) {
   std::vector<InstrumentPart> parts;
-  parts.push_back({PartJoint::body, "insulated", shaft(tool, kHingeFrom)});
-  parts.push_back({PartJoint::body, "steel", hinge(tool.shaft_radius)});
+  add_hinge(parts, tool);
   parts.push_back({PartJoint::jaw_a, "polished_steel", blade(tool, 0.0016)});
   parts.push_back({PartJoint::jaw_b, "polished_steel", blade(tool, -0.0016)});
   return parts;

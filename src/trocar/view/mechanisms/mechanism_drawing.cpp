@@ -13,8 +13,8 @@ using kinematics::ShapeKind;
 namespace {
 
 // Told apart with every kind of colour vision [Okabe & Ito 2008], a little paler.
-constexpr room::Colour kLinkColours[] = {{120, 126, 134}, {86, 160, 211},  {226, 168, 62}, {74, 172, 142},
-                                         {205, 130, 170}, {222, 212, 110}, {60, 120, 180}, {206, 112, 62}};
+constexpr painted::Colour kLinkColours[] = {{120, 126, 134}, {86, 160, 211},  {226, 168, 62}, {74, 172, 142},
+                                            {205, 130, 170}, {222, 212, 110}, {60, 120, 180}, {206, 112, 62}};
 constexpr double kHairline = 0.002;  // of the whole: links without shapes are drawn as lines
 
 int link_of(const Mechanism& m, int body) {
@@ -56,7 +56,7 @@ MechanismDrawing::MechanismDrawing(render::Backend& backend, const Mechanism& m,
   move(pose);
 }
 
-room::Colour MechanismDrawing::colour_of(int link) const {
+painted::Colour MechanismDrawing::colour_of(int link) const {
   for (const auto& [marked, colour] : m_marked)
     if (marked == link) return colour;
   constexpr int kCount = int(std::size(kLinkColours));
@@ -68,23 +68,24 @@ void MechanismDrawing::shape(const Mechanism& m) {
   m_parts.clear();
   for (int body = 0; body < int(m.bodies.size()); ++body) {
     MeshBuffer b;
-    const room::Colour colour = colour_of(link_of(m, body));
+    const painted::Colour colour = colour_of(link_of(m, body));
     bool any = false;
     for (const BodyShape& s : m.shapes) {
       if (s.body != body) continue;
       any = true;
       const Vec3d from = m_scale * s.from, to = m_scale * s.to;
       if (s.kind == ShapeKind::box)
-        room::add_box(b, from, s.turn, 0.5 * to, 0.1 * std::min({to.x, to.y, to.z}), colour);
+        painted::add_box(b, from, s.turn, 0.5 * to, 0.1 * std::min({to.x, to.y, to.z}), colour);
       else if (s.kind == ShapeKind::cylinder)
-        room::add_cylinder(b, from, to, m_scale * s.radius, colour);
+        painted::add_cylinder(b, from, to, m_scale * s.radius, colour);
       else
-        room::add_rod(b, from, to, m_scale * s.radius, m_scale * s.radius, colour);
+        painted::add_rod(b, from, to, m_scale * s.radius, m_scale * s.radius, colour);
     }
     // Bodies without a shape: a line from where their parent is.
     const kinematics::Body& it = m.bodies[std::size_t(body)];
     if (!any && it.parent >= 0 && m.shapes.empty())
-      room::add_rod(b, {}, m_scale * kinematics::inverse(m.places[std::size_t(body)]).p, kHairline, kHairline, colour);
+      painted::add_rod(b, {}, m_scale * kinematics::inverse(m.places[std::size_t(body)]).p, kHairline, kHairline,
+                       colour);
     if (b.size() == 0) continue;
     Part part{body, OwnedMesh(*m_backend, b.data()), {}};
     for (const Part& old : before)
@@ -103,26 +104,26 @@ void MechanismDrawing::move(const kinematics::Pose& pose) {
   }
 }
 
-RoomOrbit MechanismDrawing::whole() const {
-  RoomOrbit orbit;
+UprightOrbit MechanismDrawing::whole() const {
+  UprightOrbit orbit;
   orbit.target = {};
   orbit.yaw = -0.5, orbit.pitch = 0.35, orbit.distance = 1.8;
   return orbit;
 }
 
-RoomOrbit MechanismDrawing::about_joints(const Mechanism& m, const kinematics::Pose& pose) const {
+UprightOrbit MechanismDrawing::about_joints(const Mechanism& m, const kinematics::Pose& pose) const {
   constexpr double kLeastWay = 0.03, kRoom = 2.2;  // of the whole
   Extent all;
   for (std::size_t b = 1; b < pose.frames.size(); ++b) all.take(drawn(pose.frames[b].p), 0);
   for (const kinematics::BodyFrame& f : m.frames) all.take(drawn(kinematics::place(f, pose).p), 0);
-  RoomOrbit orbit = whole();
+  UprightOrbit orbit = whole();
   if (all.high.x < all.low.x) return orbit;
   orbit.target = 0.5 * (all.low + all.high);
   orbit.distance = std::min(orbit.distance, kRoom * std::max(kLeastWay, length(all.high - all.low)));
   return orbit;
 }
 
-render::Frame MechanismDrawing::frame(const RoomOrbit& orbit) const {
+render::Frame MechanismDrawing::frame(const UprightOrbit& orbit) const {
   render::Frame f;
   f.camera = render::look_at(vec_cast<float>(orbit.eye()), vec_cast<float>(orbit.target), {0, 0, 1});
   f.camera.vertical_fov = 0.62f;

@@ -1,4 +1,4 @@
-// A mechanism by itself, a colour a link, as large as a metre whatever it is: what room_drawing.hpp's orbit goes round.
+// A mechanism by itself, a colour a link, as large as a metre whatever it is: what an orbit goes round.
 //
 //   MechanismDrawing drawing(backend, m, pose);
 //   drawing.shape(m);  drawing.move(m, pose);       // other dimensions; another pose
@@ -11,8 +11,8 @@
 #include <trocar/kinematics/chains/mechanism.hpp>
 #include <trocar/render/frame/frame.hpp>
 #include <trocar/view/base/mesh_buffer.hpp>
-#include <trocar/view/operating_room/room_drawing.hpp>
-#include <trocar/view/operating_room/solids.hpp>
+#include <trocar/view/painted/solids.hpp>
+#include <trocar/view/painted/upright_orbit.hpp>
 
 namespace trocar::view {
 
@@ -24,16 +24,16 @@ class MechanismDrawing {
   void shape(const kinematics::Mechanism& m);
   void move(const kinematics::Pose& pose);
   /// These links are drawn in other colours from the next shape() on, the others in their own.
-  void stand_out(std::vector<std::pair<int, room::Colour>> links) { m_marked = std::move(links); }
+  void stand_out(std::vector<std::pair<int, painted::Colour>> links) { m_marked = std::move(links); }
 
-  render::Frame frame(const RoomOrbit& orbit) const;
+  render::Frame frame(const UprightOrbit& orbit) const;
   /// Where a point of the mechanism is drawn.
   Vec3d drawn(Vec3d point) const { return m_scale * (point - m_middle); }
-  room::Colour colour_of(int link) const;
+  painted::Colour colour_of(int link) const;
   /// One that shows all of it.
-  RoomOrbit whole() const;
+  UprightOrbit whole() const;
   /// One that shows its joints and frames: of an instrument what is at its end.
-  RoomOrbit about_joints(const kinematics::Mechanism& m, const kinematics::Pose& pose) const;
+  UprightOrbit about_joints(const kinematics::Mechanism& m, const kinematics::Pose& pose) const;
 
  private:
   struct Part {
@@ -45,7 +45,7 @@ class MechanismDrawing {
   double m_scale = 1;
   Vec3d m_middle;
   std::vector<Part> m_parts;
-  std::vector<std::pair<int, room::Colour>> m_marked;
+  std::vector<std::pair<int, painted::Colour>> m_marked;
 };
 
 }  // namespace trocar::view

@@ -214,7 +214,7 @@ MeshBuffer table_mesh(const Scenery& s) {
   for (const double side : {-1.0, 1.0})
     add_box(b, {side * (s.table_width / 2 + 0.012), 0.15, s.top - s.table_thickness}, Mat3d::identity(),
             {0.006, 0.42, 0.014}, 0.004, kSteel);
-  add_box(b, {0, 0.0, s.top - s.table_thickness - 0.05}, Mat3d::identity(), {0.19, 0.42, 0.05}, 0.02, kJoint);
+  add_box(b, {0, 0.0, s.top - s.table_thickness - 0.05}, Mat3d::identity(), {0.19, 0.42, 0.05}, 0.02, kGunmetal);
   // poles of the screen
   for (const double side : {-1.0, 1.0}) {
     const double x = side * (s.table_width / 2 + 0.045);
@@ -230,7 +230,7 @@ MeshBuffer table_column_mesh(const Scenery& s) {
   const double high = s.top - s.table_thickness - 0.12;
   add_box(b, {0, 0, (s.floor + 0.08 + high) / 2}, Mat3d::identity(), {0.13, 0.17, (high - s.floor - 0.08) / 2}, 0.03,
           kEnamel);
-  add_box(b, {0, -0.05, s.floor + 0.05}, Mat3d::identity(), {0.26, 0.56, 0.05}, 0.04, kJoint);
+  add_box(b, {0, -0.05, s.floor + 0.05}, Mat3d::identity(), {0.26, 0.56, 0.05}, 0.04, kGunmetal);
   return b;
 }
 

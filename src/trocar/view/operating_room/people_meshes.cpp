@@ -28,7 +28,7 @@ MeshBuffer person_mesh(const Scenery::Person& p, double floor) {
   const Colour gown = p.scrubbed ? kGown : Colour{104, 136, 166};
   if (p.step > 0.01)
     add_box(b, Vec3d{p.foot.x, p.foot.y, floor + p.step / 2}, Mat3d::from_columns(left, -ahead, up),
-            {0.28, 0.19, p.step / 2}, 0.01, kJoint);
+            {0.28, 0.19, p.step / 2}, 0.01, kGunmetal);
   for (const double side : {-1.0, 1.0}) {  // legs and shoes
     add_rod(b, at(0, side * 0.050, 0.05), at(0, side * 0.055, 0.36), 0.030 * h, 0.046 * h, kTrousers);
     add_rod(b, at(-0.020, side * 0.052, 0.020), at(0.055, side * 0.062, 0.016), 0.020 * h, 0.018 * h, {228, 230, 230});
@@ -105,7 +105,7 @@ MeshBuffer floor_mesh(const Scenery& s) {
 MeshBuffer monitor_mesh(const Scenery::Monitor& m, double floor) {
   MeshBuffer b;
   const Vec3d ahead = m.axes.column(1);
-  add_box(b, m.middle - 0.01 * ahead, m.axes, {m.half.x + 0.015, m.half.y, m.half.z + 0.015}, 0.012, kJoint);
+  add_box(b, m.middle - 0.01 * ahead, m.axes, {m.half.x + 0.015, m.half.y, m.half.z + 0.015}, 0.012, kGunmetal);
   // what it shows: the endoscope's round picture, dimly
   const std::uint32_t centre =
       b.add(vec_cast<float>(m.middle + (m.half.y + 0.002 - 0.01) * ahead), Paint{150, 78, 66, 255});
@@ -147,7 +147,7 @@ MeshBuffer handle_mesh(const Scenery::Instrument& i) {
   const Vec3d out = (i.handle - i.tip) / whole;
   add_cylinder(b, i.tip, i.handle - 0.01 * out, i.radius, kSteel, 24);
   if (i.camera) {
-    add_cylinder(b, i.handle - 0.05 * out, i.handle - 0.02 * out, 0.011, kJoint);
+    add_cylinder(b, i.handle - 0.05 * out, i.handle - 0.02 * out, 0.011, kGunmetal);
     add_cylinder(b, i.handle - 0.02 * out, i.handle + 0.075 * out, 0.021, {206, 210, 214});
     add_cylinder(b, i.handle + 0.073 * out, i.handle + 0.083 * out, 0.017, kRubber);
     const auto [u, v] = across(out);
@@ -156,8 +156,8 @@ MeshBuffer handle_mesh(const Scenery::Instrument& i) {
   }
   Vec3d down = Vec3d{0, 0, -1} - dot(Vec3d{0, 0, -1}, out) * out;
   down = length(down) > 0.1 ? down / length(down) : across(out).first;
-  add_rod(b, i.handle - 0.045 * out, i.handle + 0.02 * out, 0.010, 0.013, kJoint);
-  add_rod(b, i.handle + 0.015 * out, i.handle + 0.035 * out + 0.075 * down, 0.010, 0.008, kJoint);
+  add_rod(b, i.handle - 0.045 * out, i.handle + 0.02 * out, 0.010, 0.013, kGunmetal);
+  add_rod(b, i.handle + 0.015 * out, i.handle + 0.035 * out + 0.075 * down, 0.010, 0.008, kGunmetal);
   add_rod(b, i.handle - 0.010 * out, i.handle - 0.012 * out + 0.065 * down, 0.006, 0.006, kSteel);
   return b;
 }

@@ -14,8 +14,7 @@ using kinematics::ShapeKind;
 
 namespace {
 
-constexpr double kOrbitNearest = 0.12, kOrbitFarthest = 6, kOrbitSteepest = 1.5;  // of the orbit
-constexpr float kMattGloss = 0.25f, kSatinGloss = 1.2f, kPolished = 3.0f;         // glosses
+constexpr float kMattGloss = 0.25f, kSatinGloss = 1.2f, kPolished = 3.0f;  // glosses
 constexpr double kSlender = 0.010;  // a part with less of a radius is steel, not a body [m]
 // where the lamp hangs in the room [m]
 const Vec3d kRoomLamp{-1.2, -0.9, 3.0};
@@ -33,7 +32,7 @@ MeshBuffer link_mesh(const kinematics::Mechanism& m, int body) {
   for (const BodyShape& s : m.shapes) {
     if (s.body != body) continue;
     if (s.kind == ShapeKind::box) {
-      room::add_box(b, s.from, s.turn, 0.5 * s.to, 0.012, room::kJoint);
+      room::add_box(b, s.from, s.turn, 0.5 * s.to, 0.012, room::kGunmetal);
       room::add_box(b, s.from, s.turn, 0.5 * Vec3d{s.to.x + 0.003, s.to.y + 0.003, 0.3 * s.to.z}, 0.006, room::kAccent);
       continue;
     }
@@ -50,7 +49,7 @@ MeshBuffer link_mesh(const kinematics::Mechanism& m, int body) {
       const Vec3d along = (s.to - s.from) / whole;
       for (const double at : {0.9 * s.radius, whole - 0.9 * s.radius})
         room::add_cylinder(b, s.from + (at - 0.006) * along, s.from + (at + 0.006) * along, 1.04 * s.radius,
-                           room::kJoint);
+                           room::kGunmetal);
     }
   }
   // hinges: a hub about the axis
@@ -67,7 +66,7 @@ MeshBuffer link_mesh(const kinematics::Mechanism& m, int body) {
       return s.body == body && length(cross(s.to - s.from, it.axis)) < 0.1 * length(s.to - s.from);
     });
     if (radius > 0 && !about_itself)
-      room::add_cylinder(b, (side - 1.15 * radius) * it.axis, (side + 1.15 * radius) * it.axis, radius, room::kJoint);
+      room::add_cylinder(b, (side - 1.15 * radius) * it.axis, (side + 1.15 * radius) * it.axis, radius, room::kGunmetal);
   }
   return b;
 }
@@ -75,12 +74,12 @@ MeshBuffer link_mesh(const kinematics::Mechanism& m, int body) {
 MeshBuffer stand_mesh(const Scenery::Arm& a, double floor) {
   MeshBuffer b;
   room::add_rod(b, a.foot, a.head, 0.040, 0.036, room::kEnamel, 40);
-  room::add_cylinder(b, a.head - Vec3d{0, 0, 0.05}, a.head + Vec3d{0, 0, 0.055}, 0.052, room::kJoint);
+  room::add_cylinder(b, a.head - Vec3d{0, 0, 0.05}, a.head + Vec3d{0, 0, 0.055}, 0.052, room::kGunmetal);
   const Vec3d over{a.head.x, a.head.y, a.hub.z};
   room::add_rod(b, over, a.hub, 0.034, 0.030, room::kEnamel, 40);
-  room::add_rod(b, a.hub, a.hub, 0.040, 0.040, room::kJoint, 40);
+  room::add_rod(b, a.hub, a.hub, 0.040, 0.040, room::kGunmetal, 40);
   if (a.on_table)
-    room::add_box(b, a.foot, Mat3d::identity(), {0.06, 0.05, 0.05}, 0.012, room::kJoint);
+    room::add_box(b, a.foot, Mat3d::identity(), {0.06, 0.05, 0.05}, 0.012, room::kGunmetal);
   else {
     room::add_box(b, {a.foot.x, a.foot.y, floor + 0.07}, Mat3d::identity(), {0.24, 0.30, 0.06}, 0.05, room::kEnamel);
     room::add_cylinder(b, {a.foot.x, a.foot.y, floor + 0.12}, {a.foot.x, a.foot.y, floor + 0.5}, 0.085, room::kEnamel);
@@ -114,19 +113,6 @@ MeshBuffer cone_mesh(const Scenery::Cone& c) {
 }
 
 }  // namespace
-
-Vec3d RoomOrbit::eye() const {
-  return target + distance * Vec3d{std::sin(yaw) * std::cos(pitch), -std::cos(yaw) * std::cos(pitch), std::sin(pitch)};
-}
-void RoomOrbit::turn(double by_yaw, double by_pitch) {
-  yaw = std::remainder(yaw + by_yaw, portable::two_pi);
-  pitch = std::clamp(pitch + by_pitch, -0.15, kOrbitSteepest);
-}
-void RoomOrbit::pan(double right, double up) {
-  const Vec3d to_right{std::cos(yaw), std::sin(yaw), 0}, backward = (eye() - target) / distance;
-  target += right * to_right + up * cross(backward, to_right);
-}
-void RoomOrbit::zoom(double factor) { distance = std::clamp(distance * factor, kOrbitNearest, kOrbitFarthest); }
 
 RoomDrawing::Piece RoomDrawing::piece(const MeshBuffer& b, float gloss) const {
   Piece p;
@@ -217,7 +203,7 @@ void RoomDrawing::move(const Scenery& s) {
   m_patient[1].transform = table;
 }
 
-render::Frame RoomDrawing::frame(const RoomOrbit& orbit) const {
+render::Frame RoomDrawing::frame(const UprightOrbit& orbit) const {
   render::Frame f;
   f.camera = render::look_at(vec_cast<float>(orbit.eye()), vec_cast<float>(orbit.target), {0, 0, 1});
   f.camera.vertical_fov = 0.62f;

@@ -12,7 +12,8 @@
 #include <trocar/kinematics/chains/mechanism.hpp>
 #include <trocar/render/frame/frame.hpp>
 #include <trocar/view/base/cameras.hpp>
-#include <trocar/view/operating_room/solids.hpp>
+#include <trocar/view/painted/solids.hpp>
+#include <trocar/view/painted/upright_orbit.hpp>
 
 namespace trocar::view {
 
@@ -68,7 +69,7 @@ struct Scenery {
   struct Cone {
     Vec3d apex, axis;
     double half_angle = 1.0, length = 0.2;
-    room::Colour colour;
+    painted::Colour colour;
   };
   std::vector<Cone> cones;
   /// Values 0..1 of places on the abdomen (x, y), below 0: none; empty: bare skin.
@@ -77,23 +78,13 @@ struct Scenery {
   std::vector<Vec3d> chosen;  ///< places on the abdomen that stand out, in the patient's frame
 };
 
-/// From around a point of the room; up is up.
-struct RoomOrbit {
-  Vec3d target{0, 0.05, -0.05};
-  double yaw = -0.75, pitch = 0.55, distance = 2.9;
-  Vec3d eye() const;
-  void turn(double by_yaw, double by_pitch);
-  void pan(double right, double up);
-  void zoom(double factor);
-};
-
 class RoomDrawing {
  public:
   RoomDrawing(render::Backend& backend, const Scenery& scenery);
 
   /// Arms, table, people, gaps and heat as they are now; what stands there must be of the same kinds and number.
   void move(const Scenery& scenery);
-  render::Frame frame(const RoomOrbit& orbit) const;
+  render::Frame frame(const UprightOrbit& orbit) const;
 
  private:
   struct Piece {

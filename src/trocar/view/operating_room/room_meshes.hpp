@@ -5,6 +5,9 @@
 
 namespace trocar::view::room {
 
+using namespace painted;
+using painted::Colour;
+
 /// Cloth over patient and table, with a window over the abdomen and a screen before the head. In the patient's frame.
 MeshBuffer drape_mesh(const Scenery& s);
 /// The skin in the window, painted by heat where there is some.

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include <trocar/numerics/portable.hpp>
-#include <trocar/view/operating_room/solids.hpp>
+#include <trocar/view/painted/solids.hpp>
 
-namespace trocar::view::room {
+namespace trocar::view::painted {
 namespace {
 
 struct LatheRing {
@@ -142,4 +142,4 @@ void add_loft(MeshBuffer& b, const std::vector<std::vector<Vec3d>>& rings, const
   cap(rings.size() - 1, true);
 }
 
-}  // namespace trocar::view::room
+}  // namespace trocar::view::painted

@@ -1,11 +1,12 @@
-// What an operating room is made of, as painted meshes: rods with round ends, boxes with broken edges, discs.
+// What operating rooms and mechanisms are made of, as painted meshes: rods with round ends, boxes with broken edges,
+// discs.
 #pragma once
 
 #include <trocar/geometry/figure/figure.hpp>
 #include <trocar/numerics/mat3.hpp>
 #include <trocar/view/base/mesh_buffer.hpp>
 
-namespace trocar::view::room {
+namespace trocar::view::painted {
 
 /// sRGB of a painted surface.
 struct Colour {
@@ -15,7 +16,7 @@ struct Colour {
 Colour darker(Colour c, double share);  ///< towards black
 Colour mixed(Colour a, Colour b, double t);
 
-inline constexpr Colour kEnamel{226, 229, 231}, kJoint{74, 80, 88}, kRubber{48, 52, 58}, kDrape{92, 152, 164},
+inline constexpr Colour kEnamel{226, 229, 231}, kGunmetal{74, 80, 88}, kRubber{48, 52, 58}, kDrape{92, 152, 164},
     kGown{98, 158, 168}, kSkin{214, 166, 140}, kGlove{228, 222, 204}, kMask{196, 220, 226}, kTrousers{58, 84, 104},
     kSteel{170, 176, 182}, kAccent{232, 160, 64}, kCushion{52, 58, 66}, kFloor{150, 160, 166};
 
@@ -31,4 +32,4 @@ void add_loft(MeshBuffer& b, const std::vector<std::vector<Vec3d>>& rings, const
 /// Two unit directions square to a unit axis and to each other.
 std::pair<Vec3d, Vec3d> across(Vec3d axis);
 
-}  // namespace trocar::view::room
+}  // namespace trocar::view::painted
