@@ -10,6 +10,7 @@
 #include <trocar/core/body_id.hpp>
 #include <trocar/core/fields.hpp>
 #include <trocar/interactions/instrument/linkage.hpp>
+#include <trocar/interactions/instrument/syringe.hpp>
 #include <trocar/interactions/instrument/tool_kind.hpp>
 #include <trocar/kinematics/articulation.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
@@ -48,6 +49,7 @@ struct ToolModel {
   double clip_length = 0;  ///< [m]
   std::int32_t clips = 0;  ///< in the magazine at the start
   ElectrodeModel electrode;
+  NeedleModel needle;              ///< that comes out of the blunt end of an injection needle
   LinkageModel linkage;            ///< between handle and jaws, where the file names a mechanism
   kinematics::Articulation bends;  ///< a wrist, or more; without joints the instrument is rigid
 
@@ -61,7 +63,7 @@ struct ToolModel {
         v("pinch_max", s.pinch_max), v("friction", s.friction), v("rubbing", s.rubbing),
         v("clip_length", s.clip_length), v("clips", s.clips), v("foot", s.foot, core::only_if(s.foot > 0)),
         v("electrode", s.electrode, core::only_if(s.electrode.there)),
-        v("linkage", s.linkage, core::only_if(s.linkage.there)), v("bends", s.bends, core::only_if(s.bends.bends())),
+        v("needle", s.needle, core::only_if(s.needle.there)), v("linkage", s.linkage, core::only_if(s.linkage.there)), v("bends", s.bends, core::only_if(s.bends.bends())),
         v("name", s.name, core::kNotHashed);
   }
 };
