@@ -138,6 +138,7 @@ struct ToolShape {
   int links = 0;
   double half_angle = 0;  ///< of each jaw from the axis [rad]
   double half_gap = 0;    ///< at the pivot (parallel jaws) [m]
+  double needle_in = 0;   ///< how far an injection needle is drawn in [m]
   bool has_foot = false;  ///< it is a hook's, and has no jaws
   bool spreads = false;   ///< its jaws push apart what lies beside them
 

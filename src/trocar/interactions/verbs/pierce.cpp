@@ -23,11 +23,11 @@ void load_place(const Surface& surface, const SkinPlace& place, const SkinLoad& 
 
 }  // namespace
 
-NeedleLine needle_of(const ToolModel& tool, const ToolShape& shape, double aperture) noexcept {
+NeedleLine needle_of(const ToolModel& tool, const ToolShape& shape) noexcept {
   NeedleLine line;
   line.axis = shape.frame.axis();
   line.base = shape.frame.tip;
-  line.out = tool.needle.length * std::clamp(aperture, 0.0, 1.0);
+  line.out = tool.needle.length - shape.needle_in;
   line.point = line.base + line.out * line.axis;
   return line;
 }

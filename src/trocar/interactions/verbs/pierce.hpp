@@ -27,8 +27,7 @@ struct NeedleLine {
   Vec3d base, point, axis;  ///< the shaft's end; [m]; unit, towards the point
   double out = 0;           ///< length beyond the shaft [m]
 };
-/// @param aperture  1: all of it is out; 0: drawn in
-NeedleLine needle_of(const ToolModel& tool, const ToolShape& shape, double aperture) noexcept;
+NeedleLine needle_of(const ToolModel& tool, const ToolShape& shape) noexcept;
 
 /// A material place of a skin. No padding.
 struct SkinPlace {

@@ -10,6 +10,7 @@
 #include <trocar/scene/compile/compile_energy.hpp>
 #include <trocar/scene/compile/compile_fluids.hpp>
 #include <trocar/scene/compile/compile_hands.hpp>
+#include <trocar/scene/compile/compile_injection.hpp>
 #include <trocar/scene/compile/compile_marks.hpp>
 #include <trocar/scene/compile/compile_membrane.hpp>
 #include <trocar/scene/compile/compile_motion.hpp>
@@ -271,6 +272,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
   compile_vessels(d, model, faults, report);
   compile_fluids(d, model, faults);
   compile_energy(d, model, faults);
+  compile_injection(d, model);
   compile_motion(d, model, faults);
   compile_marks(d, model, faults);
   BagScene::expect_hand(settings_of(BagScene{}, d.objects), model, faults);

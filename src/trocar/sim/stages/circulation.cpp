@@ -122,7 +122,7 @@ void lay_out_blanching(const StepContext& c, std::span<vessels::Occlusion> out) 
     if (!(share > 0)) continue;
     const double cover = 1 - 1 / std::sqrt(1 + kResists * share);
     out[2 * v] = {std::int32_t(v), 0, cover};
-    if (fed_from_both_ends(c, v)) out[2 * v + 1] = {std::int32_t(v), 1, cover};
+    out[2 * v + 1] = {std::int32_t(v), 1, cover};
   }
 }
 
@@ -143,9 +143,9 @@ void lay_out(StepContext& c) noexcept {
     out.outside = outside;
   }
   const std::span<vessels::Occlusion> closed(c.work.closed);
-  const size_t seals = 2 * size_t(interactions::kMaxSeals);
-  lay_out_seals(s, closed.subspan(interactions::kMaxVesselClips, seals));
-  if (c.model.injection.there()) lay_out_blanching(c, closed.subspan(interactions::kMaxVesselClips + seals));
+  const size_t narrow = c.model.injection.there() ? 2 * c.model.vessels.list.size() : 0;
+  lay_out_seals(s, closed.subspan(interactions::kMaxVesselClips).first(closed.size() - narrow - interactions::kMaxVesselClips));
+  if (narrow > 0) lay_out_blanching(c, closed.last(narrow));
   for (size_t i = 0; i < size_t(interactions::kMaxVesselClips); ++i) {
     vessels::Occlusion& out = c.work.closed[i];
     out = {};

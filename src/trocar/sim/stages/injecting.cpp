@@ -27,7 +27,7 @@ constexpr double kTrackWide = 0.004;    // [m] what is around it is what leaks
 constexpr double kTrackDeep = 0.003;    // [m] where its pressure is asked for
 
 NeedleLine line_of(const StepContext& c, size_t hand) noexcept {
-  return interactions::needle_of(c.model.tool(c.state, hand), c.work.shapes[hand], c.state.tools[hand].aperture);
+  return interactions::needle_of(c.model.tool(c.state, hand), c.work.shapes[hand]);
 }
 
 bool takes_up(const StepContext& c, size_t organ) noexcept { return c.model.injection.organs[organ].infusion.there(); }

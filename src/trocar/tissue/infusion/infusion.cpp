@@ -8,10 +8,10 @@
 namespace trocar::tissue {
 namespace {
 
-constexpr double kPicolitre = 1e-15;      // [m^3]
+constexpr double kOnePicolitre = 1e-15;      // [m^3]
 constexpr double kReach = 3;              // of sigma: beyond it a Gaussian is nothing
 constexpr double kFollows = 0.1;          // [s] tau.                                           Our choice
-constexpr float kSteepest = 4;            // times E theta: no pressure that so little fluid could not account for
+constexpr float kMostPerTheta = 4;            // times E theta: no pressure that so little fluid could not account for
 constexpr double kLookedFor = 0.02;           // [m] how far the pressure of a place is looked for
 
 /// Six times the volume of a cell, and its derivatives with the corners.
@@ -104,7 +104,7 @@ std::int64_t infuse(const InfusionModel& m, const NodeView& nodes, Vec3d tip, st
   std::fill(w.weight.begin(), w.weight.end(), 0.0);
   double sum = 0, space = 0;  // space: what they could take at most [pL]
   for_bell(m, nodes, tip, std::max(sigma, m.finest), [&](std::size_t r, double bell) {
-    const double full = kFullest * double(m.room[r]) / kPicolitre, left = full - double(s.volume[r]);
+    const double full = kFullest * double(m.room[r]) / kOnePicolitre, left = full - double(s.volume[r]);
     if (left <= 0) return;
     w.weight[r] = bell * left;
     sum += w.weight[r];
@@ -115,7 +115,7 @@ std::int64_t infuse(const InfusionModel& m, const NodeView& nodes, Vec3d tip, st
   share_out(w.weight, sum, goes, [&](std::size_t r, std::int64_t part) {
     s.volume[r] += part;
     if (!drugged) return;
-    s.dose[r] += float(double(part) * kPicolitre / double(m.room[r]));
+    s.dose[r] += float(double(part) * kOnePicolitre / double(m.room[r]));
     if (s.since[r] == 0 && s.dose[r] >= kDoseFelt) s.since[r] = tick;
   });
   s.total += goes;
@@ -189,9 +189,9 @@ void swell(const InfusionModel& m, const NetworkModel& network, const std::vecto
   bool any = false;
   for (std::size_t r = 0; r < n; ++r) {
     if (w.weight[r] == 0) continue;
-    const float theta = float(double(s.volume[r]) * kPicolitre / double(m.room[r]));
+    const float theta = float(double(s.volume[r]) * kOnePicolitre / double(m.room[r]));
     const float stands = w.now[r] / m.room[r] - 1;
-    const float most = std::min(float(m.opening), kSteepest * float(m.modulus) * theta);
+    const float most = std::min(float(m.opening), kMostPerTheta * float(m.modulus) * theta);
     s.pressure[r] = std::clamp(s.pressure[r] + gain * (theta - stands), 0.0f, most);
     any = any || s.pressure[r] > 0 || s.volume[r] > 0;
   }
