@@ -10,7 +10,6 @@
 #include <trocar/scene/compile/compile_energy.hpp>
 #include <trocar/scene/compile/compile_fluids.hpp>
 #include <trocar/scene/compile/compile_hands.hpp>
-#include <trocar/scene/compile/compile_injection.hpp>
 #include <trocar/scene/compile/compile_marks.hpp>
 #include <trocar/scene/compile/compile_membrane.hpp>
 #include <trocar/scene/compile/compile_motion.hpp>

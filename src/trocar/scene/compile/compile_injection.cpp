@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include <trocar/scene/compile/compile_injection.hpp>
+#include <trocar/scene/compile/compile_hands.hpp>
 #include <trocar/sim/model/bodies.hpp>
 
 namespace trocar::scene {
