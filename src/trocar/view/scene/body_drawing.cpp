@@ -148,7 +148,7 @@ void BodyDrawing::make_organs(const render::OpennessBaker& baker, render::Backen
   sim::visit_solids(*m_model, [&](auto r) {
     const sim::SolidModel& s = model_of(*m_model, r);
     m_burns.emplace_back(*m_model, r.id(), below_skin(s.fine));
-    m_blanching.emplace_back(*m_model, r.organ(), s.fine);
+    m_blanching.emplace_back(r.organ(), s.fine);
     m_details.organs.emplace_back(levels_of(*m_model, s.name));
     m_organs.emplace_back(s, relief_of(int(r.organ()), *m_model), shaded(baker, s.fine.rest, s.fine.rest_normal),
                           backend, m_details.organs.back());
