@@ -271,6 +271,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
   compile_vessels(d, model, faults, report);
   compile_fluids(d, model, faults);
   compile_energy(d, model, faults);
+  compile_injection(d, model);
   compile_motion(d, model, faults);
   compile_marks(d, model, faults);
   BagScene::expect_hand(settings_of(BagScene{}, d.objects), model, faults);

@@ -19,6 +19,21 @@ interactions::ElectrodeModel electrode_of(const Instrument& i) {
   return out;
 }
 
+interactions::NeedleModel needle_of(const Instrument& i) {
+  interactions::NeedleModel out;
+  if (!i.can().inject) return out;
+  out.there = true;
+  out.length = i.needle.length;
+  out.radius = 0.5 * i.needle.diameter;
+  out.bore = i.needle.bore;
+  out.plunger = i.needle.plunger;
+  out.holds = i.needle.holds;
+  out.flow = i.needle.flow / 60;
+  out.most_force = i.needle.most_force;
+  out.units = i.needle.units;
+  return out;
+}
+
 interactions::ToolModel tool_of(const Instrument& i, std::vector<core::Fault>& faults) {
   interactions::ToolModel tool;
   tool.name = i.name;
@@ -36,6 +51,7 @@ interactions::ToolModel tool_of(const Instrument& i, std::vector<core::Fault>& f
   tool.clip_length = i.clip_length;
   tool.clips = i.clips;
   tool.electrode = electrode_of(i);
+  tool.needle = needle_of(i);
   take_linkage(i, tool, faults);
   take_wrist(i, tool, faults);
   return tool;

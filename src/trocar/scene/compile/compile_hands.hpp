@@ -12,4 +12,11 @@ namespace trocar::scene {
 /// placed one first.
 void compile_hands(const Description& description, sim::Model& model, std::vector<core::Fault>& faults);
 
+/// Does some hand of the scene have an injection needle to choose?
+bool has_needle(const sim::Model& model);
+
+/// What needles have to do with organs: forces at which skins give way, and what takes fluid up (compile_injection.cpp).
+/// Nothing in scenes without a needle. After hands and organs.
+void compile_injection(const Description& description, sim::Model& model);
+
 }  // namespace trocar::scene

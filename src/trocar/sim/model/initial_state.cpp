@@ -109,6 +109,14 @@ State initial_state(const Model& model) {
         fluids::fill_level(model.wet.model.pool, s.pool_floor, model.wet.pool_at_start, s.fluids.pool);
     fluids::receive(s.fluids.ledger, fluids::Source::kBled, fluids::Place::kPool, poured);
   }
+  if (model.injection.there()) {
+    s.injection.hands.resize(model.hands.size());
+    s.injection.tracks.resize(size_t(kMaxTracks));
+    s.injection.given.resize(size_t(model.organs()));
+    for (const PiercedOrgan& o : model.injection.organs) s.injection.organs.push_back(tissue::dry(o.infusion));
+    for (size_t t = 0; t < model.hands.size(); ++t)
+      s.injection.hands[t].left = std::int64_t(model.syringe_of(t) / fluids::kM3PerPicolitre + 0.5);
+  }
   if (model.irrigates()) s.impacts.resize(size_t(model.wet.model.droplets.capacity));
   make_counters(model, s);
   return s;

@@ -22,6 +22,21 @@ bool sound(const Model& model, int rack, const interactions::ToolState& t) {
   return true;
 }
 
+/// A needle is in nothing, or in a lattice at places of its skin.
+bool sound(const Model& model, const State& s, const NeedleHand& hand) {
+  for (const double v : {hand.at.x, hand.at.y, hand.at.z, hand.anchor, hand.depth, hand.press, hand.flow,
+                         hand.tip_pressure, hand.plunger})
+    if (!(std::fabs(v) < 1e9)) return false;
+  if (hand.vessel < -1 || hand.vessel >= std::int32_t(model.vessels.list.size()) || hand.left < 0) return false;
+  if (!hand.entry.body.exists()) return hand.entry.body == BodyId{};
+  if (!hand.entry.body.is(BodyKind::organ) || hand.entry.body.index() >= s.solids.size()) return false;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (hand.entry.vertex[k] < 0 || hand.entry.vertex[k] >= model.solids[hand.entry.body.index()].skin.size() ||
+        !(std::fabs(hand.entry.weight[k]) <= 1.001))
+      return false;
+  return true;
+}
+
 }  // namespace
 
 bool sound(const geometry::CuttableTets& b) {
@@ -61,6 +76,11 @@ bool sound(const Model& model, const State& s) {
   for (const std::vector<interactions::BondState>& bonds : s.bonds)
     for (const interactions::BondState& bond : bonds)
       if (!(bond.damage >= 0 && bond.damage <= 1)) return false;
+  for (const NeedleHand& hand : s.injection.hands)
+    if (!sound(model, s, hand)) return false;
+  for (const tissue::InfusionState& organ : s.injection.organs)
+    for (std::size_t r = 0; r < organ.dose.size(); ++r)
+      if (!(organ.dose[r] >= 0 && organ.dose[r] < 1e6f) || organ.since[r] > s.tick + 1) return false;
   bool good = true;
   visit_books(model, s, [&](auto verb, auto book) {
     for (const auto& record : book.used()) good = good && verb.sound(model, record);
