@@ -1,0 +1,56 @@
+// Scratch of a thread's tick: filling it with rubbish between ticks changes nothing.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <trocar/core/fields.hpp>
+#include <trocar/numerics/vec3.hpp>
+#include <trocar/suture/thread/block_system.hpp>
+#include <trocar/suture/thread/rub.hpp>
+
+namespace trocar::suture {
+
+/// Two elements a < b, or an element a and the obstacle b, that are near enough to be looked at.
+struct NearPair {
+  std::int32_t a = 0, b = 0;
+};
+
+/// Two of them that touch, as a solve sees it.
+struct Touch {
+  std::int32_t a = 0, b = 0;
+  double s = 0, t = 0;       ///< places on both, 0..1
+  Vec3d normal{0, 0, 0};     ///< unit, from the second to the first
+  double press = 0;          ///< [N]
+  double stiffness = 0;      ///< of the press [N/m]
+  double rub_stiffness = 0;  ///< of friction in this solve [N/m]
+  double bound = 0;          ///< that friction's strain does not exceed [m]
+  Vec3d strain{0, 0, 0};     ///< of friction: when the solve begins, then when it ends [m]
+  double reached = 0;        ///< [m]
+  Vec3d moved{0, 0, 0};      ///< what the obstacle's point moves in this solve [m]
+};
+
+struct ThreadWork {
+  BlockSystem system;
+  std::vector<Vec3d> delta;        ///< (n) what nodes move in a solve
+  std::vector<Vec3d> bend_now;     ///< (n) rest bend in space
+  std::vector<double> bend_share;  ///< (n) of the bending stiffness that is left beyond yield
+  std::vector<Vec3d> box;          ///< (groups x 2) corners of groups of elements
+  std::vector<NearPair> near;      ///< thread on thread, in no order, then by (a, b)
+  std::vector<std::int64_t> keys;
+  std::vector<Touch> self, touch;                     ///< (contacts)
+  std::vector<ElementRub> rubs;                       ///< (contacts)
+  std::vector<double> spin_diagonal, spin_off, spin;  ///< (n - 1)
+  std::vector<Vec3d> obstacle_moves;                  ///< (obstacles x 2) what their ends move in this solve
+  std::vector<Vec3d> pull;                            ///< (obstacles x 2) force and moment
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("system", s.system), v("delta", s.delta), v("bend_now", s.bend_now), v("bend_share", s.bend_share),
+        v("box", s.box), v("near", s.near), v("keys", s.keys), v("self", s.self), v("touch", s.touch),
+        v("rubs", s.rubs), v("spin_diagonal", s.spin_diagonal), v("spin_off", s.spin_off), v("spin", s.spin),
+        v("obstacle_moves", s.obstacle_moves), v("pull", s.pull);
+  }
+};
+
+}  // namespace trocar::suture
