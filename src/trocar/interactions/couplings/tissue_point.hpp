@@ -1,5 +1,5 @@
-// A point of tissue, of whatever kind of body, at its surface or deep in it: where it is now, how fast it goes, and what
-// presses on it. What a needle has pierced and a thread goes through is tied to such points.
+// A point of tissue, of whatever kind of body, at its surface or deep in it: where it is now, how fast it goes, and
+// what presses on it. What a needle has pierced and a thread goes through is tied to such points.
 //
 //   TissuePoint p = stick_to(bodies, BodyId::organ(2), place);   // when it is pierced
 //   ... point_of(bodies, p) ...

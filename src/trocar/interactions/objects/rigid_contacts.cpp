@@ -14,8 +14,8 @@ constexpr double kQuickestOut = 1.0;  // [m/s] with which an instrument that has
 constexpr double kSlowly = 0.02;      // [m/s] the same of walls and beads, which nothing should have moved into
 constexpr double kSinks = 2e-5;       // [m] that is left
 constexpr double kSunkShare = 0.2;    // of what has sunk in, in a tick
-constexpr int kSweeps = 40;
-constexpr double kStill = 1e-6;  // [m/s] a sweep that changes less is the last
+constexpr int kContactSweeps = 40;
+constexpr double kContactStill = 1e-6;  // [m/s] a sweep that changes less is the last
 
 class Finder {
  public:
@@ -208,10 +208,10 @@ void find_contacts(const RigidModels& models, const Rigid::States& states, doubl
 
 void solve_contacts(double tick, RigidWork& work) noexcept {
   for (RigidContact& c : work.contacts) prepare(work, c);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  for (int sweep = 0; sweep < kContactSweeps; ++sweep) {
     double changed = 0;
     for (RigidContact& c : work.contacts) changed = std::max(changed, solve(tick, work, c));
-    if (changed < kStill) return;
+    if (changed < kContactStill) return;
   }
 }
 

@@ -6,10 +6,10 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr int kAroundWire = 4;            // places of the needle's surface that jaws hold, at each
-constexpr double kGripsApart = 0.0005;    // [m] along it
-constexpr double kSteelInJaws = 25;       // a needle between hard jaws gives so much less than tissue does
-constexpr double kGraspedThread = 0.7;    // of its diameter, by which it keeps jaws apart
+constexpr int kAroundWire = 4;          // places of the needle's surface that jaws hold, at each
+constexpr double kGripsApart = 0.0005;  // [m] along it
+constexpr double kSteelInJaws = 25;     // a needle between hard jaws gives so much less than tissue does
+constexpr double kGraspedThread = 0.7;  // of its diameter, by which it keeps jaws apart
 constexpr double kMostNear = 1e6;
 
 bool finite_all(const SutureState& s) noexcept {
@@ -37,6 +37,20 @@ std::int32_t grips_of(const suture::NeedleModel& needle) {
 Vec3d suture_place(const SutureModel& m, const SutureState& s, std::int32_t place) noexcept {
   if (on_needle(m, place)) return suture::place_of(s.needle, grip_of(m, place));
   return s.thread.x[size_t(place - m.grips)];
+}
+
+void hold_from_start(const SutureModel& m, const SutureState& s, BodyId id, const ToolModel& tool,
+                     const ToolShape& shape, ToolState& state) noexcept {
+  for (std::int32_t g = 0; g < m.grips && state.holds < kMaxHolds; ++g) {
+    const Vec3d local = to_jaw(shape, suture_place(m, s, g));
+    const bool between = std::fabs(local.y) < 0.5 * tool.jaw_width && local.z > 0 && local.z < tool.jaw_length &&
+                         std::fabs(local.x) < 2 * m.needle.wire;
+    if (!between) continue;
+    Hold& hold = state.hold[state.holds++];
+    hold.body = id;
+    hold.element = g;
+    hold.local[0] = float(local.x), hold.local[1] = float(local.y), hold.local[2] = float(local.z);
+  }
 }
 
 Suture::States Suture::start(const Models& models) {
@@ -143,8 +157,8 @@ void Suture::pull(const Models& models, const States&, const Hold& hold, Vec3d t
       all.overflowed = true;
       return;
     }
-    w.needle.holds.push_back({grip_of(m, hold.element), target, kSteelInJaws * law.stiffness, law.damping, tag.index,
-                              {0, 0, 0}});
+    w.needle.holds.push_back(
+        {grip_of(m, hold.element), target, kSteelInJaws * law.stiffness, law.damping, tag.index, {0, 0, 0}});
     w.hold_tags.push_back(tag);
     return;
   }

@@ -69,7 +69,7 @@ struct SutureModel {
 };
 struct SutureModels {
   std::vector<SutureModel> list;
-  WallGrid walls;                                      ///< those of the Model once more
+  WallGrid walls;                                        ///< those of the Model once more
   std::vector<StitchTissue> organs, strands, membranes;  ///< of all bodies of the Model
 
   const StitchTissue& of(BodyId body) const noexcept {
@@ -120,9 +120,9 @@ struct SutureBite {
   enum Stage : std::int32_t { open, through, torn, gone };  ///< the tip is in it; it has come out; cut out; drawn out
   BodyId body;
   std::int32_t stage = open;
-  std::int32_t harmed = 0;                 ///< 1: pulled at with more than the tissue bears unharmed
-  float peak = 0;                          ///< the most that it was pulled at with [N]
-  TissuePoint entry, exit;                 ///< where it went in, and came out
+  std::int32_t harmed = 0;  ///< 1: pulled at with more than the tissue bears unharmed
+  float peak = 0;           ///< the most that it was pulled at with [N]
+  TissuePoint entry, exit;  ///< where it went in, and came out
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>
@@ -148,7 +148,7 @@ struct SutureState {
   suture::NeedleState needle;
   suture::ThreadState thread;
   SutureTouch touch;
-  BodyId inside;                 ///< the body that the tip is in
+  BodyId inside;  ///< the body that the tip is in
   std::int32_t hole_count = 0, bite_count = 0;
   std::vector<SutureHole> holes;  ///< (kMostHoles) as they were made
   std::vector<SutureBite> bites;  ///< (kMostBites)
@@ -175,33 +175,33 @@ struct SutureState {
 struct SutureRod {
   collision::Capsule before, now;
   Tag tag;
-  std::int32_t slot = 0;    ///< of a thread's obstacles
-  std::int32_t held = -1;   ///< the suture that its jaws hold
+  std::int32_t slot = 0;   ///< of a thread's obstacles
+  std::int32_t held = -1;  ///< the suture that its jaws hold
   bool holds_needle = false;
-  double from = -1e9;       ///< how far along it, from a, a held thread leaves room [m]
+  double from = -1e9;  ///< how far along it, from a, a held thread leaves room [m]
 };
 /// What a hand's jaws do to a thread: the mean of the places between them.
 struct SuturePinch {
   std::int32_t count = 0, suture = -1;
-  double s = 0;                        ///< sum of arc lengths [m]
-  Vec3d target;                        ///< sum [m]
-  Vec3d first, last;                   ///< targets of the lowest and the highest node
+  double s = 0;       ///< sum of arc lengths [m]
+  Vec3d target;       ///< sum [m]
+  Vec3d first, last;  ///< targets of the lowest and the highest node
   std::int32_t lowest = 0, highest = 0;
-  double bears = 0;                    ///< [N]
+  double bears = 0;  ///< [N]
   Tag tag;
-  Vec3d force;                         ///< out: of the jaws on the thread [N]
+  Vec3d force;  ///< out: of the jaws on the thread [N]
 };
 struct SutureWork {
   suture::NeedleWork needle;
   suture::ThreadWork thread;
-  std::vector<Tag> hold_tags;              ///< (needle.holds)
-  std::vector<std::int32_t> contact_rods;  ///< (needle.contacts) -1: none of an instrument
-  std::vector<Vec3d> contact_normals;      ///< scratch
-  std::vector<suture::Hold> holds;                         ///< (slots)
-  std::vector<suture::Obstacle> obstacles;                 ///< (slots)
-  std::vector<suture::SkinContact> skins;                  ///< (nodes)
-  std::vector<suture::Passage> passages;                   ///< (slots)
-  std::vector<suture::HoldReaction> hold_reactions;        ///< (slots)
+  std::vector<Tag> hold_tags;                        ///< (needle.holds)
+  std::vector<std::int32_t> contact_rods;            ///< (needle.contacts) -1: none of an instrument
+  std::vector<Vec3d> contact_normals;                ///< scratch
+  std::vector<suture::Hold> holds;                   ///< (slots)
+  std::vector<suture::Obstacle> obstacles;           ///< (slots)
+  std::vector<suture::SkinContact> skins;            ///< (nodes)
+  std::vector<suture::Passage> passages;             ///< (slots)
+  std::vector<suture::HoldReaction> hold_reactions;  ///< (slots)
   std::vector<suture::ObstacleReaction> obstacle_reactions;
   std::vector<Vec3d> skin_reactions;
   std::vector<suture::PassageReaction> passage_reactions;
@@ -211,9 +211,9 @@ struct SutureWork {
   static void fields(S& s, V&& v) {
     v("needle", s.needle), v("thread", s.thread), v("hold_tags", s.hold_tags), v("contact_rods", s.contact_rods),
         v("contact_normals", s.contact_normals), v("holds", s.holds), v("obstacles", s.obstacles), v("skins", s.skins),
-        v("passages", s.passages), v("hold_reactions", s.hold_reactions),
-        v("obstacle_reactions", s.obstacle_reactions), v("skin_reactions", s.skin_reactions),
-        v("passage_reactions", s.passage_reactions), v("thread_flags", s.thread_flags);
+        v("passages", s.passages), v("hold_reactions", s.hold_reactions), v("obstacle_reactions", s.obstacle_reactions),
+        v("skin_reactions", s.skin_reactions), v("passage_reactions", s.passage_reactions),
+        v("thread_flags", s.thread_flags);
   }
 };
 struct SutureWorks {
@@ -238,6 +238,10 @@ std::int32_t grips_of(const suture::NeedleModel& needle);
 Vec3d suture_place(const SutureModel& m, const SutureState& s, std::int32_t place) noexcept;
 /// Is the place one of the needle?
 inline bool on_needle(const SutureModel& m, std::int32_t place) noexcept { return place < m.grips; }
+
+/// Jaws that hold the needle from the start close on it in the first tick.
+void hold_from_start(const SutureModel& m, const SutureState& s, BodyId id, const ToolModel& tool,
+                     const ToolShape& shape, ToolState& state) noexcept;
 
 /// The kind, as object_kinds.hpp lists it.
 struct Suture {

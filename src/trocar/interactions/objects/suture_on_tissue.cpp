@@ -11,24 +11,24 @@ namespace {
 
 constexpr double kSkinReach = 0.006;     // [m] farther from a skin's vertices, it is not looked at
 constexpr double kSkinAhead = 0.0004;    // [m] contacts are there before they touch
-constexpr double kDeepest = 0.0025;      // [m] deeper is another side of the body
-constexpr std::uint64_t kLooks = 16;     // ticks in which each bead and node looks for its skin anew
+constexpr double kDeepestRest = 0.0025;      // [m] deeper is another side of the body
+constexpr std::uint64_t kLooksAnew = 16;     // ticks in which each bead and node looks for its skin anew
 constexpr double kHardStiffness = 2000;  // [N/m] of walls and instruments at a bead
 constexpr double kSteelFriction = 0.15, kWallFriction = 0.3, kTissueFriction = 0.1;  // of needles
 
-int heaviest(const SkinPoint& on) noexcept {
+int heaviest_corner(const SkinPoint& on) noexcept {
   size_t best = 0;
   for (size_t k = 1; k < 3; ++k)
     if (on.weights[int(k)] > on.weights[int(best)]) best = k;
   return on.vertex[best];
 }
 
-const Surface& surface_of(const TissueBodies& bodies, BodyId body) noexcept {
+const Surface& skin_of(const TissueBodies& bodies, BodyId body) noexcept {
   return body.is(BodyKind::organ) ? bodies.organs[body.index()] : bodies.membranes[body.index()].surface;
 }
 
 NearSkin at_surface(const TissueBodies& bodies, BodyId body, int vertex, Vec3d p) noexcept {
-  const Surface& surface = surface_of(bodies, body);
+  const Surface& surface = skin_of(bodies, body);
   NearSkin near;
   if (vertex < 0 || vertex >= surface.skin->size() || !surface.skin->at_surface(vertex) || surface.torn(vertex))
     return near;
@@ -36,7 +36,7 @@ NearSkin at_surface(const TissueBodies& bodies, BodyId body, int vertex, Vec3d p
   const Vec3d off = p - on.point;
   const double away = length(off);
   double side = dot(off, on.normal) < 0 ? -1.0 : 1.0;
-  near = {body, heaviest(on), 0, on.point, on.normal, {}, side * away};
+  near = {body, heaviest_corner(on), 0, on.point, on.normal, {}, side * away};
   if (away > 1e-5 && away < 0.003) near.normal = normalised((side / away) * off + 0.2 * on.normal);
   if (body.is(BodyKind::membrane)) {  // both sides of a fold are outside; of a pouch, too
     near.normal = side * near.normal;
@@ -55,7 +55,12 @@ NearSkin at_element(const TissueBodies& bodies, BodyId body, int e, Vec3d p) noe
   const double w = std::clamp(dot(p - a, ab) / std::max(1e-12, dot(ab, ab)), 0.0, 1.0);
   const Vec3d off = p - (a + w * ab), out = normalised(off, any_perpendicular(normalised(ab)));
   const double radius = strand.model.radius[size_t(e)];
-  return {body, e, w, a + w * ab + radius * out, out, s.v[size_t(e)] + w * (s.v[size_t(e) + 1] - s.v[size_t(e)]),
+  return {body,
+          e,
+          w,
+          a + w * ab + radius * out,
+          out,
+          s.v[size_t(e)] + w * (s.v[size_t(e) + 1] - s.v[size_t(e)]),
           length(off) - radius};
 }
 
@@ -74,7 +79,7 @@ NearSkin look_again(const TissueBodies& bodies, SutureNear& near, Vec3d p) noexc
     if (best.there()) near.vertex = best.vertex;
     return best;
   }
-  const Surface& surface = surface_of(bodies, body);
+  const Surface& surface = skin_of(bodies, body);
   if (!surface.pose->bounds.reaches(p, kSkinReach)) return {};
   near.vertex = walk_to_nearest(surface, near.vertex, p);
   return at_surface(bodies, body, near.vertex, p);
@@ -108,7 +113,7 @@ void push_tissue(const TissueBodies& bodies, const NearSkin& on, double depth, T
     loads.strands[on.body.index()].add(load, {Owner::body, 0, 0});
     return;
   }
-  push_skin(surface_of(bodies, on.body), on.vertex, -0.5 * way * on.normal, on.normal, 2 * kBodyStiffness, kBodyDamping,
+  push_skin(skin_of(bodies, on.body), on.vertex, -0.5 * way * on.normal, on.normal, 2 * kBodyStiffness, kBodyDamping,
             on.body.is(BodyKind::organ) ? loads.organs[on.body.index()] : loads.membranes[on.body.index()]);
 }
 
@@ -117,8 +122,15 @@ class Resting {
  public:
   Resting(const SutureModels& models, size_t index, const TissueBodies& bodies, double dt, SutureState& s,
           SutureWorks& all, TissueLoads loads) noexcept
-      : m_models(models), m_model(models.list[index]), m_index(index), m_bodies(bodies), m_dt(dt), m_state(s),
-        m_all(all), m_work(all.list[index]), m_loads(loads) {}
+      : m_models(models),
+        m_model(models.list[index]),
+        m_index(index),
+        m_bodies(bodies),
+        m_dt(dt),
+        m_state(s),
+        m_all(all),
+        m_work(all.list[index]),
+        m_loads(loads) {}
 
   /// What was done to tissue in the last tick.
   void bear() noexcept {
@@ -127,8 +139,7 @@ class Resting {
       press_on(m_bodies, h.at, vector_of(h.force), kAcrossWire * m_dt, m_loads);
     }
     const SutureTouch& t = m_state.touch;
-    if (t.kind != SutureTouch::none)
-      press_on(m_bodies, t.at, -vector_of(t.force), kTipStiffness * m_dt, m_loads);
+    if (t.kind != SutureTouch::none) press_on(m_bodies, t.at, -vector_of(t.force), kTipStiffness * m_dt, m_loads);
   }
 
   void find(std::uint64_t tick) noexcept {
@@ -140,7 +151,7 @@ class Resting {
   }
 
  private:
-  static bool turn(std::uint64_t tick, int i) noexcept { return (tick + std::uint64_t(i)) % kLooks == 0; }
+  static bool turn(std::uint64_t tick, int i) noexcept { return (tick + std::uint64_t(i)) % kLooksAnew == 0; }
 
   NearSkin look(int i, Vec3d p, bool anew) noexcept {
     SutureNear& near = m_state.near[size_t(i)];
@@ -153,7 +164,7 @@ class Resting {
     const double arc = m.bead(b), radius = 0.5 * m.wire;
     const Vec3d p = suture::needle_point(m, m_state.needle, arc);
     const NearSkin on = look(b, p, anew);
-    if (on.there() && on.distance - radius < kSkinAhead && on.distance > -kDeepest &&
+    if (on.there() && on.distance - radius < kSkinAhead && on.distance > -kDeepestRest &&
         !goes_through(m_model, m_state, on.body, arc, true) && !(b == 0 && pricks(on)))
       rest(b, on, radius);
     const WallPlaces walls = walls_near(m_models.walls, p);
@@ -188,7 +199,7 @@ class Resting {
     const Vec3d p = m_state.thread.x[size_t(n)];
     const NearSkin on = look(i, p, anew);
     suture::SkinContact& c = m_work.skins[size_t(n)];
-    if (on.there() && on.distance - radius < kSkinAhead && on.distance > -kDeepest &&
+    if (on.there() && on.distance - radius < kSkinAhead && on.distance > -kDeepestRest &&
         !goes_through(m_model, m_state, on.body, s, false)) {
       c = {n, on.point + m_dt * on.velocity, on.normal, on.velocity, kBodyStiffness, -1};
       if (on.distance < radius) push_tissue(m_bodies, on, radius - on.distance, m_loads);
@@ -210,15 +221,15 @@ class Resting {
   void find_tip() noexcept {
     SutureTouch& t = m_state.touch;
     const bool inside = m_state.inside.exists();
-    const NearSkin on = inside ? nearest_skin(m_bodies, m_state.inside, tip(), 0.015)
-                               : look_again(m_bodies, m_state.near[0], tip());
+    const NearSkin on =
+        inside ? nearest_skin(m_bodies, m_state.inside, tip(), 0.015) : look_again(m_bodies, m_state.near[0], tip());
     const double off = inside ? -on.distance : on.distance, ahead = (inside ? 1 : -1) * dot(drives(), on.normal);
     const auto kind = inside ? SutureTouch::inside : SutureTouch::outside;
     if (t.kind != SutureTouch::none &&
         (t.kind != kind || !on.there() || t.at.body != on.body || off > kTipLeaves || ahead < 0.5 * kPricks))
       t = {};
     if (t.kind == SutureTouch::none) {
-      if (!on.there() || off > kTipAhead || ahead < kPricks || off < -kDeepest) return;
+      if (!on.there() || off > kTipAhead || ahead < kPricks || off < -kDeepestRest) return;
       t = {};
       t.kind = kind;
       t.at = stick_to(m_bodies, on.body, on.point);
@@ -264,7 +275,9 @@ class Resting {
     const suture::NeedleModel& m = m_model.needle;
     const int first = int(m_work.obstacles.size()) - kNeedlePieces;
     for (int k = 0; k < kNeedlePieces && first >= 0; ++k) {
-      const auto at = [&](int i) { return suture::needle_point(m, m_state.needle, 0.95 * m.length * i / kNeedlePieces); };
+      const auto at = [&](int i) {
+        return suture::needle_point(m, m_state.needle, 0.95 * m.length * i / kNeedlePieces);
+      };
       m_work.obstacles[size_t(first + k)] = {true, at(k), at(k + 1), 0.5 * m.wire, -1};
     }
   }
@@ -291,7 +304,7 @@ NearSkin nearest_skin(const TissueBodies& bodies, BodyId body, Vec3d p, double r
     }
     return best.there() && best.distance < reach ? best : NearSkin{};
   }
-  const Surface& surface = surface_of(bodies, body);
+  const Surface& surface = skin_of(bodies, body);
   if (!surface.pose->bounds.reaches(p, reach)) return {};
   return at_surface(bodies, body, nearest_vertex_near(surface, p, reach), p);
 }

@@ -8,19 +8,19 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kTrackApart = 0.001;      // [m] of holes along a path
-constexpr double kCutsWith = 0.3;          // of the puncture force: what the tip meets inside.            Ours
-constexpr double kTipRubs = 0.1;           // friction of the tip on skin
-constexpr double kSlidesBeside = 0.0004;   // [m] that a tip slides until it presses on another point
-constexpr double kBack = 0.0004;           // [m] that a tip is drawn out of its entry until it is out
-constexpr double kOffPath = 0.0015;        // [m] beside its old path the tip makes a new one
-constexpr double kThreadDrag = 0.01;       // [N] of a hole on the thread in it.                           Ours
-constexpr double kThreadHole = 1000;       // [N/m] of a hole about the thread
-constexpr double kKept = 0.003;            // [m] of a bite's way the thread's holes are apart
-constexpr double kCutsThrough = 3;         // times the force that harms
-constexpr double kNeedleTorque = 0.003;    // [N m] that fully pinched jaws bear of a needle               [d]
-constexpr double kFullPinch = 25;          // [N] of a needle holder
-constexpr double kTautAbove = 0.002;       // [N]
+constexpr double kTrackApart = 0.001;     // [m] of holes along a path
+constexpr double kCutsWith = 0.3;         // of the puncture force: what the tip meets inside.            Ours
+constexpr double kTipRubs = 0.8;            // friction of a point on skin, which catches. Ours
+constexpr double kSlidesBeside = 0.0008;  // [m] that a tip slides until it presses on another point
+constexpr double kDrawnBack = 0.0004;          // [m] that a tip is drawn out of its entry until it is out
+constexpr double kOffPath = 0.0015;       // [m] beside its old path the tip makes a new one
+constexpr double kThreadDrag = 0.01;      // [N] of a hole on the thread in it.                           Ours
+constexpr double kThreadHole = 1000;      // [N/m] of a hole about the thread
+constexpr double kKept = 0.003;           // [m] of a bite's way the thread's holes are apart
+constexpr double kCutsThrough = 3;        // times the force that harms
+constexpr double kNeedleTorque = 0.003;   // [N m] that fully pinched jaws bear of a needle               [d]
+constexpr double kFullPinch = 25;         // [N] of a needle holder
+constexpr double kTautAbove = 0.002;      // [N]
 constexpr double kTailWay = 1e-4, kMostTail = 2000;  // [m], [N/m] secant of the thread's pull at the swage
 
 Vec3d across_of(Vec3d v, Vec3d n) noexcept { return v - dot(v, n) * n; }
@@ -29,16 +29,23 @@ class Sewing {
  public:
   Sewing(const SutureModels& models, size_t index, const TissueBodies& bodies, Vec3d gravity, double dt,
          const tissue::Box& cavity, SutureState& s, SutureWorks& all, SewnReport& report) noexcept
-      : m_models(models), m_model(models.list[index]), m_index(std::int32_t(index)), m_bodies(bodies),
-        m_gravity(gravity), m_dt(dt), m_cavity(cavity), m_state(s), m_all(all), m_work(all.list[index]),
+      : m_models(models),
+        m_model(models.list[index]),
+        m_index(std::int32_t(index)),
+        m_bodies(bodies),
+        m_gravity(gravity),
+        m_dt(dt),
+        m_cavity(cavity),
+        m_state(s),
+        m_all(all),
+        m_work(all.list[index]),
         m_report(report) {}
 
   void move_needle() noexcept {
     if (!m_model.has_needle()) return;
     pin();
     meet_tip();
-    m_work.needle.tail = {m_state.tail_force,
-                          std::min(kMostTail, length(m_state.tail_force) / kTailWay)};
+    m_work.needle.tail = {m_state.tail_force, std::min(kMostTail, length(m_state.tail_force) / kTailWay)};
     if (length(m_state.tail_force) < kTautAbove) m_work.needle.tail.stiffness = 0;
     const bool fine = suture::advance(m_model.needle, m_gravity, m_dt, m_state.needle, m_work.needle);
     if (!fine && !m_report.bad.exists()) m_report.bad = BodyId(BodyKind::suture, size_t(m_index));
@@ -228,8 +235,9 @@ class Sewing {
       return;
     }
     const double arc = arc_of(*front);
-    const double off = length(suture::needle_point(m_model.needle, m_state.needle, arc) - point_of(m_bodies, front->at));
-    if (front->kind == SutureHole::entry && arc < -kBack) {
+    const double off =
+        length(suture::needle_point(m_model.needle, m_state.needle, arc) - point_of(m_bodies, front->at));
+    if (front->kind == SutureHole::entry && arc < -kDrawnBack) {
       drop_newest();
       m_state.inside = {};
       m_state.touch = {};
@@ -475,8 +483,8 @@ bool goes_through(const SutureModel& m, const SutureState& s, BodyId body, doubl
   return false;
 }
 
-SewnReport sew(const SutureModels& models, const TissueBodies& bodies, Vec3d gravity, double dt, const tissue::Box& cavity,
-               Suture::States& states, SutureWorks& work) noexcept {
+SewnReport sew(const SutureModels& models, const TissueBodies& bodies, Vec3d gravity, double dt,
+               const tissue::Box& cavity, Suture::States& states, SutureWorks& work) noexcept {
   SewnReport report;
   for (size_t i = 0; i < states.size(); ++i) {
     Sewing sewing(models, i, bodies, gravity, dt, cavity, states[i], work, report);

@@ -37,8 +37,10 @@ struct Tissue {
   double failure_strain = 0;  ///< tears beyond it (0: never)
   double damping_ms = 2;      ///< stiffness-proportional damping, a time [ms]
   double fracture = 0;        ///< what it takes to tear a square metre of it off (0: bonds never do) [J/m^2]
+  double puncture = 0;        ///< of a needle's tip [N]; 0: where nothing is known, interactions::StitchTissue
+  double stitch_damage = 0;   ///< of a stitch's pull, from which on it harms [N]; 0: the same
   std::string source;         ///< literature or "ours": of the figures that have no source of their own below
-  std::array<std::string, 9> source_of;  ///< in the order of kTissueFigures; empty: `source`
+  std::array<std::string, 11> source_of;  ///< in the order of kTissueFigures; empty: `source`
   core::Location at;
 };
 /// The figures of a tissue, as files name them.
@@ -46,7 +48,7 @@ struct TissueFigure {
   const char* key;
   double Tissue::*value;
 };
-inline constexpr std::array<TissueFigure, 9> kTissueFigures{{{"density_kg_m3", &Tissue::density},
+inline constexpr std::array<TissueFigure, 11> kTissueFigures{{{"density_kg_m3", &Tissue::density},
                                                              {"young_Pa", &Tissue::young},
                                                              {"poisson", &Tissue::poisson},
                                                              {"p1", &Tissue::p1},
@@ -54,7 +56,9 @@ inline constexpr std::array<TissueFigure, 9> kTissueFigures{{{"density_kg_m3", &
                                                              {"strain_cap", &Tissue::strain_cap},
                                                              {"failure_strain", &Tissue::failure_strain},
                                                              {"damping_ms", &Tissue::damping_ms},
-                                                             {"fracture_J_m2", &Tissue::fracture}}};
+                                                             {"fracture_J_m2", &Tissue::fracture},
+                                                             {"puncture_N", &Tissue::puncture},
+                                                             {"stitch_damage_N", &Tissue::stitch_damage}}};
 
 /// A section of a lofted body: a super-ellipse with two half-axis vectors.
 struct Section {

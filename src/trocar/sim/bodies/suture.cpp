@@ -34,10 +34,9 @@ void rest_sutures(StepContext& c) noexcept {
 void sew(StepContext& c) noexcept {
   if (!has_sutures(c)) return;
   see_again(c);
-  const interactions::SewnReport r =
-      interactions::sew(interactions::part_of<Suture>(c.model.objects), bodies_of(c), c.model.gravity, kTick,
-                        c.model.cavity, interactions::part_of<Suture>(c.state.objects),
-                        interactions::part_of<Suture>(c.work.objects));
+  const interactions::SewnReport r = interactions::sew(
+      interactions::part_of<Suture>(c.model.objects), bodies_of(c), c.model.gravity, kTick, c.model.cavity,
+      interactions::part_of<Suture>(c.state.objects), interactions::part_of<Suture>(c.work.objects));
   if (r.overflowed) c.report.flags |= StepReport::kTooManyLoads;
   if (r.torn.exists()) tell(c, Event::torn, 0, r.torn);
   if (!r.bad.exists() || c.report.first_bad_body.exists()) return;
@@ -48,10 +47,9 @@ void sew(StepContext& c) noexcept {
 
 void slip_in_jaws(StepContext& c, std::size_t hand) noexcept {
   if (!has_sutures(c)) return;
-  interactions::slip_in_jaws(interactions::part_of<Suture>(c.model.objects),
-                             interactions::part_of<Suture>(c.state.objects),
-                             interactions::part_of<Suture>(c.work.objects), int(hand), c.work.shapes[hand],
-                             c.state.tools[hand]);
+  interactions::slip_in_jaws(
+      interactions::part_of<Suture>(c.model.objects), interactions::part_of<Suture>(c.state.objects),
+      interactions::part_of<Suture>(c.work.objects), int(hand), c.work.shapes[hand], c.state.tools[hand]);
 }
 
 }  // namespace trocar::sim
