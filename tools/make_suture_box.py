@@ -18,10 +18,10 @@ from make_basics import flat, text  # noqa: E402
 ROOT = Path(__file__).parent.parent / "scenes"
 CENTRE = (0.0, 70.0)
 TOP, THICK = -70.0, 7.5
-HALF_X, HALF_Y = 30.0, 20.0
+HALF_X, HALF_Y = 30.0, 21.25
 SLIT_X, SLIT_Y = 12.5, 1.25  # half of its length and width
 EDGE = 2.5
-BITE = 5.0  # of each mark from the slit's middle
+BITE = 7.0  # of each mark from the slit's middle
 HEAD = "// Written by tools/make_suture_box.py, which holds the figures.\n"
 
 
@@ -92,7 +92,7 @@ def scene():
         "tools": [{"instrument": "needle_holder", "port": "left", "tip_mm": [-30, 70, -45]},
                   {"instrument": "needle_holder", "port": "right", "tip_mm": [25, 78, -48]}],
         "sutures": [{"name": "suture", "size": "3-0", "make": "PDS", "length_mm": 150, "needle": "half_26",
-                     "held_by": "right", "line_mm": [[55, 85, -40], [70, 80, -25]]}],
+                     "held_by": "right", "grasped": 0.78, "line_mm": [[34, 62, -54], [55, 42, -60], [50, 15, -66], [0, 5, -70], [-40, 5, -72]]}],
         "scope": {"port": "middle", "tip_mm": [0, 26, -24], "angle_deg": 0, "field_of_view_deg": 70,
                   "shaft_diameter_mm": 10, "shaft_length_mm": 310},
     }

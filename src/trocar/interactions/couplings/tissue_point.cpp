@@ -163,27 +163,30 @@ Vec3d drawn_place(std::span<const Vec3d> rest, const TissuePoint& point) noexcep
   return p;
 }
 
-void press_on(const TissueBodies& bodies, const TissuePoint& point, Vec3d force, double resists,
-              TissueLoads loads) noexcept {
+void press_on(const TissueBodies& bodies, const TissuePoint& point, Vec3d force, double resists, double damps,
+              Vec3d velocity, TissueLoads loads) noexcept {
   const std::size_t i = point.body.index();
   if (point.body.is(BodyKind::strand)) {
     tissue::StrandLoad load;
     load.element = point.node[0];
     load.w = double(point.weight[0]);
-    load.d = resists;
-    load.f0 = force + resists * velocity_of(bodies, point);
+    load.d = resists + damps;
+    load.f0 = force + resists * velocity_of(bodies, point) + damps * velocity;
     loads.strands[i].add(load, {Owner::body, 0, 0});
     return;
   }
   const tissue::NodeView& nodes = nodes_of(bodies, point.body);
   NetworkLoads& to = point.body.is(BodyKind::organ) ? loads.organs[i] : loads.membranes[i];
+  double weights = 0;  // above 1 where the point lies outside of its nodes: bounds the coupling between them
+  for (int k = 0; k < point.count; ++k) weights += std::fabs(double(point.weight[std::size_t(k)]));
   for (int k = 0; k < point.count; ++k) {
-    const double share = double(point.weight[std::size_t(k)]), d = std::fabs(share) * resists;
+    const double share = double(point.weight[std::size_t(k)]), d = std::fabs(share) * weights * resists;
+    const double rubs = std::fabs(share) * damps;
     const int node = point.node[std::size_t(k)];
     tissue::NodeLoad load;
     load.node = node;
-    load.d = float(d);
-    load.f0 = vec_cast<float>(share * force + d * counted_on(nodes.velocity(node)));
+    load.d = float(d + rubs);
+    load.f0 = vec_cast<float>(share * force + d * counted_on(nodes.velocity(node)) + rubs * velocity);
     to.add(load, {Owner::strand_end, 0, 0}, k > 0);
   }
 }

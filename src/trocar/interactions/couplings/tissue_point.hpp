@@ -58,7 +58,8 @@ Vec3d velocity_of(const TissueBodies& bodies, const TissuePoint& point) noexcept
 Vec3d drawn_place(std::span<const Vec3d> rest, const TissuePoint& point) noexcept;
 
 /// @param resists  to changes of its velocity: stiffness of what presses times the tick [N s/m]
-void press_on(const TissueBodies& bodies, const TissuePoint& point, Vec3d force, double resists,
-              TissueLoads loads) noexcept;
+/// @param damps    to moving beside what presses, which goes with `velocity` [N s/m]
+void press_on(const TissueBodies& bodies, const TissuePoint& point, Vec3d force, double resists, double damps,
+              Vec3d velocity, TissueLoads loads) noexcept;
 
 }  // namespace trocar::interactions

@@ -9,11 +9,13 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kSkinReach = 0.006;     // [m] farther from a skin's vertices, it is not looked at
-constexpr double kSkinAhead = 0.0004;    // [m] contacts are there before they touch
-constexpr double kDeepestRest = 0.0025;      // [m] deeper is another side of the body
-constexpr std::uint64_t kLooksAnew = 16;     // ticks in which each bead and node looks for its skin anew
-constexpr double kHardStiffness = 2000;  // [N/m] of walls and instruments at a bead
+constexpr double kSkinReach = 0.006;      // [m] farther from a skin's vertices, it is not looked at
+constexpr double kSkinAhead = 0.0004;     // [m] contacts are there before they touch
+constexpr double kDeepestRest = 0.0025;   // [m] deeper is another side of the body
+constexpr std::uint64_t kLooksAnew = 16;  // ticks in which each bead and node looks for its skin anew
+constexpr double kCalms = 0.5;            // of what tissue resists, as damping beside a needle
+constexpr double kSameSide = 0.3;         // cosine between normals of one and the same patch of skin
+constexpr double kHardStiffness = 2000;   // [N/m] of walls and instruments at a bead
 constexpr double kSteelFriction = 0.15, kWallFriction = 0.3, kTissueFriction = 0.1;  // of needles
 
 int heaviest_corner(const SkinPoint& on) noexcept {
@@ -136,10 +138,18 @@ class Resting {
   void bear() noexcept {
     for (int i = 0; i < m_state.hole_count; ++i) {
       const SutureHole& h = m_state.holes[size_t(i)];
-      press_on(m_bodies, h.at, vector_of(h.force), kAcrossWire * m_dt, m_loads);
+      const double resists = (h.slot < 0 ? kAcrossWire : kThreadHole) * m_dt;
+      press_on(m_bodies, h.at, vector_of(h.force), resists, h.slot < 0 ? kCalms * resists : 0.0,
+               speed_at(double(h.arc)), m_loads);
     }
     const SutureTouch& t = m_state.touch;
-    if (t.kind != SutureTouch::none) press_on(m_bodies, t.at, -vector_of(t.force), kTipStiffness * m_dt, m_loads);
+    const double resists = kTipStiffness * m_dt;
+    if (t.kind != SutureTouch::none)
+      press_on(m_bodies, t.at, -vector_of(t.force), resists, kCalms * resists, speed_at(0), m_loads);
+  }
+  /// Of the needle [m/s].
+  Vec3d speed_at(double arc) const noexcept {
+    return suture::speed_of(m_state.needle, rotate(m_state.needle.q, m_model.needle.place(arc)));
   }
 
   void find(std::uint64_t tick) noexcept {
@@ -223,8 +233,13 @@ class Resting {
     const bool inside = m_state.inside.exists();
     const NearSkin on =
         inside ? nearest_skin(m_bodies, m_state.inside, tip(), 0.015) : look_again(m_bodies, m_state.near[0], tip());
-    const double off = inside ? -on.distance : on.distance, ahead = (inside ? 1 : -1) * dot(drives(), on.normal);
+    const double side = inside ? -1 : 1, off = side * on.distance, ahead = -side * dot(drives(), on.normal);
     const auto kind = inside ? SutureTouch::inside : SutureTouch::outside;
+    if (t.kind == kind && on.there() && on.body == t.at.body && dot(on.normal, vector_of(t.normal)) < kSameSide) {
+      // it has been drawn so far that another part of the skin is nearer
+      if (-side * dot(tip() - point_of(m_bodies, t.at), vector_of(t.normal)) < -kTipLeaves) t = {};
+      return;
+    }
     if (t.kind != SutureTouch::none &&
         (t.kind != kind || !on.there() || t.at.body != on.body || off > kTipLeaves || ahead < 0.5 * kPricks))
       t = {};

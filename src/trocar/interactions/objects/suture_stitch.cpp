@@ -10,17 +10,18 @@ namespace {
 
 constexpr double kTrackApart = 0.001;     // [m] of holes along a path
 constexpr double kCutsWith = 0.3;         // of the puncture force: what the tip meets inside.            Ours
-constexpr double kTipRubs = 0.8;            // friction of a point on skin, which catches. Ours
+constexpr double kComesOutWith = 0.6;     // of the puncture force: skin that is stretched over a tip.     Ours
+constexpr double kTipRubs = 1.5;          // friction of a point on skin, which catches. Ours
 constexpr double kSlidesBeside = 0.0008;  // [m] that a tip slides until it presses on another point
-constexpr double kDrawnBack = 0.0004;          // [m] that a tip is drawn out of its entry until it is out
+constexpr double kDrawnBack = 0.0004;     // [m] that a tip is drawn out of its entry until it is out
 constexpr double kOffPath = 0.0015;       // [m] beside its old path the tip makes a new one
 constexpr double kThreadDrag = 0.01;      // [N] of a hole on the thread in it.                           Ours
-constexpr double kThreadHole = 1000;      // [N/m] of a hole about the thread
 constexpr double kKept = 0.003;           // [m] of a bite's way the thread's holes are apart
 constexpr double kCutsThrough = 3;        // times the force that harms
-constexpr double kNeedleTorque = 0.003;   // [N m] that fully pinched jaws bear of a needle               [d]
-constexpr double kFullPinch = 25;         // [N] of a needle holder
-constexpr double kTautAbove = 0.002;      // [N]
+constexpr double kNeedleTorque =
+    0.003;                         // [N m] that fully pinched jaws bear of a needle's turning between their faces. [d]
+constexpr double kFullPinch = 25;  // [N] of a needle holder
+constexpr double kTautAbove = 0.002;                 // [N]
 constexpr double kTailWay = 1e-4, kMostTail = 2000;  // [m], [N/m] secant of the thread's pull at the swage
 
 Vec3d across_of(Vec3d v, Vec3d n) noexcept { return v - dot(v, n) * n; }
@@ -175,7 +176,8 @@ class Sewing {
     const Vec3d normal = vector_of(t.normal), p = tip();
     const double along = -dot(vector_of(t.force), drives());
     const double square = std::fabs(dot(drives(), normal));
-    if (along >= puncture(t.at.body) && square > kPricks) {
+    const double bears = (t.kind == SutureTouch::inside ? kComesOutWith : 1) * puncture(t.at.body);
+    if (along >= bears && square > kPricks) {
       pierce();
       return;
     }
@@ -422,24 +424,35 @@ Twist twist_of(const SutureWork& w, int hand, const ToolShape& shape, const Tool
   return t;
 }
 
-void turn_in_jaws(const SutureWork& w, int hand, const ToolShape& shape, ToolState& tool) noexcept {
+/// Flat jaws bear a twist about the way they open, and about the wire itself, by friction; about their own axis, in
+/// which the wire would have to spread them, by their pinch over half their width.
+Vec3d beyond_of(Vec3d torque, double pinch, double width) noexcept {
+  const double rubs = kNeedleTorque * std::min(1.0, pinch / kFullPinch), spreads = 0.5 * width * pinch;
+  const double in_plane = std::sqrt(torque.x * torque.x + torque.y * torque.y);
+  const double f = in_plane > rubs ? 1 - rubs / in_plane : 0.0;
+  const double g = std::fabs(torque.z) > spreads ? 1 - spreads / std::fabs(torque.z) : 0.0;
+  return {f * torque.x, f * torque.y, g * torque.z};
+}
+
+/// The jaws' places go back by what the needle has turned against them beyond what they bear.
+void turn_in_jaws(const SutureWork& w, int hand, const ToolModel& model, const ToolShape& shape,
+                  ToolState& tool) noexcept {
+  constexpr double kMostTurn = 0.02;  // [rad] a tick
   const Twist t = twist_of(w, hand, shape, tool);
-  const double bears = kNeedleTorque * std::min(1.0, tool.pinch / kFullPinch), twists = length(t.torque);
-  if (!(twists > bears)) return;
+  const Vec3d beyond = beyond_of(t.torque, tool.pinch, model.jaw_width);
+  if (beyond == Vec3d{}) return;
   Mat3d k = t.stiffness;
   const double ridge = 1e-3 * trace(k) + 1e-9;
   for (int i = 0; i < 3; ++i) k.m[i][i] += ridge;
-  // The jaws' places go back by what the needle has turned against them beyond what they bear.
-  const Vec3d beyond = (1 - bears / twists) * t.torque;
   const double det = determinant(k);
   const Vec3d a = k.column(0), b = k.column(1), c = k.column(2);
   const Vec3d by = -(1.0 / det) * Vec3d{dot(beyond, cross(b, c)), dot(a, cross(beyond, c)), dot(a, cross(b, beyond))};
-  const double most = 0.02, size = length(by);  // [rad] a tick
-  const Quatd turn = quat_from_rotation_vector(size > most ? (most / size) * by : by);
+  const double size = length(by);
+  const Quatd turn = quat_from_rotation_vector(size > kMostTurn ? (kMostTurn / size) * by : by);
   for (int i = 0; i < tool.holds; ++i) {
     float* l = tool.hold[i].local;
     const Vec3d to = t.middle + rotate(turn, Vec3d{double(l[0]), double(l[1]), double(l[2])} - t.middle);
-    for (int c2 = 0; c2 < 3; ++c2) l[c2] = float(to[c2]);
+    for (int n = 0; n < 3; ++n) l[n] = float(to[n]);
   }
 }
 
@@ -495,11 +508,11 @@ SewnReport sew(const SutureModels& models, const TissueBodies& bodies, Vec3d gra
 }
 
 void slip_in_jaws(const SutureModels& models, const Suture::States& states, const SutureWorks& work, int hand,
-                  const ToolShape& shape, ToolState& tool) noexcept {
+                  const ToolModel& model, const ToolShape& shape, ToolState& tool) noexcept {
   if (tool.holds == 0 || !tool.hold[0].body.is(BodyKind::suture)) return;
   const size_t i = tool.hold[0].body.index();
   if (on_needle(models.list[i], tool.hold[0].element))
-    turn_in_jaws(work.list[i], hand, shape, tool);
+    turn_in_jaws(work.list[i], hand, model, shape, tool);
   else
     follow_thread(models.list[i], states[i], hand, tool);
 }

@@ -12,6 +12,7 @@ namespace trocar::interactions {
 
 inline constexpr double kAcrossWire = 200;     ///< of a millimetre of track [N/m]; times 1/mm: what an area costs. Ours
 inline constexpr double kTipStiffness = 1000;  ///< of skin under a tip [N/m]
+inline constexpr double kThreadHole = 1000;    ///< of a hole about the thread [N/m]
 inline constexpr double kPricks = 0.25;        ///< cosine between tip and skin's normal above which it can pierce
 inline constexpr double kTipAhead = 0.0001;    ///< [m] from which on a skin counts as touched
 inline constexpr double kTipLeaves = 0.0006;   ///< [m] from which on it does not any more
@@ -35,6 +36,6 @@ SewnReport sew(const SutureModels& models, const TissueBodies& bodies, Vec3d gra
 /// Jaws turn on a needle that is twisted in them with more than they bear, and follow a thread that slips through them.
 /// @param held  what that hand holds, a suture
 void slip_in_jaws(const SutureModels& models, const Suture::States& states, const SutureWorks& work, int hand,
-                  const ToolShape& shape, ToolState& tool) noexcept;
+                  const ToolModel& model, const ToolShape& shape, ToolState& tool) noexcept;
 
 }  // namespace trocar::interactions

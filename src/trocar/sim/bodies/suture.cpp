@@ -47,9 +47,10 @@ void sew(StepContext& c) noexcept {
 
 void slip_in_jaws(StepContext& c, std::size_t hand) noexcept {
   if (!has_sutures(c)) return;
-  interactions::slip_in_jaws(
-      interactions::part_of<Suture>(c.model.objects), interactions::part_of<Suture>(c.state.objects),
-      interactions::part_of<Suture>(c.work.objects), int(hand), c.work.shapes[hand], c.state.tools[hand]);
+  interactions::slip_in_jaws(interactions::part_of<Suture>(c.model.objects),
+                             interactions::part_of<Suture>(c.state.objects),
+                             interactions::part_of<Suture>(c.work.objects), int(hand), c.model.tool(c.state, hand),
+                             c.work.shapes[hand], c.state.tools[hand]);
 }
 
 }  // namespace trocar::sim
