@@ -10,7 +10,9 @@ namespace {
 constexpr double kSoftness = 0.02;   ///< of nearest places
 constexpr double kOnset = 0.02;      ///< overlap over which a press sets in, as a share of the thickness
 constexpr double kHardening = 0.15;  ///< overlap at which it is twice as stiff as it begins
-constexpr double kKeptApart = 0.5;   ///< of their distance that two elements may lose in a solve
+constexpr double kAllowed = 0.25;    ///< overlap that a solve may bring, as a share of the thickness
+constexpr double kDeeper = 0.1;      ///< what a deeper one may grow by
+constexpr double kKeptApart = 0.5;   ///< of the distance of two axes that a solve may take at the very most
 
 void widen(Vec3d& low, Vec3d& high, Vec3d p) {
   for (int k = 0; k < 3; ++k) {
@@ -175,15 +177,18 @@ int find_obstacles(const ThreadModel& m, const ThreadState& s, std::span<const O
 
 double safe_share(const ThreadModel& m, const ThreadState& s, int near, std::span<const Obstacle> given,
                   const ThreadWork& w) noexcept {
+  const double thickness = m.stuff.diameter;
   double share = 1;
-  const auto keep = [&share](double distance, double approach) {
-    if (approach * share > kKeptApart * distance) share = kKeptApart * distance / approach;
+  const auto keep = [&share, thickness](double distance, double at_rest, double approach) {
+    const double allowed =
+        std::min(kKeptApart * distance, std::max(distance - at_rest + kAllowed * thickness, kDeeper * thickness));
+    if (approach * share > allowed) share = allowed / approach;
   };
   const auto least = [&w](int e, Vec3d n) { return std::min(dot(w.delta[e], n), dot(w.delta[e + 1], n)); };
   for (int k = 0; k < near; ++k) {
     const auto [a, b] = w.near[k];
     const Nearness at = nearness(s, a, b, 0);
-    keep(at.distance, -least(a, at.normal) - least(b, -at.normal));
+    keep(at.distance, thickness, -least(a, at.normal) - least(b, -at.normal));
   }
   for (int a = 0; a + 1 < m.nodes; ++a)
     for (int o = 0; o < int(given.size()) && o < m.obstacles; ++o) {
@@ -196,7 +201,7 @@ double safe_share(const ThreadModel& m, const ThreadState& s, int near, std::spa
       if (!(distance > 1e-12)) continue;
       const Vec3d n = between / distance;
       const double moves = std::min(dot(w.obstacle_moves[2 * o], -n), dot(w.obstacle_moves[2 * o + 1], -n));
-      keep(distance, -least(a, n) - moves);
+      keep(distance, given[o].radius + 0.5 * thickness, -least(a, n) - moves);
     }
   return share;
 }

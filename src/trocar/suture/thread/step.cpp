@@ -10,6 +10,10 @@
 namespace trocar::suture {
 namespace {
 
+constexpr double kFreeMotion = 0.2;   ///< that a solve is asked to follow where nothing touches, in spacings
+constexpr double kMostMotion = 0.5;   ///< and at the very most, in diameters
+constexpr double kForgotten = 0.02;   ///< share of a tick that is not worth another solve
+constexpr double kMostSpeed = 3;      ///< that a node is taken to have [m/s]
 constexpr double kGripStiffness = 10;  ///< of a hold, in stiffnesses of an element's stretch
 
 double hold_stiffness(const ThreadModel& m) { return kGripStiffness * m.stuff.stretch / m.spacing; }
@@ -23,6 +27,7 @@ struct Tick {
   const ThreadDrive& drive;
   ThreadState& s;
   ThreadWork& w;
+  int solves = 0;   ///< before this one
   double left = 1;  ///< share of the tick that is left
   double h = 0;     ///< time of this solve [s]
   double part = 0;  ///< share of what is left that this solve takes
@@ -368,7 +373,9 @@ void move_nodes(Tick& t, double share) {
   t.moved += share * std::sqrt(most);
   Vec3d before = direction_of(t.s, 0), last{};
   for (int i = 0; i < t.m.nodes; ++i) {
-    t.s.v[i] = (1 / t.h) * t.w.delta[i];
+    const Vec3d v = (share / t.h) * t.w.delta[i];
+    const double speed = length(v);
+    t.s.v[i] = speed > kMostSpeed ? (kMostSpeed / speed) * v : v;
     const Vec3d old_next = i + 1 < t.m.nodes ? direction_of(t.s, i) : Vec3d{};
     last = t.s.x[i];
     t.s.x[i] += share * t.w.delta[i];
@@ -378,17 +385,27 @@ void move_nodes(Tick& t, double share) {
   (void)last;
 }
 
+/// What the solve says of a touch: its press, its friction, and what of the motion was taken.
+void end_touch(Touch& touch, Vec3d motion, double share) {
+  const double apart = dot(motion, touch.normal);
+  const Vec3d along = motion - apart * touch.normal;
+  const double before = touch.press;
+  touch.press = std::max(0.0, before - touch.stiffness * apart);
+  touch.force = touch.press * touch.normal - touch.rub_stiffness * (touch.strain + along);
+  touch.strain += share * along;
+}
+
 void rub_after(Tick& t, double share) {
   for (int k = 0; k < t.self; ++k) {
     Touch& touch = t.w.self[k];
     const Vec3d a = (1 - touch.s) * t.w.delta[touch.a] + touch.s * t.w.delta[touch.a + 1];
     const Vec3d b = (1 - touch.t) * t.w.delta[touch.b] + touch.t * t.w.delta[touch.b + 1];
-    slip(touch, share * (a - b));
+    end_touch(touch, a - b, share);
   }
   for (int k = 0; k < t.touching; ++k) {
     Touch& touch = t.w.touch[k];
     const Vec3d a = (1 - touch.s) * t.w.delta[touch.a] + touch.s * t.w.delta[touch.a + 1];
-    slip(touch, share * (a - touch.moved));
+    end_touch(touch, a - touch.moved, share);
   }
 }
 
@@ -465,7 +482,9 @@ void move_slots(Tick& t, double share, const ThreadReactions& out) {
 /// The share of what is left that the next solve takes.
 void choose_part(Tick& t) {
   const double motion = motion_left(t);
-  const double most = t.s.self_count + t.s.touch_count > 0 ? t.m.solve_motion : 0.2 * t.m.spacing;
+  const double wanted = t.s.self_count + t.s.touch_count > 0 ? t.m.solve_motion : kFreeMotion * t.m.spacing;
+  const double needed = std::min(motion / (t.m.most_solves - t.solves), kMostMotion * t.m.stuff.diameter);
+  const double most = std::max(wanted, needed);
   t.part = motion > most ? most / motion : 1;
   t.h = t.m.tick * t.left * t.part;
   for (int o = 0; o < t.m.obstacles; ++o) {
@@ -482,7 +501,7 @@ void look_around(Tick& t) {
   for (int i = 0; i < t.m.nodes; ++i) speed = std::max(speed, dot(t.s.v[i], t.s.v[i]));
   const double ahead = std::max(0.25 * d, 1.2 * t.h * std::sqrt(speed));
   if (t.reach > 0 && d + 2 * (t.moved + ahead) <= t.reach) return;
-  t.reach = 1.5 * d + 3 * ahead;
+  t.reach = 1.4 * d + 2 * ahead;  // below two diameters at rest: neighbours but one are not looked at
   t.near = find_near(t.m, t.s, t.reach, t.w);
   t.moved = 0;
 }
@@ -562,7 +581,7 @@ void report_reactions(const Tick& t, const ThreadReactions& out) {
     const Touch& touch = t.w.touch[k2];
     if (touch.b >= int(out.obstacles.size())) continue;
     const ObstacleState& seen = t.s.obstacles[touch.b];
-    const Vec3d force = touch.rub_stiffness * touch.strain - touch.press * touch.normal;
+    const Vec3d force = -touch.force;
     out.obstacles[touch.b].force += force;
     const Vec3d at = seen.a + touch.t * (seen.b - seen.a) + t.drive.obstacles[touch.b].radius * touch.normal;
     out.obstacles[touch.b].moment += cross(at - seen.a, force);
@@ -590,7 +609,7 @@ void report_loads(const Tick& t, ThreadReport& report) {
   if (report.tension > bears) report.flags |= ThreadReport::kOverloaded;
   report.contacts = t.self;
   report.lag = motion_left(t);
-  if (report.lag > 1e-9) report.flags |= ThreadReport::kLagging;
+  if (report.lag > 0.1 * t.m.stuff.diameter) report.flags |= ThreadReport::kLagging;
   if (t.full) report.flags |= ThreadReport::kFull;
 }
 
@@ -606,7 +625,7 @@ ThreadReport advance(const ThreadModel& m, const ThreadDrive& drive, const Threa
   }
   Tick t{.m = m, .drive = drive, .s = s, .w = w};
   begin_slots(t);
-  while (report.solves < m.most_solves && t.left > 1e-6) {
+  for (; t.solves < m.most_solves && t.left > kForgotten; ++t.solves) {
     ++report.solves;
     if (!solve_once(t, reactions, report)) {
       report.flags |= ThreadReport::kIndefinite;

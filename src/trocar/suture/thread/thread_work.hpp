@@ -27,6 +27,7 @@ struct Touch {
   double bound = 0;          ///< that friction's strain does not exceed [m]
   Vec3d strain{0, 0, 0};     ///< of friction: when the solve begins, then when it ends [m]
   double reached = 0;        ///< [m]
+  Vec3d force{0, 0, 0};      ///< on the first, as the solve has it [N]
   Vec3d moved{0, 0, 0};      ///< what the obstacle's point moves in this solve [m]
 };
 
