@@ -23,7 +23,7 @@
 
 #include <trocar/core/body_id.hpp>
 #include <trocar/core/fields.hpp>
-#include <trocar/interactions/couplings/tissue_point.hpp>
+#include <trocar/interactions/objects/tissue_point.hpp>
 #include <trocar/interactions/objects/object_hand.hpp>
 #include <trocar/interactions/objects/wall_grid.hpp>
 #include <trocar/suture/needle/needle_step.hpp>
