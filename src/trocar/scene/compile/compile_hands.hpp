@@ -19,4 +19,7 @@ bool has_needle(const sim::Model& model);
 /// Nothing in scenes without a needle. After hands and organs.
 void compile_injection(const Description& description, sim::Model& model);
 
+/// Sutures, once all bodies and hands are known: what a stitch meets in each, who holds what, how the thread lies.
+void compile_sutures(const Description& d, sim::Model& model, std::vector<core::Fault>& faults);
+
 }  // namespace trocar::scene

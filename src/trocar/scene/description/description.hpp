@@ -37,9 +37,10 @@ struct Tissue {
   double failure_strain = 0;  ///< tears beyond it (0: never)
   double damping_ms = 2;      ///< stiffness-proportional damping, a time [ms]
   double fracture = 0;        ///< what it takes to tear a square metre of it off (0: bonds never do) [J/m^2]
-  double puncture = 0.5;      ///< force at which a 22 G needle gets through its surface (0: none does) [N]
+  double puncture = 0.5;      ///< force at which a needle's tip gets through its surface (0: none does) [N]
+  double stitch_damage = 0;   ///< of a stitch's pull, from which on it harms [N]; 0: interactions::StitchTissue's
   std::string source;         ///< literature or "ours": of the figures that have no source of their own below
-  std::array<std::string, 10> source_of;  ///< in the order of kTissueFigures; empty: `source`
+  std::array<std::string, 11> source_of;  ///< in the order of kTissueFigures; empty: `source`
   core::Location at;
 };
 /// The figures of a tissue, as files name them.
@@ -47,7 +48,7 @@ struct TissueFigure {
   const char* key;
   double Tissue::*value;
 };
-inline constexpr std::array<TissueFigure, 10> kTissueFigures{{{"density_kg_m3", &Tissue::density},
+inline constexpr std::array<TissueFigure, 11> kTissueFigures{{{"density_kg_m3", &Tissue::density},
                                                              {"young_Pa", &Tissue::young},
                                                              {"poisson", &Tissue::poisson},
                                                              {"p1", &Tissue::p1},
@@ -56,7 +57,8 @@ inline constexpr std::array<TissueFigure, 10> kTissueFigures{{{"density_kg_m3", 
                                                              {"failure_strain", &Tissue::failure_strain},
                                                              {"damping_ms", &Tissue::damping_ms},
                                                              {"fracture_J_m2", &Tissue::fracture},
-                                                             {"puncture_N", &Tissue::puncture}}};
+                                                             {"puncture_N", &Tissue::puncture},
+                                                             {"stitch_damage_N", &Tissue::stitch_damage}}};
 
 /// A section of a lofted body: a super-ellipse with two half-axis vectors.
 struct Section {

@@ -3,6 +3,7 @@
 #include <trocar/sim/bodies/bonds.hpp>
 #include <trocar/sim/bodies/fat.hpp>
 #include <trocar/sim/bodies/spilling.hpp>
+#include <trocar/sim/bodies/suture.hpp>
 #include <trocar/sim/stages/advancing.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 #include <trocar/sim/stages/contacts.hpp>
@@ -66,6 +67,7 @@ constexpr Stage kStages[] = {
     {"advance membranes", advance_membranes},
     {"let stones fall", let_stones_fall},
     {"advance objects", advance_objects},
+    {"sew", sew},
     {"hold in bags", hold_in_bags},
     {"contain", contain},
     {"gather reactions", gather_reaction_forces},

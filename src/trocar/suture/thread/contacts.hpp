@@ -1,0 +1,35 @@
+// Which elements of a thread are near each other or near an obstacle, which touch, and how hard. Internal to the step.
+#pragma once
+
+#include <trocar/suture/thread/thread.hpp>
+
+namespace trocar::suture {
+
+/// Pairs of elements nearer than `reach` between their axes, ordered, into work.near. Returns their number.
+int find_near(const ThreadModel& m, const ThreadState& s, double reach, ThreadWork& w) noexcept;
+
+/// Which of the first `near` of them touch, into work.self. Returns how many do; more than fit are left out and `full`
+/// is set.
+int find_touching(const ThreadModel& m, const ThreadState& s, int near, ThreadWork& w, bool& full) noexcept;
+
+/// Elements that touch obstacles where those are seen, into work.touch. `radius` and `friction` of each come from
+/// `given`.
+int find_obstacles(const ThreadModel& m, const ThreadState& s, std::span<const Obstacle> given, ThreadWork& w,
+                   bool& full) noexcept;
+
+/// How the press of two things at rest `gap` apart grows with what they overlap.
+void set_press(Touch& touch, double stiffness, double thickness, double gap) noexcept;
+
+/// The largest share of `delta` at which no two elements come nearer than a part of their distance, nor a thread and an
+/// obstacle (which moves by w.obstacle_moves).
+double safe_share(const ThreadModel& m, const ThreadState& s, int near, std::span<const Obstacle> given,
+                  const ThreadWork& w) noexcept;
+
+/// Friction's bound and stiffness in a solve, from what it reached in the last.
+inline void set_friction(Touch& touch, double friction, double rub_stiffness) noexcept {
+  touch.bound = friction * touch.press / rub_stiffness;
+  const double reached = touch.reached > touch.bound ? touch.reached : touch.bound;
+  touch.rub_stiffness = reached > 0 ? rub_stiffness * (touch.bound / reached) : 0;
+}
+
+}  // namespace trocar::suture

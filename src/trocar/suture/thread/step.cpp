@@ -1,0 +1,140 @@
+// One tick of a thread: as many linear solves as the motion of what leads it asks for.
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/suture/thread/contacts.hpp>
+#include <trocar/suture/thread/spin.hpp>
+#include <trocar/suture/thread/tick.hpp>
+
+namespace trocar::suture {
+namespace {
+
+constexpr double kFreeMotion = 0.2;  ///< that a solve is asked to follow where nothing touches, in spacings
+constexpr double kMostMotion = 0.5;  ///< and at the very most, in diameters
+constexpr double kForgotten = 0.02;  ///< share of a tick that is not worth another solve
+
+/// The share of what is left that the next solve takes.
+void choose_part(Tick& t) {
+  const double motion = motion_left(t);
+  const double wanted = t.s.self_count + t.s.touch_count > 0 ? t.m.solve_motion : kFreeMotion * t.m.spacing;
+  const double needed = std::min(motion / (t.m.most_solves - t.solves), kMostMotion * t.m.stuff.diameter);
+  const double most = std::max(wanted, needed);
+  t.part = motion > most ? most / motion : 1;
+  t.h = t.m.tick * t.left * t.part;
+  set_obstacle_moves(t);
+}
+
+/// Near pairs hold as long as no node has gone so far that others may have come near.
+void look_around(Tick& t) {
+  const double d = t.m.stuff.diameter;
+  double speed = 0;
+  for (int i = 0; i < t.m.nodes; ++i) speed = std::max(speed, dot(t.s.v[i], t.s.v[i]));
+  const double ahead = std::max(0.25 * d, 1.2 * t.h * std::sqrt(speed));
+  if (t.reach > 0 && d + 2 * (t.moved + ahead) <= t.reach) return;
+  t.reach = 1.4 * d + 2 * ahead;  // below two diameters at rest: neighbours but one are not looked at
+  t.near = find_near(t.m, t.s, t.reach, t.w);
+  t.moved = 0;
+}
+
+/// How much of a solution is taken: no node goes so far that it may have met what is not looked at, and nothing passes
+/// through anything.
+double share_of_step(Tick& t) {
+  double most = 0;
+  for (int i = 0; i < t.m.nodes; ++i) most = std::max(most, dot(t.w.delta[i], t.w.delta[i]));
+  most = std::sqrt(most);
+  if (!(most < 1)) return -1;
+  const double room = 0.5 * (t.reach - t.m.stuff.diameter) - t.moved;
+  double share = safe_share(t.m, t.s, t.near, t.drive.obstacles, t.w);
+  if (share * most > room) share = room / most;
+  return share;
+}
+
+void find_contacts(Tick& t) {
+  t.self = find_touching(t.m, t.s, t.near, t.w, t.full);
+  t.touching = find_obstacles(t.m, t.s, t.drive.obstacles, t.w, t.full);
+}
+
+/// The element's director as a hold wants it.
+Vec3d wanted_director(const HoldState& h) {
+  return h.material.x * h.aim + h.material.y * h.side + h.material.z * cross(h.aim, h.side);
+}
+
+void spin_after(Tick& t) {
+  measure(t);
+  measure_twist(t.m, t.s, t.w);
+  SpinHold holds[16];
+  int count = 0;
+  for (int k = 0; k < std::min(t.m.holds, int(t.drive.holds.size())) && count < 16; ++k)
+    if (t.s.holds[k].active && !is_zero(t.drive.holds[k].side))
+      holds[count++] = {place_at(t.m, t.s.holds[k].s).element, wanted_director(t.s.holds[k])};
+  relax_spin(t.m, {holds, std::size_t(count)}, t.self, t.touching, t.s, t.w);
+}
+
+bool solve_once(Tick& t, const ThreadReactions& out) {
+  choose_part(t);
+  look_around(t);
+  find_contacts(t);
+  couple_touching(t);
+  add_terms(t);
+  if (t.w.system.factor() >= 0) return false;
+  t.w.system.solve();
+  for (int i = 0; i < t.m.nodes; ++i) t.w.delta[i] = t.w.system.unknown(i);
+  const double share = share_of_step(t);
+  if (!(share >= 0)) return false;
+  end_touches(t, share);
+  move_nodes(t, share);
+  spin_after(t);
+  settle_touches(t);
+  flow(t);
+  move_slots(t, share, out);
+  t.left *= 1 - share * t.part;
+  return true;
+}
+
+void clear(const ThreadReactions& out) {
+  std::fill(out.holds.begin(), out.holds.end(), HoldReaction{});
+  std::fill(out.obstacles.begin(), out.obstacles.end(), ObstacleReaction{});
+  std::fill(out.skins.begin(), out.skins.end(), Vec3d{});
+  std::fill(out.passages.begin(), out.passages.end(), PassageReaction{});
+}
+
+void report_loads(const Tick& t, ThreadReport& report) {
+  for (int e = 0; e + 1 < t.m.nodes; ++e) {
+    const double pull = tension(t.m, t.s, e);
+    if (pull > report.tension) report.tension = pull, report.weakest = (e + 0.5) * t.m.spacing;
+  }
+  const double bears = t.self > 0 ? t.m.stuff.knotted_break_force : t.m.stuff.break_force;
+  if (report.tension > bears) report.flags |= ThreadReport::kOverloaded;
+  report.contacts = t.self;
+  report.coupled = t.w.system.coupled();
+  report.lag = motion_left(t);
+  if (report.lag > 0.1 * t.m.stuff.diameter) report.flags |= ThreadReport::kLagging;
+  if (t.full) report.flags |= ThreadReport::kFull;
+}
+
+}  // namespace
+
+ThreadReport advance(const ThreadModel& m, const ThreadDrive& drive, const ThreadReactions& reactions, ThreadState& s,
+                     ThreadWork& w) noexcept {
+  ThreadReport report;
+  clear(reactions);
+  if (!all_finite(drive)) {
+    report.flags = ThreadReport::kNonFinite;
+    return report;
+  }
+  Tick t{.m = m, .drive = drive, .s = s, .w = w};
+  measure(t);
+  begin_slots(t);
+  for (; t.solves < m.most_solves && t.left > kForgotten; ++t.solves) {
+    ++report.solves;
+    if (!solve_once(t, reactions)) {
+      report.flags |= ThreadReport::kIndefinite;
+      break;
+    }
+  }
+  report_reactions(t, reactions);
+  report_loads(t, report);
+  return report;
+}
+
+}  // namespace trocar::suture
