@@ -182,6 +182,7 @@ class RoomWindow {
         if (const auto s = spot(m_room.ports[k].position);
             s && std::hypot(s->x - io.MousePos.x, s->y - io.MousePos.y) < kPortReach * m_window.scale())
           m_port = int(k), m_drags = true;
+      if (m_drags) tell_log("held");
       m_stale = true;
     }
     const bool pans = io.MouseDown[2] || (io.MouseDown[1] && io.KeyShift);

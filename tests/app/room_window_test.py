@@ -34,13 +34,15 @@ def tilt(eyes):
 
 def drag_port(eyes):
     name = "midclavicular"
+    time.sleep(1)  # a picture after the last key
     x, y = eyes.wait("the port on the screen", lambda: eyes.screen["ports"].get(name), 30)
     xdo("mousemove", x, y)
-    time.sleep(0.3)
+    time.sleep(0.5)
     xdo("mousedown", 1)
+    eyes.wait("the port in the hand", lambda: eyes.happened("held"), 30)  # pictures may take long
     for step in range(1, 9):
         xdo("mousemove", x + 3 * step, y + 2 * step)
-        time.sleep(0.1)
+        time.sleep(0.3)
     xdo("mouseup", 1)
     eyes.wait("the arm docked anew", lambda: eyes.happened("port"), 60)
 

@@ -203,11 +203,13 @@ TEST(Reader, NanAndNegativeMassAreFaultsWhereTheyStand) {
 TEST(Reader, UnknownKeysAreFaultsWithAGuess) {
   EXPECT_EQ(faults_of({{19, R"("ports": [{"name": "navel", @"positoin_mm": [0, 0, 0], "position_mm": [0, 0, 0], )"
                             R"("diameter_mm": 10}],)"}}),
-            one("expected a known key of a port (name, position_mm, diameter_mm, seal_friction_N), got \"positoin_mm\" "
+            one("expected a known key of a port (name, position_mm, diameter_mm, seal_friction_N, stiffness_N_mm, "
+                "drift_mm), got \"positoin_mm\" "
                 "(did you mean "
                 "\"position_mm\"?)"));
   EXPECT_EQ(faults_of({{19, R"("ports": [{"name": "navel", "position_mm": [0, 0, 0], "diameter_mm": 10, @"q": 0}],)"}}),
-            one("expected a known key of a port (name, position_mm, diameter_mm, seal_friction_N), got \"q\""));
+            one("expected a known key of a port (name, position_mm, diameter_mm, seal_friction_N, stiffness_N_mm, "
+                "drift_mm), got \"q\""));
 }
 
 TEST(Reader, DanglingNamesAreFaultsWithTheKnownOnes) {

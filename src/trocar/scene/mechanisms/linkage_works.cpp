@@ -85,6 +85,11 @@ class Works {
       for (const kinematics::BodyFrame* end : {&c.a, &c.b})
         if (end->body == body) part.pins.push_back(forwards(end->local.p));
     if (part.rods.empty()) return;
+    const Frame& begins = m_poses.front().frames[std::size_t(body)];
+    const auto at_handle = [&](const kinematics::BodyShape& s) {  // behind all that shows
+      return s.body != body || std::max(drawn(begins * s.from).z, drawn(begins * s.to).z) < -kShownRod;
+    };
+    if (std::all_of(m_m.shapes.begin(), m_m.shapes.end(), at_handle)) return;
     for (const kinematics::Pose& pose : m_poses) {
       const Frame& f = pose.frames[std::size_t(body)];
       part.at.push_back({forwards(f.r), drawn(f.p)});

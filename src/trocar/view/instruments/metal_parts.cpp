@@ -76,8 +76,8 @@ using interactions::LinkageWorks;
 
 constexpr double kBarFlat = 0.6;  // of a round rod's thickness across the fork: bars are flat there
 
-/// A rod with round ends; flat ones are thinner along y.
-MeshBuffer rod_between(const interactions::WorksRod& rod, bool flat) {
+/// A rod with round ends. @param thick  along y, as a share of what it is across that
+MeshBuffer rod_between(const interactions::WorksRod& rod, double thick) {
   constexpr int kSteps = 5, kSides = 20;
   const double length = trocar::length(rod.b - rod.a), r = rod.radius;
   std::vector<TurnPoint> outline;
@@ -91,7 +91,6 @@ MeshBuffer rod_between(const interactions::WorksRod& rod, bool flat) {
   const Vec3d z = length > 0 ? (rod.b - rod.a) / length : Vec3d{0, 0, 1};
   const Vec3d off = Vec3d{0, 1, 0} - z.y * z;
   const Vec3d y = trocar::length(off) > 0.1 ? normalised(off) : any_perpendicular(z);
-  const double thick = flat ? kBarFlat : 1;
   MeshBuffer b;
   append(b, upright, Mat3f::from_columns(vec_cast<float>(cross(y, z)), vec_cast<float>(thick * y), vec_cast<float>(z)),
          vec_cast<float>(rod.a));
@@ -119,7 +118,7 @@ MeshBuffer works_part(const LinkageWorks::Part& part, double radius, double shaf
     const bool along = std::fabs(rod.b.x - rod.a.x) < 1e-9 && std::fabs(rod.a.y) < 1e-9;
     for (Vec3d* end : {&rod.a, &rod.b})
       if (along) end->z = std::max(end->z, -shaft_end - 0.012);
-    merge(b, rod_between(rod, !along));
+    merge(b, rod_between(rod, along ? 1 : kBarFlat));
   }
   for (const Vec3d& at : part.pins) merge(b, pin({at.x, 0, at.z}, 0.16 * radius, 0.58 * radius));
   return b;
@@ -127,17 +126,12 @@ MeshBuffer works_part(const LinkageWorks::Part& part, double radius, double shaf
 
 /// Of a jaw: a flat piece from the hinge back to where the linkage takes hold of it. In the jaw's own frame.
 MeshBuffer tail_of(const LinkageWorks::Tail& tail, double radius) {
-  const double side = tail.jaw == 0 ? 1 : -1, y = 0.16 * radius, half_thick = 0.11 * radius, wide = 0.26 * radius;
+  constexpr double kTailFlat = 0.42;
+  const double side = tail.jaw == 0 ? 1 : -1, y = 0.16 * radius, wide = 0.24 * radius;
   const auto own = [&](Vec3d p) { return Vec3d{side * p.x, y, p.z}; };
-  const auto piece = [&](Vec3d from, Vec3d to) {
-    const Vec3d way = to - from, z = normalised(way, {0, 0, 1}), across = cross(Vec3d{0, 1, 0}, z);
-    const Vec3d over = 0.5 * wide * z;
-    return bar({{from - over, wide * across, half_thick * Vec3d{0, 1, 0}, kClean},
-                {to + over, wide * across, half_thick * Vec3d{0, 1, 0}, kClean}},
-               0.3);
-  };
-  MeshBuffer b = piece({0, y, 0}, own(tail.open));
-  if (trocar::length(tail.closed - tail.open) > 1e-6) merge(b, piece(own(tail.open), own(tail.closed)));
+  MeshBuffer b = rod_between({{0, y, 0}, own(tail.open), wide}, kTailFlat);
+  if (trocar::length(tail.closed - tail.open) > 1e-6)
+    merge(b, rod_between({own(tail.open), own(tail.closed), wide}, kTailFlat));
   return b;
 }
 
