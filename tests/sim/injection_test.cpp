@@ -86,16 +86,6 @@ struct Ward : small::Table {
   double at = 0.05;
 };
 
-struct NetworkVolume {
-  double all = 0;  ///< of all cells [m^3]
-  NetworkVolume(const tissue::NetworkModel& m, const tissue::NetworkState& s) {
-    for (const tissue::TetRest& cell : m.tets) {
-      const auto x = [&](int k) { return position(m, s, m.node_of_row[size_t(cell.row[k])]); };
-      all += dot(x(1) - x(0), cross(x(2) - x(0), x(3) - x(0))) / 6;
-    }
-  }
-};
-
 /// The drug in all of the organ, long enough for its full effect.
 void drug(State& s) {
   tissue::InfusionState& organ = s.injection.organs[kOrgan];
@@ -173,16 +163,21 @@ TEST(Injection, IntoTheOpenItIsSpilled) {
   EXPECT_EQ(w.state.fluids.ledger.in[size_t(fluids::Source::kIrrigated)].saline, w.account().spilled);
 }
 
-TEST(Injection, TheOrganSwellsByWhatItHolds) {
+TEST(Injection, WhereItLiesTheOrganSwellsByWhatItHolds) {  // [injected volume]
   Ward w;
   w.pierce();
-  const NetworkVolume before(w.model.solids[kOrgan].network, w.state.solids[kOrgan]);
   w.press(3000);
   w.steps(1500);
-  const NetworkVolume after(w.model.solids[kOrgan].network, w.state.solids[kOrgan]);
-  const double held = double(w.organ().total) * 1e-15;
-  EXPECT_GT(held, 0.4e-6);
-  EXPECT_NEAR((after.all - before.all) / held, 1, 0.15);
+  EXPECT_GT(double(w.organ().total) * 1e-15, 0.4e-6);
+  const tissue::InfusionModel& model = w.model.injection.organs[kOrgan].infusion;
+  double held = 0, more = 0;
+  for (size_t r = 0; r < model.room.size(); ++r) {
+    // Farther out the surface nearby opens tissue by more than lies there, and fluid does not pull.
+    if (double(w.organ().volume[r]) * 1e-15 < 0.1 * double(model.room[r])) continue;
+    held += double(w.organ().volume[r]) * 1e-15;
+    more += double(w.work.infusion[kOrgan].now[r]) - double(model.room[r]);
+  }
+  EXPECT_NEAR(more / held, 1, 0.05);
 }
 
 TEST(Injection, TheHandFeelsPressureTimesAreaOnItsPlunger) {  // [plunger]
