@@ -1,6 +1,6 @@
-// Ties knots as hands would, throw by throw: the first is laid loosely round a post and pulled tight by both tails; then
-// the tails are taken out of the air and laid in the next throw above it, and so on. Only free tails are ever laid; all
-// that is tight stays as the thread itself has come to rest.
+// Ties knots as hands would, throw by throw: the first is laid loosely round a post and pulled tight by both tails;
+// then the tails are taken out of the air and laid in the next throw above it, and so on. Only free tails are ever
+// laid; all that is tight stays as the thread itself has come to rest.
 #pragma once
 
 #include <algorithm>
@@ -17,9 +17,9 @@ namespace trocar::suture::test {
 struct TyingSetup {
   ThreadStuff stuff;
   double length = 0.15;
-  double spacing = 2;       ///< in diameters
-  double tension = 2;       ///< with which throws are pulled tight [N]
-  double speed = 0.02;      ///< of the hands [m/s]
+  double spacing = 2;   ///< in diameters
+  double tension = 2;   ///< with which throws are pulled tight [N]
+  double speed = 0.02;  ///< of the hands [m/s]
   double post_radius = 0.003;
   double post_friction = 0.1;
   double loop_radius = 0.0045;
@@ -49,7 +49,10 @@ class Tying {
     s = laid(m, laid_throws(path));
     const double centre = -3 * 0.5 * 1.6 * d - m_setup.loop_radius;
     const double y = centre;
-    posts[0] = {.present = true, .a = {0, y, -0.2}, .b = {0, y, 0.2}, .radius = m_setup.post_radius,
+    posts[0] = {.present = true,
+                .a = {0, y, -0.2},
+                .b = {0, y, 0.2},
+                .radius = m_setup.post_radius,
                 .friction = m_setup.post_friction};
     take_tails();
     sign_a = 1;
@@ -227,7 +230,8 @@ inline double least_distance(const Tying& rig) {
   double least = 2;
   for (int k = 0; k < rig.last.contacts; ++k) {
     const Touch& q = rig.w.self[k];
-    const Vec3d p = (1 - q.s) * rig.s.x[q.a] + q.s * rig.s.x[q.a + 1] - (1 - q.t) * rig.s.x[q.b] - q.t * rig.s.x[q.b + 1];
+    const Vec3d p =
+        (1 - q.s) * rig.s.x[q.a] + q.s * rig.s.x[q.a + 1] - (1 - q.t) * rig.s.x[q.b] - q.t * rig.s.x[q.b + 1];
     least = std::min(least, length(p) / rig.m.stuff.diameter);
   }
   return least;

@@ -130,7 +130,7 @@ void Suture::clear(Work& all) noexcept {
     std::fill(w.skins.begin(), w.skins.end(), suture::SkinContact{});
     std::fill(w.obstacles.begin(), w.obstacles.end(), suture::Obstacle{});
     std::fill(w.obstacle_reactions.begin(), w.obstacle_reactions.end(), suture::ObstacleReaction{});
-    w.thread_flags = 0;
+    w.thread_report = {};
   }
 }
 

@@ -206,7 +206,7 @@ struct SutureWork {
   std::vector<suture::ObstacleReaction> obstacle_reactions;
   std::vector<Vec3d> skin_reactions;
   std::vector<suture::PassageReaction> passage_reactions;
-  std::uint32_t thread_flags = 0;
+  suture::ThreadReport thread_report;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
@@ -214,7 +214,7 @@ struct SutureWork {
         v("contact_normals", s.contact_normals), v("holds", s.holds), v("obstacles", s.obstacles), v("skins", s.skins),
         v("passages", s.passages), v("hold_reactions", s.hold_reactions), v("obstacle_reactions", s.obstacle_reactions),
         v("skin_reactions", s.skin_reactions), v("passage_reactions", s.passage_reactions),
-        v("thread_flags", s.thread_flags);
+        v("thread_report", s.thread_report);
   }
 };
 struct SutureWorks {

@@ -73,7 +73,7 @@ class Sewing {
         m_model.thread, {m_work.holds, m_work.obstacles, m_work.skins, m_work.passages},
         {m_work.hold_reactions, m_work.obstacle_reactions, m_work.skin_reactions, m_work.passage_reactions},
         m_state.thread, m_work.thread);
-    m_work.thread_flags = r.flags;
+    m_work.thread_report = r;
     m_state.strain = r.tension;
     if (r.flags & suture::ThreadReport::kNonFinite && !m_report.bad.exists())
       m_report.bad = BodyId(BodyKind::suture, size_t(m_index));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/suture/thread/contacts.hpp>
 #include <trocar/suture/thread/tick.hpp>
 
@@ -13,11 +14,12 @@ double passage_friction(const Tick& t, const Passage& p) {
 }
 
 /// A hold or a passage whose thread has slipped beyond its bound holds another place of it; returns how far.
-double slip_along(const Tick& t, Vec3d holder, Vec3d d, double bound, double& s, double& reached) {
-  const double along = dot(point_at(t.m, t.s, s) - holder, d);
+double slip_along(const Tick& t, Vec3d off, Vec3d d, double bound, double& s, double& reached) {
+  const double along = dot(off, d);
   reached = std::fabs(along);
   if (!(reached > bound)) return 0;
-  const double slipped = along > 0 ? along - bound : along + bound;
+  const double stretched = t.w.length[place_at(t.m, s).element] / t.m.spacing;
+  const double slipped = (along > 0 ? along - bound : along + bound) / stretched;
   s -= slipped;
   return slipped;
 }
@@ -55,7 +57,7 @@ void begin_slots(Tick& t) noexcept {
   }
   for (int k = 0; k < t.m.passages; ++k) {
     PassageState& p = t.s.passages[k];
-    if (p.active && p.fresh) p.fresh = 0, p.seen = point_at(t.m, t.s, p.s);
+    if (p.active && p.fresh) p.fresh = 0, p.seen = smooth_place(t.m, p.s).of(t.s.x);
   }
   for (int o = 0; o < t.m.obstacles; ++o) {
     ObstacleState& seen = t.s.obstacles[o];
@@ -108,7 +110,15 @@ Vec3d passage_direction(const Tick& t, int k, int element) noexcept {
 }
 double passage_bound(const Tick& t, int k) noexcept {
   const Passage& p = t.drive.passages[k];
-  return (p.drag + passage_friction(t, p) * t.s.passages[k].press) / p.stiffness;
+  const double mu = passage_friction(t, p);
+  // What turns by theta in one point shall rub as if it did so round a bend: T2 = T1 e^(mu theta) + drag.
+  const int e = place_at(t.m, t.s.passages[k].s).element, before = e > 0 ? e - 1 : e,
+            after = e + 2 < t.m.nodes ? e + 1 : e;
+  const double theta = portable::acos(dot(t.w.along[before], t.w.along[after]));
+  const double c = portable::cos(0.5 * theta), s = portable::sin(0.5 * theta);
+  const double grown = portable::exp(mu * theta);
+  const double share = s > 1e-3 ? c / s * (grown - 1) / (grown + 1) : mu;
+  return (p.drag * c + share * t.s.passages[k].press) / p.stiffness;
 }
 
 /// Skins are planes that nodes lie on. What friction does there is found as between elements.
@@ -138,7 +148,7 @@ void move_slots(Tick& t, double share, const ThreadReactions& out) noexcept {
     if (!is_zero(hold.side)) h.side = normalised(h.side + (share * t.part) * (hold.side - h.side), h.side);
     if (!(hold.friction_limit > 0)) continue;
     const Vec3d d = t.w.along[place_at(t.m, h.s).element];
-    const double slipped = slip_along(t, h.seen, d, hold.friction_limit / k, h.s, h.reached);
+    const double slipped = slip_along(t, point_at(t.m, t.s, h.s) - h.seen, d, hold.friction_limit / k, h.s, h.reached);
     if (n < int(out.holds.size())) out.holds[n].slipped += slipped;
     if (!(h.s >= 0 && h.s <= t.m.length)) h = {};
   }
@@ -147,9 +157,9 @@ void move_slots(Tick& t, double share, const ThreadReactions& out) noexcept {
     if (!p.active) continue;
     p.seen += (share * t.part) * (t.drive.passages[n].x - p.seen);
     const Vec3d d = passage_direction(t, n, place_at(t.m, p.s).element);
-    const Vec3d off = point_at(t.m, t.s, p.s) - p.seen;
+    const Vec3d off = smooth_place(t.m, p.s).of(t.s.x) - p.seen;
     p.press = t.drive.passages[n].stiffness * length(off - dot(off, d) * d);
-    const double slipped = slip_along(t, p.seen, d, passage_bound(t, n), p.s, p.reached);
+    const double slipped = slip_along(t, off, d, passage_bound(t, n), p.s, p.reached);
     if (n < int(out.passages.size())) out.passages[n].slipped += slipped;
     if (!(p.s >= 0 && p.s <= t.m.length)) p = {};
   }
@@ -189,7 +199,7 @@ void report_reactions(const Tick& t, const ThreadReactions& out) noexcept {
   for (int n = 0; n < std::min({t.m.passages, int(out.passages.size()), int(t.drive.passages.size())}); ++n) {
     const PassageState& p = t.s.passages[n];
     if (!p.active) continue;
-    out.passages[n].force = t.drive.passages[n].stiffness * (point_at(t.m, t.s, p.s) - p.seen);
+    out.passages[n].force = t.drive.passages[n].stiffness * (smooth_place(t.m, p.s).of(t.s.x) - p.seen);
     const int e = place_at(t.m, p.s).element;
     out.passages[n].tension_in = e > 0 ? tension(t.m, t.s, e - 1) : 0;
     out.passages[n].tension_out = e + 2 < t.m.nodes ? tension(t.m, t.s, e + 1) : 0;

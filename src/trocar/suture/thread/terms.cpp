@@ -21,7 +21,8 @@ void add_inertia(Tick& t) {
 }
 
 /// Stretch is so stiff that an element which turns while its length is taken along its old direction would be pulled
-/// back by its own turning: where the thread hangs loose it is linearised about where its ends are bound for.
+/// back by its own turning: where the thread hangs loose it is linearised about where its ends are bound
+/// for. Not where it touches itself: what solves correct there is no speed.
 void add_stretch(Tick& t) {
   const double stiffness = t.m.stuff.stretch / t.m.spacing, slack = kSlack * t.m.stuff.knotted_break_force;
   for (int e = 0; e + 1 < t.m.nodes; ++e) {
@@ -29,7 +30,7 @@ void add_stretch(Tick& t) {
     Vec3d ahead{};
     double r = t.w.length[e];
     Vec3d n = t.w.along[e];
-    if (stiffness * (r - t.m.spacing) < slack && !t.w.system.touches(e) && !t.w.system.touches(e + 1)) {
+    if (t.self == 0 && stiffness * (r - t.m.spacing) < slack) {
       ahead = t.h * (t.s.v[e + 1] - t.s.v[e]);
       ahead -= dot(ahead, n) * n;
       const double far = dot(ahead, ahead), most = kAhead * t.m.spacing;
@@ -132,7 +133,10 @@ void add_passages(Tick& t) {
     const ThreadPlace at = place_at(t.m, p.s);
     const double along = slip_stiffness(k, passage_bound(t, n), p.reached);
     const Symmetric stiff = along_and_across(along, k, passage_direction(t, n, at.element));
-    add_spring(t, at, stiff, stiff * (passage_target(t, n) - point_at(t.m, t.s, p.s)));
+    const SmoothPlace smooth = smooth_place(t.m, p.s);
+    t.w.system.add_term(smooth.nodes, smooth.c, 3, stiff);
+    const Vec3d f = stiff * (passage_target(t, n) - smooth.of(t.s.x));
+    for (int j = 0; j < 3; ++j) t.w.system.push(smooth.nodes[j], smooth.c[j] * f);
   }
 }
 

@@ -5,7 +5,7 @@
 
 namespace trocar::suture {
 
-inline constexpr double kGripStiffness = 10;  ///< of a hold, in stiffnesses of an element's stretch
+inline constexpr double kGripStiffness = 1;   ///< of a hold, in stiffnesses of an element's stretch
 inline constexpr double kTurnStiffness = 50;  ///< of a hold's direction, in stiffnesses of a node's bending
 
 /// What a tick has been given, and how far it has come.
@@ -30,6 +30,23 @@ struct Tick {
     return k < int(drive.skins.size()) && drive.skins[k].node >= 0 && drive.skins[k].node < m.nodes;
   }
 };
+
+/// A place on the curve that three neighbouring nodes draw (a quadratic B-spline): what slides through a point goes
+/// over it without feeling where elements meet.
+struct SmoothPlace {
+  std::int32_t nodes[3] = {0, 1, 2};
+  double c[3] = {0, 0, 0};
+  Vec3d of(const std::vector<Vec3d>& x) const { return c[0] * x[nodes[0]] + c[1] * x[nodes[1]] + c[2] * x[nodes[2]]; }
+};
+inline SmoothPlace smooth_place(const ThreadModel& m, double s) {
+  const double along = s / m.spacing;
+  int i = int(along + 0.5);
+  i = i < 1 ? 1 : (i > m.nodes - 2 ? m.nodes - 2 : i);
+  const double u = along - i;
+  if (u < -0.5) return {{i - 1, i, i + 1}, {-u, 1 + u, 0}};  // at the thread's ends its elements themselves
+  if (u > 0.5) return {{i - 1, i, i + 1}, {0, 1 - u, u}};
+  return {{i - 1, i, i + 1}, {0.5 * (0.5 - u) * (0.5 - u), 0.75 - u * u, 0.5 * (0.5 + u) * (0.5 + u)}};
+}
 
 inline bool is_zero(Vec3d a) { return a.x == 0 && a.y == 0 && a.z == 0; }
 inline double hold_stiffness(const ThreadModel& m) { return kGripStiffness * m.stuff.stretch / m.spacing; }
