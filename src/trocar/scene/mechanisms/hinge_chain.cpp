@@ -30,6 +30,7 @@ struct StraightHinge {
   int coordinate = 0;
   std::string name;
   Vec3d place, axis;
+  double step = 0;  ///< along the shaft's z from the hinge before, or the shaft's end [m]
 };
 
 /// A row of q = E u + e, all its terms.
@@ -74,9 +75,6 @@ bool independent(std::vector<Row> rows) {
   return true;
 }
 
-/// Whole ones: what sums of places leave beside a length that a file says is nothing.
-double picometres(double metres) { return std::floor(metres * 1e12 + 0.5) / 1e12; }
-
 std::string mm(double metres) { return fmt::format("{:.3g} mm", 1000 * metres); }
 
 class Chain {
@@ -96,15 +94,20 @@ class Chain {
     const int shaft = m_m.link_body[std::size_t(link)];
     const kinematics::BodyFrame& tip = m_m.frames[std::size_t(frame)];
     Frame at;
+    double step = 0;  // summed piece by piece: lengths stay what the file says
     for (const int body : bodies_from_shaft(m_m, shaft, tip.body)) {
       if (in_loop(body)) return "one whose loops go through its links";
       const kinematics::Body& b = m_m.bodies[std::size_t(body)];
-      at = at * m_m.places[std::size_t(body)];
+      const Frame& place = m_m.places[std::size_t(body)];
+      step += (at.r * place.p).z;
+      at = at * place;
       if (b.motion == kinematics::Motion::none) continue;
       const std::string& name = m_m.coordinates[std::size_t(b.coordinate)];
       if (b.motion == kinematics::Motion::slide) return fmt::format("'{}', which slides", name);
-      m_hinges.push_back({b.coordinate, name, at.p, at.r * b.axis});
+      m_hinges.push_back({b.coordinate, name, at.p, at.r * b.axis, step});
+      step = 0;
     }
+    m_last_step = step + (at.r * tip.local.p).z;
     m_tip = at * tip.local;
     return m_hinges.empty() ? "one without" : "";
   }
@@ -133,16 +136,16 @@ class Chain {
       if (along - last < -kBesideAxis) return fmt::format("'{}', which is behind the one before", h.name);
       if (out.hinges == kinematics::kMaxHinges) return fmt::format("more than {} hinges", kinematics::kMaxHinges);
       kinematics::Hinge& made = out.hinge[out.hinges++];
-      made.before = picometres(std::max(0.0, along - last));
+      made.before = std::max(0.0, forwards.z * h.step);
       made.across = std::fabs(about_y) > 0.5 ? 1 : 0;
       made.share = (made.across ? about_y : about_x) > 0 ? 1 : -1;
       last = along;
     }
-    out.after = std::fabs(ahead) - (last - m_hinges.front().place.z * forwards.z) - jaw_length;
+    out.after = forwards.z * m_last_step - jaw_length;
     if (out.after < -kBesideAxis)
       return fmt::format("a tip {} after the last hinge, nearer than jaws of {}", mm(out.after + jaw_length),
                          mm(jaw_length));
-    out.after = picometres(std::max(0.0, out.after));
+    out.after = std::max(0.0, out.after);
     if (out.links() > kinematics::kMaxLinks)
       return fmt::format("{} straight pieces, more than {}", out.links(), kinematics::kMaxLinks);
     return "";
@@ -197,6 +200,7 @@ class Chain {
   const Mechanism& m_m;
   std::vector<StraightHinge> m_hinges;
   Frame m_tip;
+  double m_last_step = 0;  ///< from the last hinge to the tip
 };
 
 }  // namespace
