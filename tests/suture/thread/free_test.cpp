@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <trocar/core/poison.hpp>
 #include <trocar/suture/thread/thread.hpp>
 
 #include "figures.hpp"
@@ -27,7 +28,7 @@ TEST(Thread, HangsInACatenary) {
   ThreadStuff stuff = elastic("3-0", "silk");
   stuff.bend = 1e-12, stuff.twist = 1e-12;
   const double length_of = 0.15, span = 0.1;
-  const ThreadModel m = build({.stuff = stuff, .length = length_of});
+  const ThreadModel m = build({.stuff = stuff, .length = length_of, .drag = 10});
   std::vector<Vec3d> path;
   for (int i = 0; i <= 200; ++i) {
     const double u = i / 200.0;
@@ -183,14 +184,16 @@ TEST(Thread, ScratchMayBeLostBetweenTicksAndTheSameTicksGiveTheSameBits) {
   ThreadState s = laid(m, straight({}, {1, 0, 0}, 1));
   take_hold(m, s, 0, 0);
   ThreadState other = s;
-  ThreadWork w = make_work(m);
+  ThreadWork w = make_work(m), spoilt = make_work(m);
   for (int k = 0; k < 50; ++k) {
     const Hold hold[1] = {{.x = {1e-4 * k, 2e-5 * k, 0}}};
-    ThreadWork fresh = make_work(m);
     advance(m, {.holds = hold}, {}, s, w);
-    advance(m, {.holds = hold}, {}, other, fresh);
+    core::poison_fields(spoilt);
+    advance(m, {.holds = hold}, {}, other, spoilt);
   }
-  for (int i = 0; i < m.nodes; ++i) EXPECT_EQ(s.x[i], other.x[i]);
+  core::Hasher one, two;
+  add_to_hash(one, s), add_to_hash(two, other);
+  EXPECT_EQ(one.value(), two.value());
 }
 
 TEST(Thread, RefusesWhatIsNotANumberAndStaysAsItWas) {

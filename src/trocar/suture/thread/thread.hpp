@@ -34,7 +34,7 @@ struct ThreadDescription {
   double tick = 1e-3;          ///< [s]
   Vec3d gravity{0, 0, -9.81};  ///< [m/s^2]
   double drag = 2;             ///< of the air [1/s]
-  int most_solves = 16;        ///< in a tick; beyond it the thread lags behind what holds it
+  int most_solves = 6;         ///< in a tick, about 1 ms for 334 nodes; beyond it the thread lags behind what holds it
   double solve_motion = 0.08;  ///< what holds and obstacles move in one solve where thread touches thread, at most,
                                ///< as a share of the diameter
   int holds = 4, obstacles = 12, skins = 256, passages = 8, ties = 4;  ///< slots
@@ -91,9 +91,10 @@ struct ObstacleState {
 struct SkinState {
   std::int32_t node = -1;  ///< -1: it did not touch
   Rub rub;
+  Vec3d point{0, 0, 0};  ///< of its plane in the last tick [m]
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("node", s.node), v("rub", s.rub);
+    v("node", s.node), v("rub", s.rub), v("point", s.point);
   }
 };
 struct PassageState {
