@@ -21,6 +21,7 @@ constexpr double kCutsThrough = 3;        // times the force that harms
 constexpr double kNeedleTorque =
     0.003;                         // [N m] that fully pinched jaws bear of a needle's turning between their faces. [d]
 constexpr double kFullPinch = 25;  // [N] of a needle holder
+constexpr int kPartsAfter = 20;    // ticks beyond what a thread bears until it parts.            Ours
 constexpr double kTautAbove = 0.002;                 // [N]
 constexpr double kTailWay = 1e-4, kMostTail = 2000;  // [m], [N/m] secant of the thread's pull at the swage
 
@@ -77,9 +78,12 @@ class Sewing {
     m_state.strain = r.tension;
     if (r.flags & suture::ThreadReport::kNonFinite && !m_report.bad.exists())
       m_report.bad = BodyId(BodyKind::suture, size_t(m_index));
-    if (r.flags & suture::ThreadReport::kOverloaded && r.tension > m_model.thread.stuff.break_force) {
+    // a jerk that the solver shows for a tick or two parts nothing
+    m_state.strained = r.tension > m_model.thread.stuff.break_force ? m_state.strained + 1 : 0;
+    if (m_state.strained >= kPartsAfter) {
       suture::cut(m_model.thread, m_state.thread, r.weakest);
       m_state.broken = 1;
+      m_state.strained = 0;
     }
     take_reactions();
   }

@@ -131,8 +131,8 @@ class DrawThrough final : public Skill {
         m_pull(given.number("pull_N", 1.5)) {}
 
  private:
-  enum Phase { kArc, kAway };
-  static constexpr double kPace = 0.010, kMost = 4.0;  // [m/s] along the arc, [rad]
+  enum Phase { kArc, kLift, kAway };
+  static constexpr double kPace = 0.010, kTurns = 1.6, kFarthest = 0.045;  // [m/s], [rad], [m]
 
   void start(Operator& op, int) override {
     const suture::NeedleModel& m = suture_of(op.model()).needle;
@@ -141,6 +141,22 @@ class DrawThrough final : public Skill {
     m_centre = suture::place_of(s, m.centre);
     m_axis = rotate(s.q, Vec3d{0, 0, 1});
     m_turned = 0;
+  }
+  void lift_from(Operator& op) {
+    m_pose = training::pose_of(suture_of(op.state()).needle);
+    m_lifted = 0;
+    go(kLift);
+  }
+  /// Along the wire where it leaves tissue, and a little up.
+  Vec3d way_out(const Operator& op) const {
+    const interactions::SutureState& s = suture_of(op.state());
+    double arc = 0;
+    for (int i = 0; i < s.hole_count; ++i) {
+      const interactions::SutureHole& hole = s.holes[std::size_t(i)];
+      if (hole.slot < 0 && hole.kind == interactions::SutureHole::exit) arc = double(hole.arc);
+    }
+    const Vec3d along = suture::needle_direction(suture_of(op.model()).needle, s.needle, arc);
+    return normalised(along - 0.5 * normalised(op.model().gravity, {0, 0, -1}));
   }
   bool needle_is_out(const Operator& op) const {
     const interactions::SutureState& s = suture_of(op.state());
@@ -165,8 +181,17 @@ class DrawThrough final : public Skill {
       const Quatd by = quat_from_axis_angle(m_axis, m_turned);
       lead_needle(op, m_hand, {m_centre + rotate(by, m_from.x - m_centre), by * m_from.q}, pace::kTravel);
       if (needle_is_out(op)) go(kAway);
-      if (m_turned > kMost) return fail("the needle does not come out");
+      if (m_turned > kTurns) lift_from(op);
       return Progress::working;
+    }
+    if (m_phase == kLift) {
+      // as far as a wrist turns; the rest follows the way that the wire lies in its last hole
+      const double step = kPace * sim::kTick;
+      m_pose.x += step * way_out(op);
+      m_lifted += step;
+      lead_needle(op, m_hand, m_pose, pace::kTravel);
+      if (needle_is_out(op)) go(kAway);
+      return m_lifted > kFarthest ? fail("the needle does not come out") : Progress::working;
     }
     if (drawn(op) >= m_thread) return Progress::done;
     if (suture_of(op.state()).strain > m_pull) return Progress::working;  // the thread is given time
@@ -177,8 +202,8 @@ class DrawThrough final : public Skill {
   int m_hand;
   double m_thread;
   Vec3d m_at;
-  double m_pull, m_turned = 0;
-  NeedlePose m_from;
+  double m_pull, m_turned = 0, m_lifted = 0;
+  NeedlePose m_from, m_pose;
   Vec3d m_centre, m_axis;
 };
 
