@@ -25,11 +25,14 @@ void set_press(Touch& touch, double stiffness, double thickness, double gap) noe
 double safe_share(const ThreadModel& m, const ThreadState& s, int near, std::span<const Obstacle> given,
                   const ThreadWork& w) noexcept;
 
-/// Friction's bound and stiffness in a solve, from what it reached in the last.
+/// The share of its stiffness that something which yields at `bound` keeps in a solve: what makes its force right if it
+/// goes as far as in the last (`reached`).
+inline double kept_share(double bound, double reached) noexcept { return reached > bound ? bound / reached : 1; }
+
+/// Friction's bound and stiffness in a solve.
 inline void set_friction(Touch& touch, double friction, double rub_stiffness) noexcept {
   touch.bound = friction * touch.press / rub_stiffness;
-  const double reached = touch.reached > touch.bound ? touch.reached : touch.bound;
-  touch.rub_stiffness = reached > 0 ? rub_stiffness * (touch.bound / reached) : 0;
+  touch.rub_stiffness = touch.bound > 0 ? rub_stiffness * kept_share(touch.bound, touch.reached) : 0;
 }
 
 }  // namespace trocar::suture

@@ -9,6 +9,8 @@
 namespace trocar::suture {
 namespace {
 
+constexpr double kStill = 1e-9;  ///< what moves less has not moved [m]
+
 double passage_friction(const Tick& t, const Passage& p) {
   return p.friction < 0 ? t.m.stuff.friction_tissue : p.friction;
 }
@@ -181,8 +183,27 @@ void move_slots(Tick& t, double share, const ThreadReactions& out) noexcept {
     const Vec3d motion = share * (t.w.delta[touch.a] - touch.moved);
     touch.strain += motion - dot(motion, touch.normal) * touch.normal;
     settle(touch);
-    skin = {touch.a, {touch.strain, touch.reached}};
+    skin = {touch.a, {touch.strain, touch.reached}, t.drive.skins[n].point};
   }
+}
+
+bool undisturbed(const Tick& t) noexcept {
+  if (!(motion_left(t) <= kStill)) return false;
+  for (int n = 0; n < std::min(t.m.holds, int(t.drive.holds.size())); ++n) {
+    const HoldState& h = t.s.holds[n];
+    const Hold& given = t.drive.holds[n];
+    if (h.active && !is_zero(given.direction) && length(h.aim - given.direction) > 1e-6) return false;
+    if (h.active && !is_zero(given.side) && length(h.side - given.side) > 1e-6) return false;
+  }
+  for (int n = 0; n < t.m.skins; ++n) {
+    const bool given = t.given_skin(n);
+    const SkinState& skin = t.s.skins[n];
+    if (given && skin.node >= 0 &&
+        (skin.node != t.drive.skins[n].node || length(skin.point - t.drive.skins[n].point) > kStill))
+      return false;
+    if (skin.node < 0 ? given && skin_touch(t, n).press > 0 : !given) return false;
+  }
+  return true;
 }
 
 void report_reactions(const Tick& t, const ThreadReactions& out) noexcept {

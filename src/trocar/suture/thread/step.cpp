@@ -9,9 +9,11 @@
 namespace trocar::suture {
 namespace {
 
-constexpr double kFreeMotion = 0.2;  ///< that a solve is asked to follow where nothing touches, in spacings
-constexpr double kMostMotion = 0.5;  ///< and at the very most, in diameters
-constexpr double kForgotten = 0.02;  ///< share of a tick that is not worth another solve
+constexpr double kFreeMotion = 0.2;   ///< that a solve is asked to follow where nothing touches, in spacings
+constexpr double kMostMotion = 0.5;   ///< and at the very most, in diameters
+constexpr int kCalmTicks = 200;       ///< after which a thread that is still sleeps
+constexpr double kStillSpeed = 1e-5;  ///< [m/s]
+constexpr double kForgotten = 0.02;   ///< share of a tick that is not worth another solve
 
 /// The share of what is left that the next solve takes.
 void choose_part(Tick& t) {
@@ -103,13 +105,35 @@ void report_loads(const Tick& t, ThreadReport& report) {
     const double pull = tension(t.m, t.s, e);
     if (pull > report.tension) report.tension = pull, report.weakest = (e + 0.5) * t.m.spacing;
   }
+  for (int k = 0; k < t.self; ++k) {
+    const Touch& q = t.w.self[k];
+    const Vec3d between = (1 - q.s) * t.s.x[q.a] + q.s * t.s.x[q.a + 1] - (1 - q.t) * t.s.x[q.b] - q.t * t.s.x[q.b + 1];
+    report.sunk = std::max(report.sunk, 1 - length(between) / t.m.stuff.diameter);
+  }
   const double bears = t.self > 0 ? t.m.stuff.knotted_break_force : t.m.stuff.break_force;
   if (report.tension > bears) report.flags |= ThreadReport::kOverloaded;
   report.contacts = t.self;
-  report.coupled = t.w.system.coupled();
+  report.coupled = report.asleep ? 0 : t.w.system.coupled();
   report.lag = motion_left(t);
   if (report.lag > 0.1 * t.m.stuff.diameter) report.flags |= ThreadReport::kLagging;
   if (t.full) report.flags |= ThreadReport::kFull;
+}
+
+/// A thread that lies still sleeps: it stays where it is, and what it does to others stays the same.
+void sleep_on(Tick& t) {
+  for (int o = 0; o < 2 * t.m.obstacles; ++o) t.w.obstacle_moves[o] = {};
+  t.reach = 1.4 * t.m.stuff.diameter;
+  t.near = find_near(t.m, t.s, t.reach, t.w);
+  find_contacts(t);
+  for (Touch* touches : {t.w.self.data(), t.w.touch.data()})
+    for (int k = 0; k < (touches == t.w.self.data() ? t.self : t.touching); ++k)
+      touches[k].force = touches[k].press * touches[k].normal - touches[k].rub_stiffness * touches[k].strain;
+}
+
+bool still(const ThreadState& s) {
+  for (const Vec3d& v : s.v)
+    if (!(dot(v, v) < kStillSpeed * kStillSpeed)) return false;
+  return true;
 }
 
 }  // namespace
@@ -125,13 +149,17 @@ ThreadReport advance(const ThreadModel& m, const ThreadDrive& drive, const Threa
   Tick t{.m = m, .drive = drive, .s = s, .w = w};
   measure(t);
   begin_slots(t);
-  for (; t.solves < m.most_solves && t.left > kForgotten; ++t.solves) {
+  const bool calm = undisturbed(t);
+  report.asleep = calm && s.calm >= kCalmTicks;
+  if (report.asleep) sleep_on(t);
+  for (; !report.asleep && t.solves < m.most_solves && t.left > kForgotten; ++t.solves) {
     ++report.solves;
     if (!solve_once(t, reactions)) {
       report.flags |= ThreadReport::kIndefinite;
       break;
     }
   }
+  if (!report.asleep) s.calm = calm && still(s) ? s.calm + 1 : 0;
   report_reactions(t, reactions);
   report_loads(t, report);
   return report;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/suture/thread/contacts.hpp>
 #include <trocar/suture/thread/spin.hpp>
 #include <trocar/suture/thread/tick.hpp>
 
@@ -30,7 +31,7 @@ void add_stretch(Tick& t) {
     Vec3d ahead{};
     double r = t.w.length[e];
     Vec3d n = t.w.along[e];
-    if (t.self == 0 && stiffness * (r - t.m.spacing) < slack) {
+    if (t.self + t.touching == 0 && stiffness * (r - t.m.spacing) < slack) {
       ahead = t.h * (t.s.v[e + 1] - t.s.v[e]);
       ahead -= dot(ahead, n) * n;
       const double far = dot(ahead, ahead), most = kAhead * t.m.spacing;
@@ -56,7 +57,7 @@ void add_bending(Tick& t) {
   const double harden = t.m.stuff.hardening / (1 - t.m.stuff.hardening);
   for (int i = 1; i + 1 < t.m.nodes; ++i) {
     if (!bends(t.s, i)) continue;
-    const double share = yield > 0 && t.s.bend[i].z > yield ? yield / t.s.bend[i].z : 1;
+    const double share = yield > 0 ? kept_share(yield, t.s.bend[i].z) : 1;
     const Vec3d back = harden * t.w.bend_rest[i];  // the part of the moment that hardening has made
     const Vec3d moment = back + share * (t.w.bend_now[i] - t.w.bend_rest[i] - back);
     const Symmetric stiff = along_and_across(0, k * share, t.w.node_along[i]);
@@ -96,11 +97,6 @@ void add_spring(Tick& t, const ThreadPlace& at, const Symmetric& stiff, Vec3d fo
   for (int j = 0; j < 2; ++j) t.w.system.push(nodes[j], c[j] * force);
 }
 
-/// Stiffness along the thread of something it slips through beyond `bound` [m of strain].
-double slip_stiffness(double stiffness, double bound, double reached) {
-  return reached > bound ? stiffness * bound / reached : stiffness;
-}
-
 void add_holds(Tick& t) {
   const double k = hold_stiffness(t.m);
   for (int n = 0; n < t.m.holds; ++n) {
@@ -110,7 +106,7 @@ void add_holds(Tick& t) {
     const Vec3d d = t.w.along[at.element];
     const bool given = n < int(t.drive.holds.size());
     const double limit = given ? t.drive.holds[n].friction_limit : 0;
-    const double along = limit > 0 ? slip_stiffness(k, limit / k, h.reached) : k;
+    const double along = limit > 0 ? k * kept_share(limit / k, h.reached) : k;
     const Symmetric stiff = along_and_across(along, k, d);
     add_spring(t, at, stiff, stiff * (hold_target(t, n) - point_at(t.m, t.s, h.s)));
     if (!given || is_zero(t.drive.holds[n].direction)) continue;
@@ -131,7 +127,7 @@ void add_passages(Tick& t) {
     if (!p.active) continue;
     const double k = t.drive.passages[n].stiffness;
     const ThreadPlace at = place_at(t.m, p.s);
-    const double along = slip_stiffness(k, passage_bound(t, n), p.reached);
+    const double along = k * kept_share(passage_bound(t, n), p.reached);
     const Symmetric stiff = along_and_across(along, k, passage_direction(t, n, at.element));
     const SmoothPlace smooth = smooth_place(t.m, p.s);
     t.w.system.add_term(smooth.nodes, smooth.c, 3, stiff);

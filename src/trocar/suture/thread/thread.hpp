@@ -91,9 +91,10 @@ struct ObstacleState {
 struct SkinState {
   std::int32_t node = -1;  ///< -1: it did not touch
   Rub rub;
+  Vec3d point{0, 0, 0};  ///< of its plane in the last tick [m]
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("node", s.node), v("rub", s.rub);
+    v("node", s.node), v("rub", s.rub), v("point", s.point);
   }
 };
 struct PassageState {

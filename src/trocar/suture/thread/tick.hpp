@@ -85,6 +85,8 @@ double passage_bound(const Tick& t, int k) noexcept;
 Touch skin_touch(const Tick& t, int k) noexcept;
 /// After a solve: holders are seen further on, and thread has slipped.
 void move_slots(Tick& t, double share, const ThreadReactions& out) noexcept;
+/// Nothing that is given has changed since the last tick.
+bool undisturbed(const Tick& t) noexcept;
 void report_reactions(const Tick& t, const ThreadReactions& out) noexcept;
 
 // ---- terms.cpp: the equations of a solve ------------------------------------------------------------------------
