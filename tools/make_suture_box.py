@@ -67,7 +67,7 @@ def scene():
                for sx in (-1, 1) for dy in (-20, -10, 0, 10, 20)]
     anchors += [{"centre_mm": [dx, y + sy * HALF_Y, TOP - THICK], "radius_mm": 6}
                 for dx in (-20, -10, 0, 10, 20) for sy in (-1, 1)]
-    walls = [flat("plate", "board", (110.0, 0.0, TOP - THICK - 0.5), (-220.0, 0, 0), (0, 150.0, 0), 8)]
+    walls = [flat("plate", "board", (160.0, -90.0, TOP - THICK - 0.5), (-320.0, 0, 0), (0, 290.0, 0), 10)]
     marks = []
     for i, dx in enumerate((0.0, -7.5, 7.5), 1):
         for name, dy in (("in", BITE), ("out", -BITE)):

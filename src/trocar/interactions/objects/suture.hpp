@@ -160,6 +160,7 @@ struct SutureState {
   double strain = 0;              ///< the thread's greatest tension now [N]
   std::int32_t torn = 0;          ///< bites that were torn out so far
   std::int32_t broken = 0;        ///< 1: the thread was pulled apart
+  std::int32_t strained = 0;      ///< ticks in a row in which it bore more than it bears
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
@@ -167,7 +168,7 @@ struct SutureState {
         v("hole_count", s.hole_count), v("bite_count", s.bite_count), v("holes", s.holes, core::first(s.hole_count)),
         v("bites", s.bites, core::first(s.bite_count)), v("near", s.near), v("cut", s.cut), v("tail", s.tail),
         v("tail_force", s.tail_force), v("peak", s.peak), v("strain", s.strain), v("torn", s.torn),
-        v("broken", s.broken);
+        v("broken", s.broken), v("strained", s.strained);
   }
 };
 

@@ -122,12 +122,13 @@ void push_tissue(const TissueBodies& bodies, const NearSkin& on, double depth, T
 /// One suture in a tick.
 class Resting {
  public:
-  Resting(const SutureModels& models, size_t index, const TissueBodies& bodies, double dt, SutureState& s,
-          SutureWorks& all, TissueLoads loads) noexcept
+  Resting(const SutureModels& models, size_t index, const TissueBodies& bodies, const tissue::Box& cavity, double dt,
+          SutureState& s, SutureWorks& all, TissueLoads loads) noexcept
       : m_models(models),
         m_model(models.list[index]),
         m_index(index),
         m_bodies(bodies),
+        m_cavity(cavity),
         m_dt(dt),
         m_state(s),
         m_all(all),
@@ -221,6 +222,19 @@ class Resting {
       if (!nearest || walls.list[size_t(k)].distance < nearest->distance) nearest = &walls.list[size_t(k)];
     if (nearest && nearest->distance - radius < kSkinAhead)
       c = {n, nearest->point, nearest->normal, {0, 0, 0}, kHardStiffness, -1};
+    else
+      keep_in_cavity(n, p, c);
+  }
+  void keep_in_cavity(int n, Vec3d p, suture::SkinContact& c) const noexcept {
+    for (int k = 0; k < 3; ++k) {
+      const double low = double(m_cavity.low[k]), high = double(m_cavity.high[k]);
+      if (p[k] > low + kSkinAhead && p[k] < high - kSkinAhead) continue;
+      Vec3d on = p, normal;
+      on[k] = p[k] < 0.5 * (low + high) ? low : high;
+      normal[k] = p[k] < 0.5 * (low + high) ? 1 : -1;
+      c = {n, on, normal, {0, 0, 0}, kHardStiffness, -1};
+      return;
+    }
   }
 
   Vec3d tip() const noexcept { return suture::needle_point(m_model.needle, m_state.needle, 0); }
@@ -301,6 +315,7 @@ class Resting {
   const SutureModel& m_model;
   size_t m_index;
   const TissueBodies& m_bodies;
+  const tissue::Box& m_cavity;
   double m_dt;
   SutureState& m_state;
   SutureWorks& m_all;
@@ -324,10 +339,11 @@ NearSkin nearest_skin(const TissueBodies& bodies, BodyId body, Vec3d p, double r
   return at_surface(bodies, body, nearest_vertex_near(surface, p, reach), p);
 }
 
-void rest_on_tissue(const SutureModels& models, const TissueBodies& bodies, std::uint64_t tick, double dt,
-                    Suture::States& states, SutureWorks& work, TissueLoads loads) noexcept {
+void rest_on_tissue(const SutureModels& models, const TissueBodies& bodies, const tissue::Box& cavity,
+                    std::uint64_t tick, double dt, Suture::States& states, SutureWorks& work,
+                    TissueLoads loads) noexcept {
   for (size_t i = 0; i < states.size(); ++i) {
-    Resting resting(models, i, bodies, dt, states[i], work, loads);
+    Resting resting(models, i, bodies, cavity, dt, states[i], work, loads);
     resting.bear();
     resting.find(tick);
   }

@@ -21,7 +21,9 @@ struct NearSkin {
 NearSkin nearest_skin(const TissueBodies& bodies, BodyId body, Vec3d p, double reach) noexcept;
 
 /// @param tick  that the step makes: what is near is looked for anew by turns
-void rest_on_tissue(const SutureModels& models, const TissueBodies& bodies, std::uint64_t tick, double dt,
-                    Suture::States& states, SutureWorks& work, TissueLoads loads) noexcept;
+/// @param cavity  whose walls nothing leaves
+void rest_on_tissue(const SutureModels& models, const TissueBodies& bodies, const tissue::Box& cavity,
+                    std::uint64_t tick, double dt, Suture::States& states, SutureWorks& work,
+                    TissueLoads loads) noexcept;
 
 }  // namespace trocar::interactions

@@ -21,6 +21,7 @@ constexpr double kCutsThrough = 3;        // times the force that harms
 constexpr double kNeedleTorque =
     0.003;                         // [N m] that fully pinched jaws bear of a needle's turning between their faces. [d]
 constexpr double kFullPinch = 25;  // [N] of a needle holder
+constexpr int kPartsAfter = 20;    // ticks beyond what a thread bears until it parts.            Ours
 constexpr double kTautAbove = 0.002;                 // [N]
 constexpr double kTailWay = 1e-4, kMostTail = 2000;  // [m], [N/m] secant of the thread's pull at the swage
 
@@ -60,15 +61,7 @@ class Sewing {
   void move_thread() noexcept {
     if (!m_model.has_thread()) return;
     drive_holds();
-    for (suture::Passage& p : m_work.passages) p = {};
-    for (int i = 0; i < m_state.hole_count; ++i) {
-      const SutureHole& h = m_state.holes[size_t(i)];
-      if (h.slot < 0) continue;
-      suture::Passage& p = m_work.passages[size_t(h.slot)];
-      p.x = point_of(m_bodies, h.at);
-      p.stiffness = kThreadHole;
-      p.drag = kThreadDrag;
-    }
+    drive_passages();
     const suture::ThreadReport r = suture::advance(
         m_model.thread, {m_work.holds, m_work.obstacles, m_work.skins, m_work.passages},
         {m_work.hold_reactions, m_work.obstacle_reactions, m_work.skin_reactions, m_work.passage_reactions},
@@ -77,9 +70,12 @@ class Sewing {
     m_state.strain = r.tension;
     if (r.flags & suture::ThreadReport::kNonFinite && !m_report.bad.exists())
       m_report.bad = BodyId(BodyKind::suture, size_t(m_index));
-    if (r.flags & suture::ThreadReport::kOverloaded && r.tension > m_model.thread.stuff.break_force) {
+    // a jerk that the solver shows for a tick or two parts nothing
+    m_state.strained = r.tension > m_model.thread.stuff.break_force ? m_state.strained + 1 : 0;
+    if (m_state.strained >= kPartsAfter) {
       suture::cut(m_model.thread, m_state.thread, r.weakest);
       m_state.broken = 1;
+      m_state.strained = 0;
     }
     take_reactions();
   }
@@ -320,6 +316,33 @@ class Sewing {
       hold.x = p.target / double(p.count);
       if (p.highest > p.lowest) hold.direction = normalised(p.last - p.first, {0, 0, 0});
       hold.friction_limit = std::max(0.001, 0.95 * p.bears);
+    }
+  }
+
+  /// Holes lie from the oldest to the newest, and the thread's arc length rises from the needle on: it enters a hole
+  /// from the newer side and leaves it to the older one.
+  void drive_passages() noexcept {
+    for (suture::Passage& p : m_work.passages) p = {};
+    const SutureHole* older = nullptr;
+    for (int i = 0; i < m_state.hole_count; ++i) {
+      const SutureHole& h = m_state.holes[size_t(i)];
+      if (h.slot < 0) continue;
+      suture::Passage& p = m_work.passages[size_t(h.slot)];
+      p.x = point_of(m_bodies, h.at);
+      p.stiffness = kThreadHole;
+      p.drag = kThreadDrag;
+      if (older) {
+        suture::Passage& before = m_work.passages[size_t(older->slot)];
+        const Vec3d way = normalised(before.x - p.x, {0, 0, 0});
+        p.out = way;
+        before.in = way;
+        if (before.out == Vec3d{}) before.out = way;
+      }
+      older = &h;
+    }
+    if (older) {
+      suture::Passage& newest = m_work.passages[size_t(older->slot)];
+      if (newest.in == Vec3d{}) newest.in = newest.out;
     }
   }
 

@@ -25,8 +25,8 @@ void see_again(StepContext& c) noexcept {
 
 void rest_sutures(StepContext& c) noexcept {
   if (!has_sutures(c)) return;
-  interactions::rest_on_tissue(interactions::part_of<Suture>(c.model.objects), bodies_of(c), c.state.tick, kTick,
-                               interactions::part_of<Suture>(c.state.objects),
+  interactions::rest_on_tissue(interactions::part_of<Suture>(c.model.objects), bodies_of(c), c.model.cavity,
+                               c.state.tick, kTick, interactions::part_of<Suture>(c.state.objects),
                                interactions::part_of<Suture>(c.work.objects),
                                {c.work.strand_loads, c.work.organ_loads, c.work.membrane_loads});
 }

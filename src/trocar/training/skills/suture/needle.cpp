@@ -30,12 +30,15 @@ class DriveNeedle final : public Skill {
  private:
   enum Phase { kAbove, kDown, kDrive, kRest };
   static constexpr double kHigh = 0.016, kBeforeIn = 0.35, kHang = 0.4;  // [m], [rad], [s]
+  static constexpr double kSkinGives = 0.0008;                           // [m]
 
   void start(Operator& op, int) override {
     const suture::NeedleModel& m = suture_of(op.model()).needle;
     const sim::MarkPose in = mark_pose(op, m_in), out = mark_pose(op, m_out);
     m_up = normalised(in.normal + out.normal, {0, 0, 1});
-    m_way = way_between(m, in.place, out.place, m_up, op.arm(m_hand).port);
+    // skin goes with the tip until it is pierced
+    const Vec3d at = in.place - kSkinGives * normalised(out.place - in.place);
+    m_way = way_between(m, at, out.place, m_up, op.arm(m_hand).port);
     m_angle = -kBeforeIn;
     m_last = m_way.angle + m_beyond / m.radius;
     m_from = training::pose_of(suture_of(op.state()).needle);
@@ -131,8 +134,8 @@ class DrawThrough final : public Skill {
         m_pull(given.number("pull_N", 1.5)) {}
 
  private:
-  enum Phase { kArc, kAway };
-  static constexpr double kPace = 0.010, kMost = 4.0;  // [m/s] along the arc, [rad]
+  enum Phase { kArc, kLift, kAway };
+  static constexpr double kPace = 0.010, kTurns = 1.6, kFarthest = 0.045;  // [m/s], [rad], [m]
 
   void start(Operator& op, int) override {
     const suture::NeedleModel& m = suture_of(op.model()).needle;
@@ -141,6 +144,22 @@ class DrawThrough final : public Skill {
     m_centre = suture::place_of(s, m.centre);
     m_axis = rotate(s.q, Vec3d{0, 0, 1});
     m_turned = 0;
+  }
+  void lift_from(Operator& op) {
+    m_pose = training::pose_of(suture_of(op.state()).needle);
+    m_lifted = 0;
+    go(kLift);
+  }
+  /// Along the wire where it leaves tissue, and a little up.
+  Vec3d way_out(const Operator& op) const {
+    const interactions::SutureState& s = suture_of(op.state());
+    double arc = 0;
+    for (int i = 0; i < s.hole_count; ++i) {
+      const interactions::SutureHole& hole = s.holes[std::size_t(i)];
+      if (hole.slot < 0 && hole.kind == interactions::SutureHole::exit) arc = double(hole.arc);
+    }
+    const Vec3d along = suture::needle_direction(suture_of(op.model()).needle, s.needle, arc);
+    return normalised(along - 0.5 * normalised(op.model().gravity, {0, 0, -1}));
   }
   bool needle_is_out(const Operator& op) const {
     const interactions::SutureState& s = suture_of(op.state());
@@ -165,8 +184,17 @@ class DrawThrough final : public Skill {
       const Quatd by = quat_from_axis_angle(m_axis, m_turned);
       lead_needle(op, m_hand, {m_centre + rotate(by, m_from.x - m_centre), by * m_from.q}, pace::kTravel);
       if (needle_is_out(op)) go(kAway);
-      if (m_turned > kMost) return fail("the needle does not come out");
+      if (m_turned > kTurns) lift_from(op);
       return Progress::working;
+    }
+    if (m_phase == kLift) {
+      // as far as a wrist turns; the rest follows the way that the wire lies in its last hole
+      const double step = kPace * sim::kTick;
+      m_pose.x += step * way_out(op);
+      m_lifted += step;
+      lead_needle(op, m_hand, m_pose, pace::kTravel);
+      if (needle_is_out(op)) go(kAway);
+      return m_lifted > kFarthest ? fail("the needle does not come out") : Progress::working;
     }
     if (drawn(op) >= m_thread) return Progress::done;
     if (suture_of(op.state()).strain > m_pull) return Progress::working;  // the thread is given time
@@ -177,8 +205,8 @@ class DrawThrough final : public Skill {
   int m_hand;
   double m_thread;
   Vec3d m_at;
-  double m_pull, m_turned = 0;
-  NeedlePose m_from;
+  double m_pull, m_turned = 0, m_lifted = 0;
+  NeedlePose m_from, m_pose;
   Vec3d m_centre, m_axis;
 };
 
