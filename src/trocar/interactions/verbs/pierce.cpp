@@ -8,7 +8,7 @@ namespace trocar::interactions {
 namespace {
 
 constexpr double kDeepest = 0.025;     // [m] below a skin that is looked for
-constexpr double kPierceDamping = 0.3;  // [N s/m]
+constexpr double kAlongside = -0.1;    // cosine of the needle with the skin's normal
 
 void load_place(const Surface& surface, const SkinPlace& place, const SkinLoad& whole, std::int32_t hand,
                 NetworkLoads& loads) noexcept {
@@ -44,35 +44,38 @@ Vec3d normal_on(const Surface& surface, const SkinPlace& place) noexcept {
   return normalised(sum, surface.normal(place.vertex[0]));
 }
 
-Dent dent_of(const Surface& surface, BodyId body, const NeedleLine& needle) noexcept {
-  Dent dent;
+SkinPlace caught_at(const Surface& surface, BodyId body, const NeedleLine& needle) noexcept {
   const Vec3d p = needle.point;
-  const tissue::Box& bounds = surface.pose->bounds;
-  if (!bounds.reaches(p, kPointFound)) return dent;
+  if (!surface.pose->bounds.reaches(p, kPointFound)) return {};
   const int vertex = nearest_vertex_near(surface, p, kPointFound);
-  if (vertex < 0) return dent;
+  if (vertex < 0) return {};
   const SkinPoint on = nearest_skin_point(surface, vertex, p);
-  const double below = dot(on.point - p, on.normal);
-  // From within an organ's far side, or alongside its skin, a point does not pierce.
-  if (below <= 0 || dot(needle.axis, on.normal) > -0.1) return dent;
-  dent.place.body = body;
+  // From within an organ's far side, or alongside its skin, a point does not catch.
+  if (dot(on.point - p, on.normal) <= 0 || dot(needle.axis, on.normal) > kAlongside) return {};
+  SkinPlace place;
+  place.body = body;
   for (std::size_t k = 0; k < 3; ++k) {
-    dent.place.vertex[k] = on.vertex[k];
-    dent.place.weight[k] = on.weights[int(k)];
+    place.vertex[k] = on.vertex[k];
+    place.weight[k] = on.weights[int(k)];
   }
-  dent.normal = on.normal;
-  dent.sunk = below;
-  return dent;
+  return place;
 }
 
-double press_skin(const Surface& surface, const Dent& dent, std::int32_t hand, NetworkLoads& loads) noexcept {
+double sunk_into(const Surface& surface, const SkinPlace& place, const NeedleLine& needle) noexcept {
+  const Vec3d beyond = needle.point - place_on(surface, place);
+  const double sunk = dot(beyond, needle.axis);
+  // It has been drawn back, or the skin has turned away from it.
+  if (sunk <= 0 || length(beyond) > kPointFound || dot(needle.axis, normal_on(surface, place)) > kAlongside) return 0;
+  return sunk;
+}
+
+double press_skin(const Surface& surface, const SkinPlace& place, const NeedleLine& needle, std::int32_t hand,
+                  NetworkLoads& loads) noexcept {
   SkinLoad load;
   load.k = kPointStiffness;
-  load.shift = -dent.sunk * dent.normal;
-  load.dir = dent.normal;
-  load.d = kPierceDamping;
-  load_place(surface, dent.place, load, hand, loads);
-  return kPointStiffness * dent.sunk;
+  load.shift = needle.point - place_on(surface, place);
+  load_place(surface, place, load, hand, loads);
+  return kPointStiffness * dot(load.shift, needle.axis);
 }
 
 void carry_skin(const Surface& surface, const SkinPlace& place, const NeedleLine& needle, double& anchor,

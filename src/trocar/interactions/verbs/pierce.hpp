@@ -1,5 +1,6 @@
-// A needle's way into an organ: its point dents the skin until that gives way at the tissue's puncture force; from then
-// on a point of the skin sits on the needle. It is carried aside with it, and along with it as far as friction bears.
+// A needle's way into an organ: its point catches in the skin and dents it until that gives way at the tissue's puncture
+// force; from then on that place of the skin sits on the needle. It is carried aside with it, and along with it as far
+// as friction bears.
 //
 //   F = k sunk < F_puncture          before; k 1000 N/m, our choice: how far the skin gives before it is pierced is its own
 //   |F along| <= drag * depth        after                                                     drag 0.05 N/mm
@@ -45,15 +46,13 @@ static_assert(sizeof(SkinPlace) == 4 * 4 + 3 * 8, "no padding");
 Vec3d place_on(const Surface& surface, const SkinPlace& place) noexcept;
 Vec3d normal_on(const Surface& surface, const SkinPlace& place) noexcept;
 
-/// The needle's point below a skin that it has not pierced.
-struct Dent {
-  SkinPlace place;
-  Vec3d normal;
-  double sunk = 0;  ///< [m]; 0: it does not touch
-};
-Dent dent_of(const Surface& surface, BodyId body, const NeedleLine& needle) noexcept;
-/// Pushes the skin ahead of the point. @return the force [N]
-double press_skin(const Surface& surface, const Dent& dent, std::int32_t hand, NetworkLoads& loads) noexcept;
+/// Where the needle's point is below a skin that it has not pierced; body none: nowhere.
+SkinPlace caught_at(const Surface& surface, BodyId body, const NeedleLine& needle) noexcept;
+/// How far the point is beyond the place of the skin that it has caught, along the needle [m]; 0: it has let go of it.
+double sunk_into(const Surface& surface, const SkinPlace& place, const NeedleLine& needle) noexcept;
+/// Takes the caught skin along with the point. @return the force along the needle [N]
+double press_skin(const Surface& surface, const SkinPlace& place, const NeedleLine& needle, std::int32_t hand,
+                  NetworkLoads& loads) noexcept;
 
 /// Carries the pierced skin. @param anchor  in/out: depth at which it sticks to the needle [m]
 void carry_skin(const Surface& surface, const SkinPlace& place, const NeedleLine& needle, double& anchor,

@@ -38,6 +38,7 @@ struct InjectionModel {
 /// A hand's needle and its syringe. No padding.
 struct NeedleHand {
   interactions::SkinPlace entry;  ///< where its point has gone in; body none: it is in nothing
+  interactions::SkinPlace touch;  ///< what its point has caught and not pierced; body none: nothing
   Vec3d at{0, 0, 0};              ///< the point [m]
   double anchor = 0;              ///< interactions::carry_skin [m]
   double depth = 0;               ///< of the point below the nearest skin [m]
@@ -64,14 +65,14 @@ struct NeedleHand {
   static constexpr bool kAsBytes = true;
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("entry", s.entry), v("at", s.at), v("anchor", s.anchor), v("depth", s.depth), v("press", s.press),
+    v("entry", s.entry), v("touch", s.touch), v("at", s.at), v("anchor", s.anchor), v("depth", s.depth), v("press", s.press),
         v("rate", s.rate), v("flow", s.flow), v("tip_pressure", s.tip_pressure), v("plunger", s.plunger),
         v("carry", s.carry), v("carry_drawn", s.carry_drawn), v("drawn_for", s.drawn_for), v("checked", s.checked),
         v("left", s.left), v("pending", s.pending), v("here", s.here), v("blood", s.blood), v("vessel", s.vessel),
         v("pushing", s.pushing), v("punctures", s.punctures), v("changes", s.changes);
   }
 };
-static_assert(sizeof(NeedleHand) == sizeof(interactions::SkinPlace) + 3 * 8 + 10 * 8 + 3 * 8 + 4 * 8 + 4 * 4,
+static_assert(sizeof(NeedleHand) == 2 * sizeof(interactions::SkinPlace) + 3 * 8 + 10 * 8 + 3 * 8 + 4 * 8 + 4 * 4,
               "no padding");
 
 /// A way that a needle has left. No padding.

@@ -22,7 +22,7 @@ constexpr double kAbsorbTime = 600;     // [s] tau of that.                     
 constexpr double kSamePlace = 0.003;    // [m] a plunger that was drawn there was drawn here
 constexpr double kTrackCloses = 8;      // [s] tau of a needle's way that closes.                          Our choice
 constexpr double kTrackOver = 60;       // [s]
-constexpr double kTrackLeaks = 6e-12;   // [m^3/Pa s] when it has just been left: some 2 % of 10 mL get out.  Our choice
+constexpr double kTrackLeaks = 1e-12;   // [m^3/Pa s] when it has just been left: at 25 kPa 0.2 mL get out.  Our choice
 constexpr double kTrackWide = 0.004;    // [m] what is around it is what leaks
 constexpr double kTrackDeep = 0.003;    // [m] where its pressure is asked for
 
@@ -87,38 +87,39 @@ void draw_out(StepContext& c, NeedleHand& n, bool drugged) noexcept {
   n.vessel = -1;
 }
 
-void go_in(StepContext& c, size_t hand, const interactions::Dent& dent, NeedleHand& n) noexcept {
-  n.entry = dent.place;
+void go_in(StepContext& c, size_t hand, NeedleHand& n) noexcept {
+  n.entry = n.touch;
+  n.touch = {};
   n.anchor = 0;
   n.press = 0;
   n.here = n.blood = 0;
   n.drawn_for = 0;
   ++n.punctures;
-  tell(c, Event::pierced, int(hand), dent.place.body);
+  tell(c, Event::pierced, int(hand), n.entry.body);
 }
 
-/// The point at skins that it has not pierced: the one that it is farthest below.
+/// The point at a skin that it has not pierced.
 void dent_skins(StepContext& c, size_t hand, const NeedleLine& line, NeedleHand& n) noexcept {
   n.press = 0;
-  if (!(line.out > 0)) return;
-  interactions::Dent deepest;
-  for (size_t i = 0; i < size_t(c.model.organs()); ++i) {
-    const interactions::Dent dent = interactions::dent_of(c.work.surfaces[i], BodyId::organ(i), line);
-    if (dent.sunk > deepest.sunk) deepest = dent;
-  }
-  if (!(deepest.sunk > 0)) return;
-  const size_t organ = deepest.place.body.index();
-  n.press = interactions::press_skin(c.work.surfaces[organ], deepest, std::int32_t(hand), c.work.organ_loads[organ]);
+  const auto surface_of = [&c](const interactions::SkinPlace& place) -> const interactions::Surface& {
+    return c.work.surfaces[place.body.index()];
+  };
+  if (n.touch.body.exists() && !(sunk_into(surface_of(n.touch), n.touch, line) > 0)) n.touch = {};
+  if (!(line.out > 0)) n.touch = {};
+  for (size_t i = 0; i < size_t(c.model.organs()) && line.out > 0 && !n.touch.body.exists(); ++i)
+    n.touch = interactions::caught_at(c.work.surfaces[i], BodyId::organ(i), line);
+  if (!n.touch.body.exists()) return;
+  const size_t organ = n.touch.body.index();
+  n.press = interactions::press_skin(surface_of(n.touch), n.touch, line, std::int32_t(hand), c.work.organ_loads[organ]);
   const double gives = c.model.injection.organs[organ].puncture;
-  if (gives > 0 && n.press >= gives) go_in(c, hand, deepest, n);
+  if (gives > 0 && n.press >= gives) go_in(c, hand, n);
 }
 
 /// Is the pierced skin's point still somewhere on the needle?
 bool still_in(const StepContext& c, const NeedleHand& n, const NeedleLine& line) noexcept {
   const Vec3d entry = interactions::place_on(c.work.surfaces[n.entry.body.index()], n.entry);
   const double deep = dot(line.point - entry, line.axis);
-  const bool fresh = n.anchor == 0 && deep > -kSamePlace;  // it has just sprung back over the point
-  return (deep > 0 || fresh) && length(line.point - deep * line.axis - entry) < interactions::kTornOut;
+  return deep > 0 && length(line.point - deep * line.axis - entry) < interactions::kTornOut;
 }
 
 void pierce_with(StepContext& c, size_t hand) noexcept {
@@ -129,7 +130,10 @@ void pierce_with(StepContext& c, size_t hand) noexcept {
   if (n.in() && (!tool.can().inject || n.changes != c.state.tools[hand].changes || !still_in(c, n, line)))
     draw_out(c, n, tool.needle.drugged());
   n.changes = c.state.tools[hand].changes;
-  if (!tool.can().inject) return;
+  if (!tool.can().inject) {
+    n.touch = {};
+    return;
+  }
   if (!n.in()) return dent_skins(c, hand, line, n);
   const size_t organ = n.entry.body.index();
   interactions::carry_skin(c.work.surfaces[organ], n.entry, line, n.anchor, std::int32_t(hand),
