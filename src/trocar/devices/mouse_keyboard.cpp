@@ -26,7 +26,8 @@ constexpr HelpLine kHelp[] = {
     {Device::keyboard, "X", "another instrument for this hand, another hand"},
     {Device::keyboard, "V", "bring the instrument into the view"},
     {Device::keyboard, "R F", "light post of an oblique endoscope"},
-    {Device::keyboard, "A D", "suction-irrigator: water, suction, as long as it is held; injection needle: press, draw the plunger"},
+    {Device::keyboard, "A D",
+     "suction-irrigator: water, suction, as long as it is held; injection needle: press, draw the plunger"},
     {Device::keyboard, "G, Space", "of a hook: coagulate, cut, as long as it is held"},
     {Device::keyboard, "T", "wipe the lens; it takes eight seconds"},
     {Device::keyboard, "K", "declare that it is shown: the critical view"},
@@ -38,7 +39,8 @@ constexpr HelpLine kHelp[] = {
     {Device::mouse, "right drag", "roll the instrument, or the endoscope's picture"},
     {Device::mouse, "move with U held", "bend a wrist"},
     {Device::mouse, "left held, right click", "lock the jaws; the same again: unlock"},
-    {Device::mouse, "left, right button", "of a suction-irrigator: suction, water; of a needle: draw, press the plunger"},
+    {Device::mouse, "left, right button",
+     "of a suction-irrigator: suction, water; of a needle: draw, press the plunger"},
     {Device::mouse, "left button", "of a hook: coagulate, as long as it is held"},
     {Device::mouse, "middle or right click", "choose hand, both hands, instrument, fine motion, pause"},
     {Device::mouse, "side buttons", "lead the previous, the next hand"},
@@ -349,8 +351,7 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
     else if (valves) {
       open_valves(sample, state, command);
       move_needle(settings, s.seconds, state);
-    }
-    else
+    } else
       press_switches(sample, state, command);
   }
   state.last = all;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kFinest = 0.004;       // [m] edge of a cell
 constexpr double kMostSkinCells = 1e5;  // larger cells rather than more
-constexpr double kGridRounding = 1e-7;      // [m] far more than what rounding misplaces
+constexpr double kGridRounding = 1e-7;  // [m] far more than what rounding misplaces
 
 double squared(double x) { return x * x; }
 

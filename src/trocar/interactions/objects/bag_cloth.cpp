@@ -14,7 +14,7 @@ constexpr double kRoom = 0.060;                 // [m] of the sleeve in the body
 constexpr double kNeck = 0.016;                 // [m] a sleeve no deeper than this has its end in the port
 constexpr double kUnrolled = 0.9;               // share of the hoop that is out when all of the cloth is
 constexpr double kRolled = 0.12;                // of its depth: how the cloth lies under the hoop as it comes out
-constexpr double kFilmDrags = 4;                    // [1/s] speed is lost to wet film and gas
+constexpr double kFilmDrags = 4;                // [1/s] speed is lost to wet film and gas
 constexpr double kQuickestNode = 3;             // [m/s]
 constexpr double kStiff = 0.1;                  // [N/m] of a bend
 constexpr double kTaut = 0.98, kStilled = 0.5;  // of its length, squared; share of a swing that is lost in a tick

@@ -14,7 +14,7 @@ constexpr double kTouchAhead = 0.0005;  // [m] touches are there before anything
 constexpr double kAnotherSide = 0.012;  // [m] deeper is another part of the cloth ...
 constexpr double kStillIn = 0.040;      // [m] ... but of what is inside, which has nowhere else to be
 constexpr double kInMouth = 0.006;      // [m] about the mouth's plane: what lies there keeps the hoop open
-constexpr double kLeavesBag = 0.002;       // [m] that what keeps it open is away from the hoop
+constexpr double kLeavesBag = 0.002;    // [m] that what keeps it open is away from the hoop
 constexpr double kBack = 0.0005;        // [m] above the mouth before what was inside has left ...
 constexpr double kPouchBack = 0.003;    // ... and a node of a pouch, whose nodes are about 5 mm apart
 // Of a pouch in the bag; a node of a gallbladder weighs some 2 mN.

@@ -39,8 +39,7 @@ struct ObjectStates {
   template <class S, class V>
   static void fields(S& s, V&& v) {
     v("rigid", s.rigid, core::only_if(!s.rigid.empty())), v("fat", s.fat, core::only_if(!s.fat.empty())),
-        v("bags", s.bags, core::only_if(!s.bags.empty())),
-        v("sutures", s.sutures, core::only_if(!s.sutures.empty()));
+        v("bags", s.bags, core::only_if(!s.bags.empty())), v("sutures", s.sutures, core::only_if(!s.sutures.empty()));
   }
 };
 struct ObjectWork {

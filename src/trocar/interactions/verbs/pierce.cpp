@@ -7,8 +7,8 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kDeepest = 0.025;     // [m] below a skin that is looked for
-constexpr double kAlongside = -0.1;    // cosine of the needle with the skin's normal
+constexpr double kDeepest = 0.025;   // [m] below a skin that is looked for
+constexpr double kAlongside = -0.1;  // cosine of the needle with the skin's normal
 
 void load_place(const Surface& surface, const SkinPlace& place, const SkinLoad& whole, std::int32_t hand,
                 NetworkLoads& loads) noexcept {

@@ -1,9 +1,9 @@
-// A needle's way into an organ: its point catches in the skin and dents it until that gives way at the tissue's puncture
-// force; from then on that place of the skin sits on the needle. It is carried aside with it, and along with it as far
-// as friction bears.
+// A needle's way into an organ: its point catches in the skin and dents it until that gives way at the tissue's
+// puncture force; from then on that place of the skin sits on the needle. It is carried aside with it, and along with
+// it as far as friction bears.
 //
-//   F = k sunk < F_puncture          before; k 1000 N/m, our choice: how far the skin gives before it is pierced is its own
-//   |F along| <= drag * depth        after                                                     drag 0.05 N/mm
+//   F = k sunk < F_puncture          before; k 1000 N/m, our choice: how far the skin gives before it is pierced is its
+//   own |F along| <= drag * depth        after                                                     drag 0.05 N/mm
 //
 // The needle itself has no other contact: between skin and point tissue takes it along at the skin alone.
 #pragma once
