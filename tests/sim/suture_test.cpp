@@ -83,11 +83,11 @@ TEST(Suture, TurnsInJawsWhereItsTipIsPushedAside) {
   d.rest(0.1);
   const interactions::ToolShape before = sim::shape_of(box(), d.state, size_t(right_hand()));
   const Vec3d was = to_jaw(before, d.tip());
-  // the tip against the plate, and on
+  // over the pad, and down on it
   const Vec3d x = d.suture().needle.x;
   const Quatd q = d.suture().needle.q;
-  for (int i = 0; i < 700; ++i) {
-    d.lead(x + Vec3d{0.03, 0, -0.0} * std::min(1.0, i / 300.0) + Vec3d{0, 0, -0.030} * std::max(0.0, (i - 300) / 400.0),
+  for (int i = 0; i < 900; ++i) {
+    d.lead(x + std::min(1.0, i / 400.0) * Vec3d{-0.02, 0, 0} + std::max(0.0, (i - 400) / 500.0) * Vec3d{0, 0, -0.022},
            q);
     d.step();
   }

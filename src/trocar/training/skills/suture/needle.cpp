@@ -30,15 +30,12 @@ class DriveNeedle final : public Skill {
  private:
   enum Phase { kAbove, kDown, kDrive, kRest };
   static constexpr double kHigh = 0.016, kBeforeIn = 0.35, kHang = 0.4;  // [m], [rad], [s]
-  static constexpr double kSkinGives = 0.0008;                           // [m]
 
   void start(Operator& op, int) override {
     const suture::NeedleModel& m = suture_of(op.model()).needle;
     const sim::MarkPose in = mark_pose(op, m_in), out = mark_pose(op, m_out);
     m_up = normalised(in.normal + out.normal, {0, 0, 1});
-    // skin goes with the tip until it is pierced
-    const Vec3d at = in.place - kSkinGives * normalised(out.place - in.place);
-    m_way = way_between(m, at, out.place, m_up, op.arm(m_hand).port);
+    m_way = way_between(m, in.place, out.place, m_up, op.arm(m_hand).port);
     m_angle = -kBeforeIn;
     m_last = m_way.angle + m_beyond / m.radius;
     m_from = training::pose_of(suture_of(op.state()).needle);
