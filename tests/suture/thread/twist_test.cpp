@@ -30,7 +30,7 @@ Vec3d round(Vec3d axis, Vec3d side, double angle) {
 bool ring_leaves(double angle) {
   const ThreadStuff stuff = elastic_pds();
   const double total = 0.09;
-  const ThreadModel m = build({.stuff = stuff, .length = total, .gravity = {0, 0, 0}, .drag = 20});
+  const ThreadModel m = build({.stuff = stuff, .length = total, .gravity = {0, 0, 0}, .drag = 20, .most_solves = 16});
   const double gap = 1.3 * stuff.diameter, radius = (total + gap) / (2 * kPi);
   std::vector<Vec3d> path;
   for (int i = 0; i <= 2000; ++i) {

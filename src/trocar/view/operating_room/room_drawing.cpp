@@ -66,7 +66,8 @@ MeshBuffer link_mesh(const kinematics::Mechanism& m, int body) {
       return s.body == body && length(cross(s.to - s.from, it.axis)) < 0.1 * length(s.to - s.from);
     });
     if (radius > 0 && !about_itself)
-      room::add_cylinder(b, (side - 1.15 * radius) * it.axis, (side + 1.15 * radius) * it.axis, radius, room::kGunmetal);
+      room::add_cylinder(b, (side - 1.15 * radius) * it.axis, (side + 1.15 * radius) * it.axis, radius,
+                         room::kGunmetal);
   }
   return b;
 }
