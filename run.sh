@@ -4,14 +4,24 @@
 #   ./run.sh                   the start screen of the trainer; where there is no display the scripted surgeon does the
 #                              exercise and leaves pictures, a film, a recording and a report under out/demonstration
 #   ./run.sh build             stops after the build; the program is build/release/trocar
+#   ./run.sh modeller [FILE]   the modeller, with what it needs on demand: STEP and IGES files (188 MB the first time)
 #   ./run.sh ARGUMENTS...      starts the program with these (./run.sh --help, ./run.sh list, ...)
 set -euo pipefail
 root=$(cd "$(dirname "$0")" && pwd)
 program=$root/build/release/trocar
 
-"$root/tools/setup.sh" build
+job=build
+[ "${1:-}" = modeller ] && job=modeller
+"$root/tools/setup.sh" $job
 [ -x "$program" ] || echo "run: building (some minutes the first time)" >&2
 "$root/tools/build.sh" trocar
+
+if [ $job = modeller ]; then
+  shift
+  [ -x "$root/build/release/trocar_cad" ] || (cd "$root" && cmake --preset release >/dev/null)  # the target came with the packages
+  "$root/tools/build.sh" trocar_cad
+  exec "$program" model "$@"
+fi
 
 exercise=gynaecology/sterilisation
 if [ $# -gt 0 ]; then

@@ -2,6 +2,7 @@
 # Installs the Debian 12 packages that a job needs and that are not there, as root or through sudo.
 #
 #   tools/setup.sh build            what ./run.sh needs: compiler, libraries of the program
+#   tools/setup.sh modeller         the same and what reads STEP and IGES
 #   tools/setup.sh test             the same and what ./test.sh needs
 #   tools/setup.sh soak             the same and a second compiler
 #   tools/setup.sh dev              the same and formatter, linter, LLVM's standard library
@@ -31,6 +32,9 @@ build=(
   fonts-dejavu-core    # its text
   ffmpeg               # films: a program of its own, called for --video and by the player
 )
+modeller=(
+  libocct-data-exchange-dev  # STEP and IGES in the modeller; 188 MB with what it needs, so on demand
+)
 test=(
   libgtest-dev         # tests
   libbenchmark-dev     # benchmarks
@@ -56,10 +60,11 @@ list_only=false
 [ "${1:-}" = --list ] && { list_only=true; shift; }
 case "${1:-build}" in
   build) wanted=("${build[@]}") ;;
+  modeller) wanted=("${build[@]}" "${modeller[@]}") ;;
   test) wanted=("${build[@]}" "${test[@]}") ;;
   soak) wanted=("${build[@]}" "${test[@]}" "${soak[@]}") ;;
   dev) wanted=("${build[@]}" "${test[@]}" "${soak[@]}" "${dev[@]}") ;;
-  *) sed -n '2,10s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  *) sed -n '2,11s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
 esac
 if $list_only; then
   printf '%s\n' "${wanted[@]}"

@@ -1,6 +1,7 @@
 #include "modeller/modeller.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <epoxy/gl.h>
@@ -235,6 +236,7 @@ void Modeller::take_file(fs::path chosen) {
       leave();
     }
     if (wanted == FileFor::save_as) save_as(chosen);
+    if (wanted == FileFor::body) ask_for_body(m_body_by, chosen);
     if (wanted == FileFor::scan) m_scan.open(chosen), m_scan_shown = true;
     if (wanted == FileFor::labels) m_scan.take_labels(chosen);
     if (wanted == FileFor::write_labels) m_scan.write_labels(chosen);
@@ -249,6 +251,18 @@ void Modeller::take_file(fs::path chosen) {
   }
 }
 
+/// What else is to be known of a body that a file shall become.
+void Modeller::ask_for_body(const std::string& operation, const fs::path& file) {
+  m_adding = operation;
+  m_asked.clear();
+  m_asked["file"] = file.lexically_proximate(m_document->root().parent_path()).generic_string();
+  std::string name = file.stem().string();
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  m_asked["name"] = free_name(name);
+  if (operation == "fit_spline") m_asked["cell_mm"] = "5";
+}
+
 void Modeller::log_widgets() {
   const std::vector<ui::Widget> widgets = ui::take_widgets();
   if (!m_log.on()) return;
@@ -259,6 +273,8 @@ void Modeller::log_widgets() {
   if (widgets == m_widgets && points == m_logged_points) return;
   m_widgets = widgets;
   m_logged_points = points;
+  Json gizmo = Json::object();
+  for (const auto& [word, spot] : gizmo_spots(m_gizmo, m_views[std::size_t(m_active)])) gizmo[word] = {spot.x, spot.y};
   Json places = Json::object();
   for (const ui::Widget& w : widgets) places[w.id] = {w.x, w.y};
   const Area& a = m_views[std::size_t(m_active)].area;
@@ -268,6 +284,7 @@ void Modeller::log_widgets() {
                          {"view", {a.x, a.y, a.width, a.height}},
                          {"selected", m_selected},
                          {"points", points},
+                         {"gizmo", gizmo},
                          {"widgets", places}});
 }
 
@@ -317,8 +334,10 @@ bool Modeller::step(scene::JsonValue step) {
     return true;
   } catch (const core::BadInput& bad) {
     tell(bad.faults().front().message);
-    return false;
+  } catch (const core::EnvironmentLacks& lacks) {
+    tell(lacks.what());
   }
+  return false;
 }
 
 bool Modeller::set_key(const std::string& path, const scene::JsonValue& value) {

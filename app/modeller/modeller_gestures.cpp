@@ -68,6 +68,15 @@ void Modeller::begin_drag(const modeller::Handle& handle, float x, float y) {
   m_previewed = false;
 }
 
+/// A part of the gizmo was taken: as the key and the axis would do, as long as the button is held.
+void Modeller::begin_gizmo(const GizmoPart& part, float x, float y) {
+  begin_gesture(part.kind);
+  m_gesture->axis = part.axis;
+  m_gesture->from_x = x;
+  m_gesture->from_y = y;
+  m_gesture->dragged = true;
+}
+
 /// The step of a script that the gesture comes to now; none: nothing has moved.
 std::optional<scene::JsonValue> Modeller::step_of_gesture(std::string& amount) const {
   const Gesture& g = *m_gesture;
@@ -82,6 +91,9 @@ std::optional<scene::JsonValue> Modeller::step_of_gesture(std::string& amount) c
     Vec3d by = (v.on_plane_of(g.about, x, y) - v.on_plane_of(g.about, g.from_x, g.from_y)) * (1e3 * fine);
     if (const std::optional<Vec3d> there = m_snap ? onto_other_body(v, x, y) : std::nullopt)
       by = (*there - g.about) * 1e3;
+    else if (g.axis >= 0)
+      by = kAxes[g.axis] *
+           (1e3 * fine * (v.along(g.about, kAxes[g.axis], x, y) - v.along(g.about, kAxes[g.axis], g.from_x, g.from_y)));
     if (g.axis >= 0) by = kAxes[g.axis] * dot(by, kAxes[g.axis]);
     if (const std::optional<double> n = g.number()) by = kAxes[g.axis < 0 ? 0 : g.axis] * *n;
     by = {snapped(by.x, 1, snap), snapped(by.y, 1, snap), snapped(by.z, 1, snap)};

@@ -1,4 +1,6 @@
 // Keys, as editors of shapes have them.
+#include <algorithm>
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -13,7 +15,12 @@ namespace trocar::app {
 void Modeller::listen() {
   if (m_window.keys().help) m_help = !m_help;
   for (const std::string& path : m_window.dropped()) {
-    if (m_document && fs::path(path).extension() != ".json") {
+    const std::string ending = fs::path(path).extension().string();
+    if (m_document && std::find(kBodyFiles.begin(), kBodyFiles.end(), ending) != kBodyFiles.end()) {
+      ask_for_body("from_file", path);
+      continue;
+    }
+    if (m_document && ending != ".json") {
       m_scan.open(path);
       m_scan_shown = true;
       continue;

@@ -115,13 +115,26 @@ void Modeller::draw_menu_bar() {
       }
     ImGui::Separator();
     static constexpr std::pair<const char*, const char*> kAsked[] = {
-        {"Ball or ellipsoid ...", "ellipsoid"},          {"Body of revolution ...", "revolved"},
-        {"Fold from a cord to an organ ...", "fold"},    {"Bonds of a pouch ...", "bond_facing"},
-        {"Fit to a mesh from a file ...", "fit_spline"}, {"Make a NURBS of the chosen one ...", "to_spline"},
-        {"Knot into the chosen one ...", "insert_knot"}, {"Hold the chosen one ...", "hold"},
+        {"Ball or ellipsoid ...", "ellipsoid"},
+        {"Body of revolution ...", "revolved"},
+        {"Fold from a cord to an organ ...", "fold"},
+        {"Bonds of a pouch ...", "bond_facing"},
+        {"Make a NURBS of the chosen one ...", "to_spline"},
+        {"Knot into the chosen one ...", "insert_knot"},
+        {"Hold the chosen one ...", "hold"},
         {"Fibres of the chosen one ...", "fibres"}};
     for (const auto& [label, operation] : kAsked)
       if (item(label)) m_adding = operation, m_asked.clear();
+    ImGui::Separator();
+    for (const auto& [label, operation] :
+         {std::pair{"Body from a file ...", "from_file"}, std::pair{"Fit to a mesh from a file ...", "fit_spline"}})
+      if (item(label)) {
+        m_file_for = FileFor::body;
+        m_draw_for.clear();
+        m_body_by = operation;
+        m_files.open(operation == std::string("from_file") ? "A body from a file" : "A mesh to fit a NURBS to", "Take",
+                     m_document->root().parent_path(), {kBodyFiles.begin(), kBodyFiles.end()});
+      }
     ImGui::EndMenu();
   }
   if (menu("Scene")) {
@@ -394,7 +407,7 @@ void Modeller::draw_adding() {
   ui::begin_middle("adding", 620);
   ui::title(operation->parameters.meaning);
   for (const scene::Key& key : operation->parameters.keys) {
-    if (key.name == "file" && m_adding != "vessel_tree") continue;
+    if (key.name == "file" && !key.required) continue;  // of the document: the scene's own
     std::string& value = m_asked[key.name];
     if (value.empty() && m_asked.count(key.name + "?") == 0) {  // what it usually is, once
       m_asked[key.name + "?"] = "1";
@@ -439,13 +452,14 @@ void Modeller::draw_adding() {
   put(s, "do", scene::json_text(m_adding));
   for (const scene::Key& key : operation->parameters.keys)
     if (const std::string& value = m_asked[key.name]; !value.empty()) put(s, key.name, typed_value(key, value));
+  m_message.clear();
   if (!step(std::move(s))) return;
   const std::string name = m_asked["name"];
   m_things = modeller::outline(*m_document);
   m_things_of = m_document->version();
   for (const modeller::Thing& t : m_things)
     if (t.name == name && t.kind != "tissue") select(t.kind + ":" + t.name);
-  tell(m_adding + " " + name);
+  if (m_message.empty()) tell(m_adding + " " + name);
   m_adding.clear();
 }
 

@@ -21,6 +21,7 @@
 #include "modeller/builder.hpp"
 #include "modeller/file_panel.hpp"
 #include "modeller/gesture.hpp"
+#include "modeller/gizmo.hpp"
 #include "modeller/modeller.hpp"
 #include "modeller/scan_desk.hpp"
 #include "modeller/viewport.hpp"
@@ -33,6 +34,10 @@ struct ImDrawList;
 namespace trocar::app {
 
 namespace fs = std::filesystem;
+
+/// Endings of files that a body can be made of.
+inline constexpr std::array kBodyFiles = {".obj", ".stl",  ".ply", ".glb",  ".gltf", ".vtk",
+                                          ".msh", ".step", ".stp", ".iges", ".igs"};
 
 class Modeller {
  public:
@@ -48,6 +53,7 @@ class Modeller {
   void take_what_is_built();
   void keep_unsaved();
   void take_file(fs::path chosen);
+  void ask_for_body(const std::string& operation, const fs::path& file);
   bool may_close();
   void leave();
 
@@ -61,9 +67,11 @@ class Modeller {
   void draw_view(Viewport& view);
   void draw_over_views();
   void draw_handles(const Viewport& view) const;
+  void place_gizmo();
   void draw_points(const Viewport& view, ImDrawList& list) const;
   void point();
   void point_in(Viewport& view);
+  std::optional<GizmoPart> pointed_part(const Viewport& view) const;
   Viewport* view_under(float x, float y);
   void pick(const Viewport& view, float x, float y);
   void draw_point(const Viewport& view, float x, float y);
@@ -83,6 +91,7 @@ class Modeller {
 
   // modeller_gestures.cpp
   void begin_gesture(Gesture::Kind kind);
+  void begin_gizmo(const GizmoPart& part, float x, float y);
   void begin_drag(const modeller::Handle& handle, float x, float y);
   void preview_gesture();
   void lead_gesture();
@@ -168,6 +177,7 @@ class Modeller {
   std::uint64_t m_handles_of = ~0ull;
   std::string m_handles_thing;
   std::optional<modeller::Handle> m_handle;  ///< taken last
+  Gizmo m_gizmo;                             ///< of the chosen thing, or of the point that was taken
   std::optional<Gesture> m_gesture;
   bool m_previewed = false;        ///< the document's last change is the gesture's so far
   std::set<std::string> m_hidden;  ///< names of what is not shown
@@ -200,8 +210,10 @@ class Modeller {
     new_organ,
     scan,
     labels,
-    write_labels
+    write_labels,
+    body
   } m_file_for = FileFor::none;
+  std::string m_body_by;  ///< the operation that takes the file of a body
   enum class Question { none, unsaved, recover } m_question = Question::none;
   enum class After { none, quit, open, start } m_after = After::none;
   fs::path m_to_open;

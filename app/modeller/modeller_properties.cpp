@@ -117,7 +117,7 @@ void Modeller::draw_key(const scene::Key& key, const JsonValue* value, const std
   if (!simple && !value) return;
   ui::text(key.name, value ? ui::kWhite : ui::kGrey);
   meaning_of(key);
-  ImGui::SameLine(std::max(150.0f - 12.0f * float(depth), 110.0f) * ui::scale());
+  ImGui::SameLine(std::max(172.0f - 12.0f * float(depth), 110.0f) * ui::scale());
   if (!simple) {
     std::string text;
     for (const JsonValue& item : value->items)
@@ -154,8 +154,9 @@ void Modeller::draw_read_outs(const modeller::Thing& thing) {
     if (r.name != thing.name) continue;
     ui::heading("what it comes to");
     if (r.volume_mL > 0) ui::text(fmt::format("{:.1f} mL, {:.1f} g", r.volume_mL, r.mass_g));
-    ui::text(fmt::format("{} nodes, {} springs, {} sub-steps of {:.3f} ms", r.nodes, r.springs, r.substeps,
-                         r.substeps > 0 ? 1.0 / r.substeps : 1.0));
+    ui::text(r.substeps > 0 ? fmt::format("{} nodes, {} springs, {} sub-steps of {:.3f} ms", r.nodes, r.springs,
+                                          r.substeps, 1.0 / r.substeps)
+                            : fmt::format("{} nodes, {} springs, solved implicitly", r.nodes, r.springs));
     if (r.limit_ms > 0) ui::text(fmt::format("stable up to {:.3f} ms", r.limit_ms), ui::kGrey);
     ui::text(modeller::memory_in_words(r.bytes) + " in memory", ui::kGrey);
     ui::text(fmt::format("about {:.0f} us of a tick's 1000", r.predicted_us),

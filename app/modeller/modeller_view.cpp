@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <trocar/modeller/operations/transform.hpp>
 #include <trocar/modeller/operations/values.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/json/json_text.hpp>
@@ -68,6 +69,19 @@ void Modeller::draw_views() {
     m_handles_thing = m_selected;
   }
   if (m_selected.empty()) m_handles = {};
+  place_gizmo();
+}
+
+/// Where arrows and rings stand: at the point that was taken, which moves only, else in the chosen thing's middle.
+void Modeller::place_gizmo() {
+  m_gizmo = {};
+  if (m_handles.points.empty() || m_drive || m_brush.on || m_measuring || !m_draw_for.empty()) return;
+  if (m_handle) {
+    for (const modeller::Handle& h : m_handles.points)
+      if (h.list == m_handle->list && h.item == m_handle->item) m_gizmo = {h.at, true, false};
+  } else if (const std::optional<modeller::Thing> thing = selected()) {
+    m_gizmo = {modeller::middle_of(modeller::value_of(*m_document, *thing)) * 1e-3, true, true};
+  }
 }
 
 void Modeller::draw_points(const Viewport& v, ImDrawList& list) const {
@@ -89,6 +103,7 @@ void Modeller::draw_handles(const Viewport& v) const {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.PushClipRect({v.area.x, v.area.y}, {v.area.x + v.area.width, v.area.y + v.area.height});
   if (!m_brush.on) draw_points(v, list);
+  draw_gizmo(m_gizmo, v, pointed_part(v), list);
   if (m_soft && m_handle) {
     const std::optional<modeller::Spot> s = v.spot(m_handle->at);
     if (s) list.AddCircle({s->x, s->y}, float(m_soft_mm * 1e-3 / v.pixel(m_handle->at)), kPointColour, 48, 1.2f);
@@ -135,6 +150,13 @@ void Modeller::draw_over_views() {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const char* text = m_builder.busy() ? "compiling ..." : "nothing to show yet: add a body, or mend what is told below";
   list.AddText({m_middle.x + 24, m_middle.y + 24}, IM_COL32(190, 195, 200, 255), text);
+}
+
+/// The part of the gizmo that is led, or that a press would take.
+std::optional<GizmoPart> Modeller::pointed_part(const Viewport& v) const {
+  if (m_gesture) return m_gesture->axis < 0 ? std::nullopt : std::optional(GizmoPart{m_gesture->kind, m_gesture->axis});
+  const ImGuiIO& io = ImGui::GetIO();
+  return v.area.holds(io.MousePos.x, io.MousePos.y) ? gizmo_at(m_gizmo, v, io.MousePos.x, io.MousePos.y) : std::nullopt;
 }
 
 Viewport* Modeller::view_under(float x, float y) {
@@ -199,6 +221,8 @@ void Modeller::point_in(Viewport& v) {
       modeller::handle_at(m_handles, v.camera, int(v.area.width), int(v.area.height), v.local(x, y), kHandleReach);
   if (handle)
     begin_drag(m_handles.points[*handle], x, y);
+  else if (const std::optional<GizmoPart> part = gizmo_at(m_gizmo, v, x, y))
+    begin_gizmo(*part, x, y);
   else
     pick(v, x, y);
 }

@@ -39,6 +39,12 @@ struct Viewport {
     const Vec3d forward = ray(area.x + area.width / 2, area.y + area.height / 2), way = ray(x, y);
     return eye() + way * (dot(place - eye(), forward) / dot(way, forward));
   }
+  /// How far along an axis through a place the ray through a spot passes it [m]; 0 where one looks along the axis.
+  double along(Vec3d place, Vec3d axis, float x, float y) const {
+    const Vec3d way = ray(x, y), from = eye() - place;
+    const double slant = dot(way, axis), across = 1 - slant * slant;
+    return across < 0.01 ? 0.0 : (dot(from, axis) - dot(from, way) * slant) / across;
+  }
   /// Length of a pixel at that depth [m].
   double pixel(Vec3d place) const {
     return length(on_plane_of(place, area.x + 1, area.y) - on_plane_of(place, area.x, area.y));

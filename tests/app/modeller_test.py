@@ -121,7 +121,7 @@ def paint(m, file):
     m.happened("step", 1, do="paint")
     shown("stiffness")
     m.keys("ctrl+s")
-    m.happened("saved", 6)
+    m.happened("saved", 8)
     check('"regions"' in file.read_text(encoding="utf-8"), "painted stiffness is in the file")
     m.hands.press("paint hold")
     drag(m, (0.5, 0.44), (0.5, 0.48))
@@ -142,12 +142,45 @@ def paint(m, file):
     m.hands.press("Add")
     m.happened("step", 1, do="tilt")
     m.keys("ctrl+s")
-    m.happened("saved", 7)
+    m.happened("saved", 9)
     text = file.read_text(encoding="utf-8")
     check('"on": "organ"' in text and '"gravity_m_s2"' in text, "mark and tilt are in the file")
     m.eyes.wait("a good build of it", lambda: m.eyes.happened("built")[-1]["good"], 60)
     shown("mark")
     m.hands.press("solid:organ")
+
+
+def by_gizmo(m, file):
+    """An arrow pressed and a number typed, a cube and a ring dragged; each is undone."""
+    m.keys("f")
+    before = centre_of(file)
+    for i, part in enumerate(("move x", "scale z", "rotate x")):
+        m.eyes.wait(f"the gizmo's {part}", lambda: part in m.eyes.screen.get("gizmo", {}), 20)
+        time.sleep(0.6)
+        m.eyes.read()
+        x, y = m.eyes.screen["gizmo"][part]
+        xdo("mousemove", int(x), int(y))
+        time.sleep(0.2)
+        shown("gizmo")
+        xdo("mousedown", 1)
+        time.sleep(0.3)
+        for step in range(1, 6):
+            xdo("mousemove", int(x) + 5 * step, int(y) - 4 * step)
+            time.sleep(0.12)
+        if part == "move x":
+            m.keys("4")
+        xdo("mouseup", 1)
+        m.happened("gesture", 2 + i, kept=True)
+        did = m.eyes.happened("step")[-1]["do"]
+        check(did == {"move x": "move", "scale z": "stretch", "rotate x": "rotate"}[part], f"{part} did {did}")
+        if part == "move x":
+            m.keys("ctrl+s")
+            m.happened("saved", 2)
+            check(abs(centre_of(file)[0] - before[0] - 4) < 1e-6, f"4 mm along x: {centre_of(file)} after {before}")
+        m.keys("ctrl+z")
+    m.keys("ctrl+s")
+    m.happened("saved", 3)
+    check(centre_of(file) == before, "all of it undone")
 
 
 def session(program, folder):
@@ -166,6 +199,8 @@ def session(program, folder):
     before = centre_of(file)
     check(abs(before[2] - (-110 + 12)) < 1e-6, f"moved by 12 mm exactly: {before}")
 
+    by_gizmo(m, file)
+
     # a point dragged with the mouse, undone, done again
     time.sleep(1.0)
     m.eyes.read()
@@ -176,16 +211,16 @@ def session(program, folder):
         xdo("mousemove", x + 6 * i, y - 4 * i)
         time.sleep(0.15)
     xdo("mouseup", 1)
-    m.happened("gesture", 2)
+    m.happened("gesture", 5)
     m.keys("ctrl+s")
-    m.happened("saved", 2)
+    m.happened("saved", 4)
     dragged = centre_of(file)
     check(sum(abs(a - b) for a, b in zip(dragged, before)) > 1, f"a dragged point has moved: {before} {dragged}")
     m.keys("ctrl+z", "ctrl+s")
-    m.happened("saved", 3)
+    m.happened("saved", 5)
     check(centre_of(file) == before, "undone, the file says what it said")
     m.keys("ctrl+shift+z", "ctrl+s")
-    m.happened("saved", 4)
+    m.happened("saved", 6)
     check(centre_of(file) == dragged, "done again, it says the other")
 
     # a cord drawn from place to place
@@ -198,10 +233,24 @@ def session(program, folder):
     m.hands.press("Add")
     m.happened("step", 1, do="cord")
     m.keys("ctrl+s")
-    m.happened("saved", 5)
+    m.happened("saved", 7)
     check("centreline_mm" in file.read_text(encoding="utf-8"), "the cord is in the file")
     m.hands.press("solid:organ")
     paint(m, file)
+
+    # a body from another program's file
+    cube = Path(folder) / "cube.obj"
+    corners = [f"v {100 + 20 * (i & 1)} {-150 + 20 * (i >> 1 & 1)} {-110 + 20 * (i >> 2)}" for i in range(8)]
+    sides = ["f 1 3 4 2", "f 5 6 8 7", "f 1 2 6 5", "f 3 7 8 4", "f 1 5 7 3", "f 2 4 8 6"]
+    cube.write_text("\n".join(corners + sides) + "\n", encoding="utf-8")
+    m.menu("Add", "Body from a file ...")
+    m.fill("file name", "cube.obj")
+    m.hands.press("Take")
+    m.hands.press("Add")
+    m.happened("step", 1, do="from_file")
+    shown("from_file")
+    m.keys("ctrl+z")
+    m.hands.press("solid:organ")
 
     # the test drive takes hold of the ball
     m.keys("f")
@@ -230,7 +279,7 @@ def session(program, folder):
     # killed with something unsaved: it is offered again
     m.over_view()
     m.keys("g", "x", "7", "Return")
-    m.happened("gesture", 3)
+    m.happened("gesture", 6)
     time.sleep(MOST_LOST)
     m.kill()
     check(centre_of(file) == dragged, "nothing half saved")

@@ -12,6 +12,7 @@ std::vector<Operation> point_operations();      ///< of lines, sections, nets: m
 std::vector<Operation> vessel_operations();     ///< trees of vessels
 std::vector<Operation> primitive_operations();  ///< balls, cylinders, tubes
 std::vector<Operation> spline_operations();     ///< NURBS bodies
+std::vector<Operation> file_operations();       ///< bodies from other programs' files
 std::vector<Operation> link_operations();       ///< folds and bonds between bodies
 std::vector<Operation> paint_operations();      ///< holds, bonds and stiffness by a brush; fibres
 std::vector<Operation> place_operations();      ///< the patient's tilt, ports, tools, scope, marks, variation

@@ -11,9 +11,9 @@ namespace trocar::modeller {
 const std::vector<Operation>& operations() {
   static const std::vector<Operation> all = [] {
     std::vector<Operation> list;
-    for (const auto& of_kind :
-         {body_operations, key_operations, transform_operations, point_operations, vessel_operations,
-          primitive_operations, spline_operations, link_operations, paint_operations, place_operations})
+    for (const auto& of_kind : {body_operations, key_operations, transform_operations, point_operations,
+                                vessel_operations, primitive_operations, spline_operations, file_operations,
+                                link_operations, paint_operations, place_operations})
       for (Operation& one : of_kind()) list.push_back(std::move(one));
     return list;
   }();

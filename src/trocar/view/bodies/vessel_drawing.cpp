@@ -142,6 +142,11 @@ bool in_a_fold(const interactions::VesselPath& path) {
   });
 }
 
+bool is_in_sight(const interactions::VesselPath& path) {
+  const auto [from, to] = in_sight(path);
+  return from < to;
+}
+
 VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, const Detail& detail,
                              Lie lie)
     : m_model(&model), m_veins(veins), m_lie(lie), m_hosts(sim::make_host_views(model)) {

@@ -11,6 +11,8 @@ namespace trocar::view {
 
 /// Does a fold carry any of it?
 bool in_a_fold(const interactions::VesselPath& path);
+/// Does any of it not run below the peritoneum?
+bool is_in_sight(const interactions::VesselPath& path);
 
 class VesselDrawing {
  public:

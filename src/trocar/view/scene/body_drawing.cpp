@@ -290,8 +290,9 @@ void BodyDrawing::make_vessels(render::Backend& backend) {
   using Lie = VesselDrawing::Lie;
   for (const bool veins : {false, true}) {
     const auto some = [&](bool fold) {
-      return std::any_of(m_model->vessels.list.begin(), m_model->vessels.list.end(),
-                         [&](const sim::Vessel& v) { return v.vein == veins && in_a_fold(v.path) == fold; });
+      return std::any_of(m_model->vessels.list.begin(), m_model->vessels.list.end(), [&](const sim::Vessel& v) {
+        return v.vein == veins && in_a_fold(v.path) == fold && is_in_sight(v.path);
+      });
     };
     if (!some(false) && !some(true)) continue;
     const Detail detail(levels_of(*m_model, veins ? "veins" : "arteries"));

@@ -1,0 +1,93 @@
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/core/json.hpp>
+#include <trocar/core/run_program.hpp>
+#include <trocar/geometry/surface_files/surface_file.hpp>
+#include <trocar/modeller/operations/cad_file.hpp>
+
+namespace trocar::modeller {
+namespace {
+
+constexpr std::size_t kMostSaid = std::size_t(64) << 20;  // control nets are part of what it says
+
+/// Beside the program itself; $TROCAR_CAD names another place.
+fs::path cad_program() {
+  if (const char* given = std::getenv("TROCAR_CAD")) return given;
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path() / "trocar_cad";
+}
+
+/// A folder that goes when it does.
+class PassingFolder {
+ public:
+  PassingFolder() {
+    std::string name = (fs::temp_directory_path() / "trocar-cad-XXXXXX").string();
+    if (mkdtemp(name.data())) m_path = name;
+  }
+  ~PassingFolder() {
+    std::error_code ignored;
+    if (!m_path.empty()) fs::remove_all(m_path, ignored);
+  }
+  PassingFolder(const PassingFolder&) = delete;
+  PassingFolder& operator=(const PassingFolder&) = delete;
+  const fs::path& path() const { return m_path; }
+
+ private:
+  fs::path m_path;
+};
+
+scene::JsonValue as_text(const Json& value) {
+  std::vector<core::Fault> faults;
+  return scene::parse_json(value.dump(), "nurbs", faults).root;
+}
+
+}  // namespace
+
+bool is_cad_file(const fs::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  return ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs";
+}
+
+std::vector<CadPart> read_cad_file(const fs::path& file, double within) {
+  const fs::path program = cad_program();
+  std::error_code error;
+  if (!fs::exists(program, error))
+    throw core::EnvironmentLacks(
+        "STEP and IGES files need Open CASCADE, which is not installed: ./run.sh modeller installs and builds what is "
+        "missing (188 MB)");
+  const auto refuse = [&](const std::string& message) {
+    throw core::BadInput({{{file.generic_string(), 0, 0}, message}});
+  };
+  if (!fs::is_regular_file(file, error)) refuse("expected a file, got none of this name");
+  const PassingFolder folder;
+  const core::ProgramEnd end = core::run_program(
+      program,
+      {fs::absolute(file).string(), "--into", folder.path().string(), "--within-mm", fmt::format("{}", within * 1e3)},
+      kMostSaid);
+  if (!end.started) throw core::EnvironmentLacks(fmt::format("{} could not be started", program.string()));
+  if (end.status != 0)
+    refuse(fmt::format("expected a STEP or IGES file that can be read, got: {}",
+                       end.status == 2 && !end.output.empty() ? end.output.substr(0, end.output.find('\n'))
+                                                              : "its reader did not come to an end"));
+  const Json said = Json::parse(end.output, nullptr, false);
+  if (!said.is_object() || !said.contains("parts")) refuse("expected its parts, got nothing that can be understood");
+  std::vector<CadPart> out;
+  for (const Json& part : said["parts"]) {
+    CadPart one;
+    one.faces = part["faces"];
+    const geometry::SurfaceFile mesh = geometry::read_surface_file(folder.path() / part["mesh"].get<std::string>());
+    for (const geometry::SurfacePart& p : mesh.parts) geometry::append(one.mesh, p.mesh);
+    for (Vec3d& p : one.mesh.positions) p = p * 1e-3;
+    if (part.contains("nurbs")) one.nurbs = as_text(part["nurbs"]);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+}  // namespace trocar::modeller

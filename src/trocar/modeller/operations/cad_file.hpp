@@ -1,0 +1,27 @@
+// STEP and IGES, by the program `trocar_cad`, which is built where Open CASCADE is installed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <trocar/geometry/surfaces/tri_mesh.hpp>
+#include <trocar/modeller/document/document.hpp>
+#include <trocar/scene/json/json.hpp>
+
+namespace trocar::modeller {
+
+struct CadPart {
+  int faces = 0;
+  geometry::TriMesh mesh;  ///< [m], as its faces were triangulated, each for itself
+  std::optional<scene::JsonValue>
+      nurbs;  ///< what it is exactly, as a body's file says it; none: no single closed surface
+};
+
+/// By its name's ending.
+bool is_cad_file(const fs::path& file);
+
+/// @param within  how far meshes may be from their parts [m]
+/// @throws core::BadInput for a file that cannot be read, core::EnvironmentLacks where the program is missing
+std::vector<CadPart> read_cad_file(const fs::path& file, double within);
+
+}  // namespace trocar::modeller

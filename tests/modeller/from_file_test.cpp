@@ -1,0 +1,169 @@
+// Bodies from files of other programs: triangles, tetrahedra, STEP and IGES.
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include <fmt/format.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/geometry/surface_files/surface_writer.hpp>
+#include <trocar/modeller/document/home.hpp>
+#include <trocar/modeller/drive/built.hpp>
+#include <trocar/modeller/operations/cad_file.hpp>
+
+#include "workplace.hpp"
+
+namespace trocar::modeller {
+namespace {
+
+const fs::path kData = fs::absolute(fs::path(TROCAR_SOURCE_DIR) / "tests/modeller/data");
+
+Document empty(const Workplace& place) { return begun(place / "scene.json", false, "mine"); }
+
+double built_mL(const Document& document, const std::string& name) {
+  const Built built = build(document);
+  EXPECT_TRUE(built.good()) << (built.faults.empty() ? "" : core::to_string(built.faults.front()));
+  for (const ReadOut& r : read_outs(built, 0))
+    if (r.name == name) return r.volume_mL;
+  return 0;
+}
+
+/// A block of 30 mm.
+geometry::TriMesh block() {
+  geometry::TriMesh out;
+  for (int i = 0; i < 8; ++i) out.positions.push_back(Vec3d{double(i & 1), double(i >> 1 & 1), double(i >> 2)} * 0.03);
+  for (const auto& [a, b, c, d] :
+       {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+    out.triangles.push_back({a, b, c}), out.triangles.push_back({a, c, d});
+  return out;
+}
+
+class FromCad : public testing::Test {
+ protected:
+  void SetUp() override {
+    const fs::path program = fs::path(TROCAR_BINARY_DIR) / "trocar_cad";
+    if (!fs::exists(program)) GTEST_SKIP() << "trocar_cad was not built: Open CASCADE is not installed";
+    setenv("TROCAR_CAD", fs::absolute(program).c_str(), 1);
+  }
+  void TearDown() override { unsetenv("TROCAR_CAD"); }
+};
+
+TEST(FromFile, AMeshWithAHoleFromElsewhereIsMendedAndKeptBesideTheDocument) {
+  const Workplace place;
+  Document document = empty(place);
+  geometry::TriMesh mesh = block();
+  const double whole = geometry::volume(mesh);
+  mesh.triangles.pop_back();
+  fs::create_directories(place / "elsewhere");
+  std::ofstream(place / "elsewhere/part.obj") << geometry::to_obj(mesh, 1e-3);
+  apply(
+      document, "from_file",
+      R"({"file": "elsewhere/part.obj", "name": "lump", "tissue": "uterus", "unit_mm": 1, "place_mm": [0, -150, -110]})");
+  EXPECT_TRUE(fs::exists(place / "lump.stl"));
+  EXPECT_NEAR(built_mL(document, "lump") / (1e6 * whole), 1, 0.03);
+}
+
+TEST(FromFile, WhatCannotBeABodyIsToldAndLeavesNothing) {
+  const Workplace place;
+  Document document = empty(place);
+  const std::string before = document.text(document.root());
+  EXPECT_NE(fault_of(document, "from_file", R"({"file": "none.stl", "name": "a", "tissue": "uterus"})"), "");
+  std::ofstream(place / "block.obj") << geometry::to_obj(block(), 1e-3);
+  EXPECT_NE(fault_of(document, "from_file", R"({"file": "block.obj", "name": "a", "tissue": "uterus", "as": "nurbs"})")
+                .find("fit_spline"),
+            std::string::npos);
+  EXPECT_EQ(document.text(document.root()), before);
+  EXPECT_FALSE(fs::exists(place / "a.stl"));
+}
+
+TEST(FromFile, WithoutTheProgramForItACadFileSaysWhatToDo) {
+  const Workplace place;
+  Document document = empty(place);
+  setenv("TROCAR_CAD", "/nowhere/trocar_cad", 1);
+  std::string said;
+  try {
+    apply(document, "from_file",
+          fmt::format(R"({{"file": "{}", "name": "egg", "tissue": "uterus"}})", (kData / "egg.step").string()));
+  } catch (const core::EnvironmentLacks& lacks) {
+    said = lacks.what();
+  }
+  unsetenv("TROCAR_CAD");
+  EXPECT_NE(said.find("./run.sh modeller"), std::string::npos) << said;
+}
+
+TEST_F(FromCad, AnEllipsoidInStepIsTheNurbsThatTheFileHasWithTheVolumeOfOne) {
+  const Workplace place;
+  Document document = empty(place);
+  const std::string said = modeller::apply(
+      *find_operation("from_file"),
+      json(fmt::format(R"({{"file": "{}", "name": "egg", "tissue": "uterus"}})", (kData / "egg.step").string())),
+      "step", document);
+  EXPECT_NE(said.find("exactly"), std::string::npos) << said;
+  std::vector<core::Fault> faults;
+  const auto described = document.description(faults);
+  ASSERT_TRUE(described && faults.empty());
+  const scene::Solid& egg = described->solids.back();
+  ASSERT_TRUE(egg.shape.nurbs);
+  const geometry::nurbs::Surface surface = scene::surface_of(*egg.shape.nurbs);
+  const Vec3d middle{0.010, -0.150, -0.110}, half{0.020, 0.032, 0.016};
+  for (int i = 0; i < 20; ++i)
+    for (int j = 0; j < 20; ++j) {
+      const Vec3d p = geometry::nurbs::point(surface, i / 20.0, (j + 0.5) / 20) - middle;
+      EXPECT_NEAR(
+          std::sqrt(p.x * p.x / (half.x * half.x) + p.y * p.y / (half.y * half.y) + p.z * p.z / (half.z * half.z)), 1,
+          1e-7);
+    }
+  EXPECT_NEAR(built_mL(document, "egg") / (4e6 / 3 * M_PI * half.x * half.y * half.z), 1, 0.03);
+}
+
+TEST_F(FromCad, ATorusInIgesIsARingOfItsVolume) {
+  const Workplace place;
+  const std::vector<CadPart> parts = read_cad_file(kData / "ring.igs", 5e-5);
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_TRUE(parts[0].nurbs);
+  EXPECT_NEAR(std::fabs(geometry::volume(parts[0].mesh)) / (2 * M_PI * M_PI * 0.03 * 0.008 * 0.008), 1, 0.01);
+}
+
+TEST_F(FromCad, OfTwoPartsOneIsChosenAndABoredBlockIsABodyOfItsTriangles) {
+  const Workplace place;
+  Document document = empty(place);
+  const std::string file = (kData / "two.step").string();
+  EXPECT_NE(fault_of(document, "from_file", fmt::format(R"({{"file": "{}", "name": "a", "tissue": "uterus"}})", file))
+                .find("2, one closed NURBS"),
+            std::string::npos);
+  EXPECT_NE(
+      fault_of(document, "from_file",
+               fmt::format(R"({{"file": "{}", "name": "a", "tissue": "uterus", "part": "1", "as": "nurbs"}})", file))
+          .find("7 faces"),
+      std::string::npos);
+  apply(
+      document, "from_file",
+      fmt::format(
+          R"({{"file": "{}", "name": "block", "tissue": "uterus", "part": "1", "cell_mm": 2, "place_mm": [0, -150, -110]}})",
+          file));
+  const double mL = (20 * 30 * 40 - M_PI * 25 * 40) * 1e-3;
+  EXPECT_NEAR(built_mL(document, "block") / mL, 1, 0.03);
+}
+
+TEST_F(FromCad, DamagedFilesAreRefusedWithAReason) {
+  const Workplace place;
+  std::mt19937 random(7);
+  for (const char* name : {"egg.step", "ring.igs"}) {
+    const std::string whole = read(kData / name);
+    for (int i = 0; i < 12; ++i) {
+      std::string bytes = whole.substr(0, i % 3 == 0 ? random() % whole.size() : whole.size());
+      for (int k = 0; k < 1 + i * 3 && !bytes.empty(); ++k) bytes[random() % bytes.size()] = char(32 + random() % 95);
+      std::ofstream(place / name, std::ios::binary) << bytes;
+      try {
+        for (const CadPart& part : read_cad_file(place / name, 1e-4))
+          for (const Vec3d& p : part.mesh.positions) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
+      } catch (const core::BadInput& bad) {
+        EXPECT_FALSE(bad.faults().front().message.empty());
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trocar::modeller
