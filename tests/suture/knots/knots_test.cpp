@@ -11,14 +11,14 @@
 namespace trocar::suture {
 namespace {
 
-struct Laid {
+struct LaidThrow {
   int turns, sign;
 };
 constexpr double kWide = 0.0012, kThick = 0.00025, kHigh = 0.0011;  // [m] half of a throw's width; sides; throws apart
 
 /// Both sides from the tissue outwards, a half turn apart, from throw to throw.
 /// @param hitches  the side of lower s stays straight and the other goes round it
-std::vector<Vec3d> lay(const std::vector<Laid>& throws, bool hitches = false) {
+std::vector<Vec3d> lay(const std::vector<LaidThrow>& throws, bool hitches = false) {
   constexpr int kPoints = 60;
   std::vector<Vec3d> out[2];
   for (std::size_t k = 0; k < throws.size(); ++k) {
@@ -39,8 +39,8 @@ std::vector<Vec3d> lay(const std::vector<Laid>& throws, bool hitches = false) {
     for (int i = 0; i <= 100; ++i) out[0].push_back({0, 0, high * (i / 100.0) - 0.0003});
     out[1].clear();
     for (std::size_t k = 0; k < throws.size(); ++k)
-      for (int i = 0; i <= kPoints; ++i) {  // once round and under itself: it goes on where it came from
-        const double a = throws[k].sign * 3 * portable::pi * i / kPoints;
+      for (int i = 0; i <= kPoints; ++i) {  // once round
+        const double a = throws[k].sign * 2 * portable::pi * i / kPoints;
         const double r = 4 * kThick;
         out[1].push_back({r * portable::cos(a), r * portable::sin(a), kHigh * (double(k) + 0.8 * i / kPoints)});
       }
@@ -115,6 +115,18 @@ TEST(Knots, AreReadTheSameFromAnySideAndInEitherSense) {
     EXPECT_EQ(knot.throws[0].sign, -1);
     EXPECT_EQ(knot.throws[1].sign, 1);
   }
+}
+
+TEST(Knots, AreReadFromWhatLiesTogetherAlone) {
+  const KnotReading knot = read_knot(lay({{2, 1}, {1, -1}}), {.apart = 5 * kThick});
+  ASSERT_EQ(knot.count, 2);
+  EXPECT_EQ(knot.throws[0].turns, 2);
+  EXPECT_EQ(knot.throws[1].sign, -1);
+  EXPECT_EQ(knot.kind, KnotKind::square);
+}
+
+TEST(Knots, WhereOneSideIsTakenRoundAStraightOneAreSlipKnots) {
+  for (const int sign : {1, -1}) EXPECT_EQ(read_knot(lay({{1, sign}, {1, sign}}, true)).kind, KnotKind::slip);
 }
 
 TEST(Knots, LeaveTails) {

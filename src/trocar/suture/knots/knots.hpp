@@ -21,7 +21,7 @@ namespace trocar::suture {
 inline constexpr int kMostThrows = 8;
 
 /// One throw: how often the sides turn round each other, and which way.
-struct Throw {
+struct KnotThrow {
   std::int32_t turns = 0;  ///< whole turns, 1: single, 2: surgeon's
   std::int32_t sign = 0;   ///< +1: right-handed
   double s = 0, t = 0;     ///< where on the one side and on the other, arc lengths [m]
@@ -32,7 +32,7 @@ const char* name_of(KnotKind kind) noexcept;
 
 struct KnotReading {
   KnotKind kind = KnotKind::none;
-  std::array<Throw, kMostThrows> throws{};  ///< the one nearest to the tissue first
+  std::array<KnotThrow, kMostThrows> throws{};  ///< the one nearest to the tissue first
   std::int32_t count = 0;
   std::int32_t crossings = 0;     ///< that are left
   Vec3d place;                    ///< of the first throw [m]
@@ -42,7 +42,7 @@ struct KnotReading {
 struct KnotQuestion {
   double spacing = 0;  ///< of the points along the thread [m]; 0: as they lie
   double split = -1;   ///< arc length in the tissue [m]; below 0: in the middle of the widest loop
-  double apart = 0;    ///< sides farther apart than this where they cross are not tied there [m]; 0: anything
+  double apart = 0;    ///< farther apart than this, elements are not tied to each other [m]; 0: whatever the distance
 };
 /// @param points  of the thread's middle line
 KnotReading read_knot(std::span<const Vec3d> points, const KnotQuestion& question = {});
