@@ -24,6 +24,7 @@ enum class ToolKind : std::int32_t {
   bipolar,
   dissector,
   bag,
+  endoloop,
 };
 
 /// Verbs that instruments do with what is at their tip. What jaws do is in sim/verbs.
@@ -37,6 +38,7 @@ struct Abilities {
   bool hook = false;       ///< its end is a wire that may be bent to a foot, which catches bands
   bool spread = false;     ///< jaws that open push apart what lies on their outer sides
   bool bag = false;        ///< a sleeve that the scene's bag comes out of (interactions/objects/bag.hpp)
+  bool sling = false;      ///< a tube with a loop of thread at its mouth (interactions/objects/suture_sling.hpp)
 
   /// Legs of clips and blades come astride of what they close on.
   constexpr bool blunt() const noexcept { return !set_clips && !cut; }
@@ -57,6 +59,7 @@ inline constexpr KindOfTool kToolKinds[] = {
     {ToolKind::bipolar, "bipolar", {.grip = true, .coagulate = true, .bipolar = true}},
     {ToolKind::dissector, "dissector", {.grip = true, .spread = true}},
     {ToolKind::bag, "bag", {.bag = true}},
+    {ToolKind::endoloop, "endoloop", {.sling = true}},
 };
 
 constexpr const KindOfTool& about(ToolKind kind) noexcept { return kToolKinds[std::size_t(kind)]; }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/interactions/objects/suture_on_tissue.hpp>
+#include <trocar/interactions/objects/suture_sling_step.hpp>
 #include <trocar/interactions/objects/suture_stitch.hpp>
 #include <trocar/numerics/mat3.hpp>
 
@@ -60,6 +61,7 @@ class Sewing {
   void move_thread() noexcept {
     if (!m_model.has_thread()) return;
     drive_holds();
+    if (m_model.sling.there() && !lead_sling(m_model, m_dt, m_state, m_work)) return;
     for (suture::Passage& p : m_work.passages) p = {};
     for (int i = 0; i < m_state.hole_count; ++i) {
       const SutureHole& h = m_state.holes[size_t(i)];
@@ -82,6 +84,7 @@ class Sewing {
       m_state.broken = 1;
     }
     take_reactions();
+    if (m_model.sling.there()) settle_sling(m_model, m_dt, m_state, m_work);
   }
 
  private:

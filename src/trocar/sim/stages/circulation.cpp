@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/numerics/portable.hpp>
+#include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/bodies/vessel_wounds.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 #include <trocar/sim/stages/pulse_feel.hpp>
@@ -125,6 +126,7 @@ void lay_out(StepContext& c) noexcept {
     out.outside = outside;
   }
   lay_out_seals(s, std::span(c.work.closed).subspan(interactions::kMaxVesselClips));
+  if (has_slings(c.model)) lay_out_loops(c, std::span(c.work.closed).last(kMostLoops));
   for (size_t i = 0; i < size_t(interactions::kMaxVesselClips); ++i) {
     vessels::Occlusion& out = c.work.closed[i];
     out = {};

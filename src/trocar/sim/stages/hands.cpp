@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/stages/hands.hpp>
 #include <trocar/sim/stages/stage.hpp>
 
@@ -87,7 +88,8 @@ void move_hand(StepContext& c, size_t t) noexcept {
   if (known && in.instrument != tool.instrument) {
     // An empty hand opens its jaws; a bag's mouth is shut before it is drawn out.
     command = {tool.pose(), c.model.tool(c.state, t).can().bag ? 1.0 : 0.0};
-    const bool free = tool.holds == 0 && !holds_open_bag(c, t) && !joints_of(c.state, t).bent();
+    const bool free =
+        tool.holds == 0 && !holds_open_bag(c, t) && !bound_by_sling(c, t) && !joints_of(c.state, t).bent();
     if (free) command.pose.depth = kParked;
     if (free && tool.depth <= kParked) change_instrument(c, t, in.instrument);
   }

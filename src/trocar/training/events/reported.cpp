@@ -62,6 +62,10 @@ constexpr Lacks lacks_for(sim::EventWords::Needs needs) {
       return needs_choice;
     case sim::EventWords::current:
       return needs_current;
+    case sim::EventWords::sling:
+      return needs_sling;
+    case sim::EventWords::thread:
+      return needs_thread;
     case sim::EventWords::nothing:
       break;
   }
