@@ -54,6 +54,28 @@ void hold_from_start(const SutureModel& m, const SutureState& s, BodyId id, cons
   }
 }
 
+int cut_threads(const SutureModels& models, const ToolModel& tool, const ToolShape& shape,
+                std::vector<SutureState>& states) noexcept {
+  constexpr double kBetween = 0.0008;  // [m] from the middle, when they have closed
+  int parted = 0;
+  for (size_t i = 0; i < states.size(); ++i) {
+    const SutureModel& m = models.list[i];
+    const double near = tool.jaw_length + 0.005;
+    for (std::int32_t n = 0; n + 1 < m.thread.nodes; ++n) {
+      if (!states[i].thread.alive[size_t(n)]) continue;
+      const Vec3d a = states[i].thread.x[size_t(n)], b = states[i].thread.x[size_t(n) + 1], off = a - shape.pivot;
+      if (dot(off, off) > near * near) continue;
+      const Vec3d at = to_jaw(shape, 0.5 * (a + b));
+      if (at.z < 0 || at.z > tool.jaw_length || std::fabs(at.y) > 0.5 * tool.jaw_width) continue;
+      if (std::fabs(at.x) > shape.half_opening(at.z) + kBetween) continue;
+      suture::cut(m.thread, states[i].thread, (n + 0.5) * m.thread.spacing);
+      ++parted;
+      break;  // once a thread
+    }
+  }
+  return parted;
+}
+
 Suture::States Suture::start(const Models& models) {
   States states;
   for (const SutureModel& m : models.list) {
@@ -130,6 +152,7 @@ void Suture::touch(const Models& models, const States&, const ObjectHand& hand, 
   for (int part = kShaft; part < end_of(shape) && all.rods.size() < all.rods.capacity(); part = next(part)) {
     SutureRod rod{hand.touching.before.rod(part), shape.rod(part), {Owner::tool_contact, hand.touching.tool, 0}};
     rod.slot = hand.touching.tool * kRodSlots + (part < kToolParts ? part : kToolParts + part - kFirstLink);
+    rod.cuts = is_jaw(part) && hand.tool.can().cut;
     if (held && is_jaw(part)) {
       rod.held = std::int32_t(held->body.index());
       rod.holds_needle = on_needle(models.list[size_t(rod.held)], held->element);

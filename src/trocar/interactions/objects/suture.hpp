@@ -23,9 +23,9 @@
 
 #include <trocar/core/body_id.hpp>
 #include <trocar/core/fields.hpp>
-#include <trocar/interactions/couplings/tissue_point.hpp>
 #include <trocar/interactions/objects/object_hand.hpp>
 #include <trocar/interactions/objects/suture_sling.hpp>
+#include <trocar/interactions/objects/tissue_point.hpp>
 #include <trocar/interactions/objects/wall_grid.hpp>
 #include <trocar/suture/needle/needle_step.hpp>
 #include <trocar/suture/thread/thread.hpp>
@@ -183,6 +183,7 @@ struct SutureRod {
   std::int32_t slot = 0;   ///< of a thread's obstacles
   std::int32_t held = -1;  ///< the suture that its jaws hold
   bool holds_needle = false;
+  bool cuts = false;   ///< a blade, which thread lies between
   double from = -1e9;  ///< how far along it, from a, a held thread leaves room [m]
 };
 /// What a hand's jaws do to a thread: the mean of the places between them.
@@ -245,6 +246,9 @@ Vec3d suture_place(const SutureModel& m, const SutureState& s, std::int32_t plac
 /// Is the place one of the needle?
 inline bool on_needle(const SutureModel& m, std::int32_t place) noexcept { return place < m.grips; }
 
+/// Blades that have just closed part threads that lie between them. @return how many
+int cut_threads(const SutureModels& models, const ToolModel& tool, const ToolShape& shape,
+                std::vector<SutureState>& states) noexcept;
 /// Jaws that hold the needle from the start close on it in the first tick.
 void hold_from_start(const SutureModel& m, const SutureState& s, BodyId id, const ToolModel& tool,
                      const ToolShape& shape, ToolState& state) noexcept;

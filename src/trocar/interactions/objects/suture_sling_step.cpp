@@ -282,14 +282,23 @@ void settle_sling(const SutureModel& m, double dt, SutureState& s, SutureWork& w
   lie_in_tube(m, s);
 }
 
+int parted_element(const SutureModel& m, const SutureState& s) noexcept {
+  if (!s.sling.computed()) return -1;
+  const int end = s.sling.stage == SlingState::left ? s.sling.parted : first_inside(m, s.sling.fed);
+  for (int e = 0; e < end; ++e)
+    if (!s.thread.alive[size_t(e)]) return e;
+  return -1;
+}
+
 void cut_sling(const SutureModel& m, std::int32_t element, SutureState& s) noexcept {
   SlingState& g = s.sling;
-  if (g.stage == SlingState::left) return;
-  const bool at_the_knot = g.stage != SlingState::off;
   for (size_t e = size_t(element); e < s.thread.alive.size(); ++e) s.thread.alive[e] = 0;
   release_holds(m, s);
-  if (element * m.thread.spacing < g.knot) suture::untie(s.thread, kTieSlot);
-  if (at_the_knot) g.around_count = 0;
+  if (element <= suture::place_at(m.thread, g.knot).element) {  // not the tail but the loop
+    suture::untie(s.thread, kTieSlot);
+    g.around_count = g.was_closed = 0;
+    g.knot = 0;
+  }
   g.stage = SlingState::left;
   g.parted = element;
   g.fed = std::min(g.fed, (element + 0.5) * m.thread.spacing);

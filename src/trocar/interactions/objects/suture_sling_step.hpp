@@ -27,6 +27,8 @@ void put_down_sling(const SutureModel& m, SutureState& s) noexcept;
 bool lead_sling(const SutureModel& m, double dt, SutureState& s, SutureWork& w) noexcept;
 /// After it.
 void settle_sling(const SutureModel& m, double dt, SutureState& s, SutureWork& w) noexcept;
+/// The first element that has been parted of what is out; -1: none.
+int parted_element(const SutureModel& m, const SutureState& s) noexcept;
 /// The thread has been cut in that element: the loop stays with its knot, the rest goes back into the tube.
 void cut_sling(const SutureModel& m, std::int32_t element, SutureState& s) noexcept;
 

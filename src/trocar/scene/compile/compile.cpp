@@ -274,7 +274,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
   compile_motion(d, model, faults);
   compile_marks(d, model, faults);
   BagScene::expect_hand(settings_of(BagScene{}, d.objects), model, faults);
-  SutureScene::finish(d, model, faults);
+  compile_sutures(d, model, faults);
   if (!faults.empty()) throw core::BadInput(faults);
   compile_elastostatic(d, model, faults, report);
   if (!faults.empty()) throw core::BadInput(faults);

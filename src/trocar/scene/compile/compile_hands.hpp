@@ -12,4 +12,9 @@ namespace trocar::scene {
 /// placed one first.
 void compile_hands(const Description& description, sim::Model& model, std::vector<core::Fault>& faults);
 
+/// Is there a loop among them?
+bool has_slings(const std::vector<SutureSetting>& settings);
+/// Sutures, once all bodies and hands are known: what a stitch meets in each, who holds what, how the thread lies.
+void compile_sutures(const Description& d, sim::Model& model, std::vector<core::Fault>& faults);
+
 }  // namespace trocar::scene

@@ -8,6 +8,8 @@
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile_vessels.hpp>
+#include <trocar/scene/compile/compile_hands.hpp>
+#include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/model/host_views.hpp>
 
@@ -53,6 +55,7 @@ vessels::VesselGraph joined(const Description& d) {
   all.settings.max_openings = interactions::kMaxOpenings;
   // What heat seals is closed as by clips, at both ends.
   all.settings.max_clips = interactions::kMaxVesselClips + (d.energy ? 2 * interactions::kMaxSeals : 0);
+  if (has_slings(settings_of(SutureScene{}, d.objects))) all.settings.max_clips += sim::kMostLoops;
   if (d.breathing) all.heart.breaths = d.breathing->per_minute;
   return all;
 }

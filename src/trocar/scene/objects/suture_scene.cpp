@@ -3,19 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <trocar/scene/description/description.hpp>
 #include <trocar/scene/objects/suture_scene.hpp>
 #include <trocar/sim/model/model.hpp>
 
 namespace trocar::scene {
 namespace {
 
-using interactions::StitchTissue;
 using interactions::SutureModel;
-using interactions::SutureModels;
 
-constexpr double kSutureFar = 2000;    // [mm]
-constexpr double kWallReach = 0.0025;  // [m] from which on needles and threads know of walls
+constexpr double kSutureFar = 2000;  // [mm]
 
 std::string sizes_and_makes() {
   std::string all;
@@ -43,75 +39,23 @@ const Shape& suture_shape() {
        keys::vec3("axis", -1, 1, "about which a turn drives the needle, tip first; default (0, 0, 1)"),
        keys::vec3("points", -1, 1, "the way that the middle of the needle is driven, default (1, 0, 0)"),
        keys::points("line_mm", -kSutureFar, kSutureFar, 2,
-                    "the thread at the start, from the needle on; beyond it the thread goes straight on")}};
+                    "the thread at the start, from the needle on; beyond it the thread goes straight on"),
+       sling_key()}};
   return shape;
 }
-
-Vec3d across(Vec3d v, Vec3d n) { return v - dot(v, n) * n; }
 
 std::string look_of(const std::string& make) {
   if (make == "PDS") return "thread_violet";
   return make == "silk" ? "thread_black" : "thread_white";
 }
 
-/// Own z about `axis`, own y (the way it is driven in its middle) as near to `points` as it can be.
-Quatd turned(Vec3d axis, Vec3d points) {
-  const Vec3d z = normalised(axis, Vec3d{0, 0, 1}), y = normalised(across(points, z), any_perpendicular(z));
+}  // namespace
+
+Quatd needle_turn(Vec3d axis, Vec3d points) {
+  const Vec3d z = normalised(axis, Vec3d{0, 0, 1});
+  const Vec3d y = normalised(points - dot(points, z) * z, any_perpendicular(z));
   return quat_from_mat3(Mat3d::from_columns(cross(y, z), y, z));
 }
-
-StitchTissue stitch_of(const Description& d, const std::string& tissue) {
-  StitchTissue t;
-  for (const Tissue& row : d.tissues) {
-    if (row.name != tissue) continue;
-    if (row.puncture > 0) t.puncture = row.puncture;
-    if (row.stitch_damage > 0) t.damage = row.stitch_damage;
-  }
-  return t;
-}
-
-/// The needle between the jaws as they are at the start: across them, so that the shaft's roll drives it.
-void put_in_jaws(const SutureSetting& s, const sim::Model& model, std::size_t hand, SutureModel& m) {
-  const interactions::ToolModel& tool = model.placed(hand);
-  const interactions::ToolShape shape = interactions::shape_of(tool, sim::pose_of(model.start.tools[hand]), 0.1);
-  const Vec3d middle = interactions::from_jaw(shape, {0, 0, 0.6 * tool.jaw_length});
-  const Vec3d axis = interactions::direction_from_jaw(shape, {0, 0, s.backhand ? -1.0 : 1.0});
-  const Vec3d along = interactions::direction_from_jaw(shape, {0, 1, 0});
-  const double arc = s.grasped * m.needle.length;
-  const Vec3d own = m.needle.along(arc);
-  // first so that the plane stands across the shaft, then about its axis so that the wire lies across the jaws
-  const Quatd stands = turned(axis, along);
-  const Vec3d drives = rotate(stands, own);
-  const double angle = portable::atan2(dot(cross(drives, along), axis), dot(drives, along));
-  m.turn = quat_from_axis_angle(axis, angle) * stands;
-  m.place = middle - rotate(m.turn, m.needle.place(arc));
-  m.hand = std::int32_t(hand);
-}
-
-suture::ThreadDescription thread_of(const SutureSetting& s, const suture::ThreadStuff& stuff, const sim::Model& model) {
-  suture::ThreadDescription d;
-  d.stuff = stuff;
-  d.length = s.length;
-  d.tick = core::kTick;
-  d.gravity = model.gravity;
-  const int hands = int(model.hands.size());
-  d.holds = interactions::kFirstHandSlot + hands;
-  d.obstacles = hands * interactions::kRodSlots + interactions::kNeedlePieces;
-  d.passages = interactions::kMostPassages;
-  d.skins = int(std::ceil(s.length / (2 * stuff.diameter))) + 2;
-  return d;
-}
-
-void lay_thread(const SutureSetting& s, SutureModel& m) {
-  const Vec3d swage = m.place + rotate(m.turn, m.needle.place(m.needle.length));
-  const Vec3d away = m.has_needle() ? -rotate(m.turn, m.needle.along(m.needle.length)) : Vec3d{1, 0, 0};
-  if (m.has_needle()) m.path.push_back(swage);
-  for (const Vec3d& p : s.line) m.path.push_back(p);
-  if (s.line.empty()) m.path.push_back((m.has_needle() ? swage : s.place) + 0.01 * away);
-  if (m.path.size() < 2) m.path.insert(m.path.begin(), s.place);
-}
-
-}  // namespace
 
 Key SutureScene::row() {
   Key row = keys::objects(kKey, suture_shape, 0, "needles and threads, default none");
@@ -135,6 +79,8 @@ SutureSetting SutureScene::read(const JsonObject& o) {
   s.axis = o.vec3("axis", s.axis);
   s.points = o.vec3("points", s.points);
   for (const Vec3d& p : o.points("line_mm")) s.line.push_back(p / 1000.0);
+  s.sling = read_sling(o, s);
+  if (s.sling.there) s.length = s.sling.thread();
   s.at = o.at();
   s.text = o.value();
   if (s.size.empty() && s.needle.empty()) o.fault(o.at(), "expected a size, a needle or both, got neither");
@@ -148,7 +94,7 @@ SutureSetting SutureScene::read(const JsonObject& o) {
   if (!s.needle.empty() && o.names("at_mm") == o.names("held_by"))
     o.fault(o.at(), "expected at_mm of a needle that lies or held_by of one that is held, got " +
                         std::string(o.names("at_mm") ? "both" : "neither"));
-  if (s.needle.empty() && s.line.size() < 2) o.fault(o.at(), "expected line_mm of a thread without a needle, got none");
+  if (s.needle.empty() && s.line.size() < 2 && !s.sling.there) o.fault(o.at(), "expected line_mm of a thread without a needle, got none");
   if (!(length(cross(s.axis, s.points)) > 1e-6)) o.fault("axis", "expected two directions that differ, got one");
   return s;
 }
@@ -161,41 +107,10 @@ void SutureScene::compile(const std::vector<Setting>& settings, sim::Model& mode
     m.needle_look = s.needle_look;
     if (const suture::NeedleKind* kind = suture::needle_kind(s.needle)) m.needle = suture::make_needle(*kind);
     m.place = s.place;
-    m.turn = turned(s.axis, s.points);
+    m.turn = needle_turn(s.axis, s.points);
     m.grips = interactions::grips_of(m.needle);
     interactions::part_of<interactions::Suture>(model.objects).list.push_back(std::move(m));
   }
-}
-
-void SutureScene::finish(const Description& d, sim::Model& model, std::vector<core::Fault>& faults) {
-  const std::vector<SutureSetting>& settings = settings_of(SutureScene{}, d.objects);
-  SutureModels& all = interactions::part_of<interactions::Suture>(model.objects);
-  if (settings.empty() || all.list.size() != settings.size()) return;
-  for (std::size_t i = 0; i < settings.size(); ++i) {
-    const SutureSetting& s = settings[i];
-    SutureModel& m = all.list[i];
-    if (!s.hand.empty()) {
-      const int hand = model.hand_index(s.hand);
-      if (hand < 0 || !model.placed(std::size_t(hand)).can().grip) {
-        faults.push_back(
-            {s.at, fmt::format("expected the trocar of a hand whose instrument grips, got \"{}\"", s.hand)});
-        continue;
-      }
-      put_in_jaws(s, model, std::size_t(hand), m);
-      model.start.tools[std::size_t(hand)].handle = 1;
-    }
-    const suture::ThreadKind* kind = suture::find_thread(s.size, s.make);
-    if (!kind) continue;
-    m.thread = suture::build(thread_of(s, kind->stuff, model));
-    lay_thread(s, m);
-  }
-  std::vector<const tissue::Skin*> walls;
-  for (const sim::WallModel& w : model.walls) walls.push_back(&w.skin);
-  all.walls = interactions::make_wall_grid(walls, kWallReach);
-  for (const sim::SolidModel& b : model.solids) all.organs.push_back(stitch_of(d, b.tissue));
-  for (const sim::CuttableOrgan& b : model.cuttables) all.organs.push_back(stitch_of(d, b.tissue));
-  for (const sim::StrandAnatomy& b : model.strands) all.strands.push_back(stitch_of(d, b.tissue));
-  for (const sim::MembraneBody& b : model.membranes) all.membranes.push_back(stitch_of(d, b.tissue));
 }
 
 }  // namespace trocar::scene

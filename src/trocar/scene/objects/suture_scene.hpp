@@ -6,15 +6,15 @@
 #include <vector>
 
 #include <trocar/core/error.hpp>
+#include <trocar/numerics/quat.hpp>
 #include <trocar/scene/json/shape.hpp>
+#include <trocar/scene/objects/sling_scene.hpp>
 
 namespace trocar::sim {
 struct Model;
 }
 
 namespace trocar::scene {
-
-struct Description;
 
 struct SutureSetting {
   std::string name, look, needle_look;
@@ -28,11 +28,16 @@ struct SutureSetting {
   std::string hand;         ///< trocar of the hand that holds the needle; empty: it lies
   bool backhand = false;
   double grasped = 0.65;  ///< where, of its length from the tip
+  SlingSetting sling;
   core::Location at;
   JsonValue text;  ///< as it was read
 };
 
-/// The kind, as object_scenes.hpp lists it.
+/// A needle's own axes to the scene's: z about `axis`, y, the way its middle is driven, as near to `points` as can be.
+Quatd needle_turn(Vec3d axis, Vec3d points);
+
+/// The kind, as object_scenes.hpp lists it. What needs all bodies and hands is added later
+/// (compile/compile_hands.hpp).
 struct SutureScene {
   using Setting = SutureSetting;
   static constexpr const char* kKey = "sutures";
@@ -42,8 +47,6 @@ struct SutureScene {
   static JsonValue written(const Setting& setting) { return setting.text; }
   static void bend(std::vector<Setting>&, const std::function<Vec3d(Vec3d)>&) {}  ///< no part of the anatomy
   static void compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>& faults);
-  /// Once all bodies and hands are known: what a stitch meets in each, and who holds what.
-  static void finish(const Description& description, sim::Model& model, std::vector<core::Fault>& faults);
 };
 
 }  // namespace trocar::scene

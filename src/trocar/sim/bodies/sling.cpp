@@ -102,6 +102,19 @@ void watch(StepContext& c, SlingState& g) noexcept {
   g.was_closed = is;
 }
 
+/// Blades, or too much of a pull, have parted its thread: the rest goes back into the tube.
+void notice_cut(StepContext& c, std::size_t i) noexcept {
+  const interactions::SutureModel& m = models_of(c).list[i];
+  interactions::SutureState& s = states_of(c)[i];
+  const int e = interactions::parted_element(m, s);
+  if (e < 0) return;
+  interactions::cut_sling(m, e, s);
+  int hand = std::max(0, s.sling.hand);
+  for (std::size_t t = 0; t < c.model.hands.size(); ++t)
+    if (c.model.tool(c.state, t).can().cut) hand = int(t);
+  tell(c, Event::thread_cut, hand, BodyId(BodyKind::suture, i));
+}
+
 }  // namespace
 
 bool has_slings(const Model& model) noexcept {
@@ -118,6 +131,8 @@ void rest_slings(StepContext& c) noexcept {
 void lead_slings(StepContext& c) noexcept {
   if (!has_slings(c.model)) return;
   for (std::size_t i = 0; i < states_of(c).size(); ++i) {
+    if (!models_of(c).list[i].sling.there()) continue;
+    notice_cut(c, i);
     const SlingState& g = states_of(c)[i].sling;
     const bool had = g.stage > SlingState::packed && g.stage < SlingState::left;
     if (had && !brings_slings(c, std::size_t(g.hand)))
@@ -140,25 +155,6 @@ bool bound_by_sling(const StepContext& c, std::size_t hand) noexcept {
   if (i < 0) return false;
   const SlingState& g = interactions::part_of<Suture>(c.state.objects)[std::size_t(i)].sling;
   return g.stage == SlingState::off || g.around_count > 0;
-}
-
-void sever_threads(StepContext& c, std::size_t hand, const geometry::Blade& blade) noexcept {
-  const geometry::BladePlane plane(blade);
-  if (!plane.flat) return;
-  for (std::size_t i = 0; i < states_of(c).size(); ++i) {
-    const interactions::SutureModel& m = models_of(c).list[i];
-    interactions::SutureState& s = states_of(c)[i];
-    for (int e = 0; e + 1 < m.thread.nodes; ++e) {
-      if (!s.thread.alive[std::size_t(e)] || !plane.crosses(s.thread.x[std::size_t(e)], s.thread.x[std::size_t(e) + 1]))
-        continue;
-      if (m.sling.there())
-        interactions::cut_sling(m, e, s);
-      else
-        suture::cut(m.thread, s.thread, (e + 0.5) * m.thread.spacing);
-      tell(c, Event::thread_cut, int(hand), BodyId(BodyKind::suture, i));
-      break;
-    }
-  }
 }
 
 void lay_out_loops(const StepContext& c, std::span<vessels::Occlusion> out) noexcept {

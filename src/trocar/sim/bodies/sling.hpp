@@ -3,7 +3,6 @@
 
 #include <span>
 
-#include <trocar/geometry/tets/blade.hpp>
 #include <trocar/interactions/objects/suture_strangle.hpp>
 #include <trocar/sim/model/step_context.hpp>
 
@@ -45,8 +44,6 @@ void watch_slings(StepContext& context) noexcept;
 
 /// Its loop lies around something: the instrument can neither be drawn out nor exchanged before the tail is cut.
 bool bound_by_sling(const StepContext& context, std::size_t hand) noexcept;
-/// Blades that close part threads between them.
-void sever_threads(StepContext& context, std::size_t hand, const geometry::Blade& blade) noexcept;
 /// What loops close of vessels within strands.
 void lay_out_loops(const StepContext& context, std::span<vessels::Occlusion> out) noexcept;
 

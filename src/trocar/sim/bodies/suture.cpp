@@ -49,6 +49,12 @@ void sew(StepContext& c) noexcept {
   c.report.first_bad_index = 0;
 }
 
+bool cut_threads(StepContext& c, std::size_t hand) noexcept {
+  return has_sutures(c) &&
+         interactions::cut_threads(interactions::part_of<Suture>(c.model.objects), c.model.tool(c.state, hand),
+                                   c.work.shapes[hand], interactions::part_of<Suture>(c.state.objects)) > 0;
+}
+
 void slip_in_jaws(StepContext& c, std::size_t hand) noexcept {
   if (!has_sutures(c)) return;
   interactions::slip_in_jaws(interactions::part_of<Suture>(c.model.objects),

@@ -9,6 +9,8 @@ namespace trocar::sim {
 void rest_sutures(StepContext& context) noexcept;
 /// Stage: needles and threads move, pierce, and go through tissue.
 void sew(StepContext& context) noexcept;
+/// Blades that have just closed part the thread between them. @return was there one?
+bool cut_threads(StepContext& context, std::size_t hand) noexcept;
 /// After forces at instruments are known: a needle turns in jaws, a thread slips through them.
 void slip_in_jaws(StepContext& context, std::size_t hand) noexcept;
 

@@ -6,7 +6,7 @@
 #include <trocar/sim/bodies/bodies.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
 #include <trocar/sim/bodies/fat.hpp>
-#include <trocar/sim/bodies/sling.hpp>
+#include <trocar/sim/bodies/suture.hpp>
 #include <trocar/sim/bodies/vessel_wounds.hpp>
 #include <trocar/sim/bodies/views.hpp>
 #include <trocar/sim/model/seen.hpp>
@@ -104,8 +104,7 @@ void cut_flesh(StepContext& c, size_t t) noexcept {
   const auto closed = [](const MembraneBody& m) { return m.sheet.closed(); };
   const bool walls = std::any_of(c.model.membranes.begin(), c.model.membranes.end(), closed);
   const bool fat = has_fat(c.model);
-  const bool threads = !c.state.objects.sutures.empty();
-  if (c.model.cuttables.empty() && c.model.bonds.empty() && !walls && !fat && !threads) return;
+  if (c.model.cuttables.empty() && c.model.bonds.empty() && !walls && !fat) return;
   const std::optional<geometry::Blade> blade =
       interactions::sweep_of_blades(c.model.tool(c.state, t), c.work.shapes[t], c.state.tools[t]);
   if (!blade) return;
@@ -113,7 +112,6 @@ void cut_flesh(StepContext& c, size_t t) noexcept {
   sever_bonds(c, *blade);
   if (fat) sever_fat(c, *blade);
   if (walls) cut_folds(c, t, *blade, true);
-  if (threads) sever_threads(c, t, *blade);
 }
 
 }  // namespace
@@ -128,6 +126,7 @@ void Cutting::work(StepContext& c, std::size_t t) noexcept {
   update_scissors(model, c.work.shapes[t], int(t), tissue_of(c), s.strands, jaw_tips_visible(c.model, s, int(t)),
                   s.tick, tool, {s.cuts, s.cut_count});
   if (armed && !tool.armed) {
+    cut_threads(c, t);
     cut_lattices(c, t);
     const geometry::Blade blade = interactions::closed_blades(model, c.work.shapes[t]);
     cut_folds(c, t, blade, false);

@@ -199,6 +199,11 @@ void BlockSystem::add_term(const std::int32_t* nodes, const double* c, int count
     for (int q = 0; q <= p; ++q) add(nodes[p], nodes[q], c[p] * c[q], s);
 }
 
+void BlockSystem::add_bend(int i, const Symmetric& s) noexcept {
+  add_block(m_diagonal[i - 1], 1, s), add_block(m_diagonal[i], 4, s), add_block(m_diagonal[i + 1], 1, s);
+  add_block(m_next[i - 1], -2, s), add_block(m_next[i], -2, s), add_block(m_second[i - 1], 1, s);
+}
+
 void BlockSystem::to_front() noexcept {
   const auto put = [this](int i, int j, const Block& b) {  // block (i, j), both in the front
     const int p = m_place[i], q = m_place[j];

@@ -53,6 +53,8 @@ class BlockSystem {
 
   void add(int i, int j, double c, const Symmetric& s) noexcept;  ///< c s to block (i, j), i >= j
   void push(int i, Vec3d f) noexcept { m_rhs[std::size_t(i)] += f; }
+  /// s to a node, its neighbours' difference: weights 1, -2, 1 of i - 1, i, i + 1.
+  void add_bend(int i, const Symmetric& s) noexcept;
   /// A term of `count` nodes in ascending order, with weights c.
   void add_term(const std::int32_t* nodes, const double* c, int count, const Symmetric& s) noexcept;
 
@@ -60,6 +62,7 @@ class BlockSystem {
   int factor() noexcept;
   void solve() noexcept;
   Vec3d unknown(int i) const noexcept { return m_rhs[std::size_t(i)]; }
+  bool touches(int node) const noexcept { return m_place[std::size_t(node)] >= 0; }
   int coupled() const noexcept { return m_count; }
 
   template <class S, class V>

@@ -103,7 +103,8 @@ ThreadWork make_work(const ThreadModel& m) {
   ThreadWork w;
   const std::size_t n = std::size_t(m.nodes), contacts = std::size_t(m.contacts);
   w.system = BlockSystem(m.nodes);
-  w.delta.resize(n), w.bend_now.resize(n), w.bend_share.resize(n);
+  w.delta.resize(n), w.length.resize(n), w.along.resize(n);
+  w.node_along.resize(n), w.node_director.resize(n), w.bend_now.resize(n), w.bend_rest.resize(n);
   w.box.resize(2 * (n / kGroup + 1));
   w.near.resize(n * (n - 1) / 2), w.keys.resize(n * (n - 1) / 2);
   w.self.resize(contacts), w.touch.resize(contacts), w.rubs.resize(contacts);

@@ -38,14 +38,16 @@ std::vector<Vec3d> laid_throws(const ThrowsPath& what) {
   };
   const bool b_ends_right = b_from_left(count - 1);
   path.push_back(end_of(!b_ends_right));
-  for (int k = count - 1; k >= 0; --k) wind(path, what.throws_[std::size_t(k)], height(k), r, half_of(k), !b_from_left(k), false);
+  for (int k = count - 1; k >= 0; --k)
+    wind(path, what.throws_[std::size_t(k)], height(k), r, half_of(k), !b_from_left(k), false);
   const double big = what.loop_radius;
   const Vec3d centre{0, -3 * r - big, 0};
   for (int k = 2; k <= 30; ++k) {
     const double angle = portable::pi / 2 + portable::two_pi * k / 32.0;
     path.push_back(centre + big * Vec3d{portable::cos(angle), portable::sin(angle), 0});
   }
-  for (int k = 0; k < count; ++k) wind(path, what.throws_[std::size_t(k)], height(k), r, half_of(k), b_from_left(k), true);
+  for (int k = 0; k < count; ++k)
+    wind(path, what.throws_[std::size_t(k)], height(k), r, half_of(k), b_from_left(k), true);
   path.push_back(end_of(b_ends_right));
   return smoothed(path, 2);
 }

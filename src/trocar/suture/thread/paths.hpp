@@ -27,8 +27,8 @@ struct ThrowsPath {
 /// the axis z, and back to the end of the other tail.
 std::vector<Vec3d> laid_throws(const ThrowsPath& what);
 
-/// An overhand knot of `turns` (1: overhand, 2: double ...) in a thread that runs along x and is `length` long, its loop
-/// of about the given radius.
+/// An overhand knot of `turns` (1: overhand, 2: double ...) in a thread that runs along x and is `length` long, its
+/// loop of about the given radius.
 std::vector<Vec3d> laid_overhand(int turns, double length, double loop_radius, double thickness);
 
 /// Corners cut off, `times` over: smooth enough to lay thread along.

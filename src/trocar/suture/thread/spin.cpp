@@ -7,43 +7,43 @@
 namespace trocar::suture {
 namespace {
 
-Vec3d element_direction(const ThreadState& s, int e) { return normalised(s.x[e + 1] - s.x[e]); }
+/// atan2(y, x), by its series where the angle is small.
+double angle_between(double x, double y) {
+  const double r = y / x, r2 = r * r;
+  if (!(x > 0 && r2 < 0.04)) return portable::atan2(y, x);
+  return r * (1 - r2 * (1.0 / 3 - r2 * (1.0 / 5 - r2 * (1.0 / 7 - r2 * (1.0 / 9 - r2 * (1.0 / 11 - r2 / 13))))));
+}
 
 /// Friction takes part in spin: the surfaces' motion is that of the axes and their spin about them. Both sides spin at
 /// once, so each may only count on half of the spring.
-void add_friction(const ThreadModel& m, const Touch& touch, bool both, const ThreadState& s, ThreadWork& w) {
+void add_friction(const ThreadModel& m, const Touch& touch, bool both, ThreadWork& w) {
   const double arm = 0.5 * m.stuff.diameter;
   const int sides = both ? 2 : 1;
   for (int side = 0; side < sides; ++side) {
     const int e = side == 0 ? touch.a : touch.b;
     // the surface point of the first lies at -arm normal, that of the second at +arm normal
-    const Vec3d g = (-arm) * cross(element_direction(s, e), touch.normal);
+    const Vec3d g = (-arm) * cross(w.along[e], touch.normal);
     w.spin_diagonal[e] += sides * touch.rub_stiffness * dot(g, g);
     w.spin[e] -= touch.rub_stiffness * dot(g, touch.strain);
   }
 }
 
-void move_strain(const ThreadModel& m, bool both, const ThreadState& s, const ThreadWork& w, Touch& touch) {
+void move_strain(const ThreadModel& m, bool both, const ThreadWork& w, Touch& touch) {
   const double arm = 0.5 * m.stuff.diameter;
-  touch.strain += (-arm * w.spin[touch.a]) * cross(element_direction(s, touch.a), touch.normal);
-  if (both) touch.strain += (-arm * w.spin[touch.b]) * cross(element_direction(s, touch.b), touch.normal);
+  touch.strain += (-arm * w.spin[touch.a]) * cross(w.along[touch.a], touch.normal);
+  if (both) touch.strain += (-arm * w.spin[touch.b]) * cross(w.along[touch.b], touch.normal);
 }
 
 }  // namespace
 
-void carry_directors(const ThreadModel& /*m*/, Vec3d old_direction, int element, ThreadState& s) noexcept {
-  s.director[element] = carried(old_direction, element_direction(s, element), s.director[element]);
-}
-
-void measure_twist(const ThreadModel& m, ThreadState& s) noexcept {
+void measure_twist(const ThreadModel& m, ThreadState& s, const ThreadWork& w) noexcept {
   for (int i = 1; i + 1 < m.nodes; ++i) {
     if (!s.alive[i - 1] || !s.alive[i]) {
       s.twist[i] = 0;
       continue;
     }
-    const Vec3d t = element_direction(s, i);
-    const Vec3d d = carried(element_direction(s, i - 1), t, s.director[i - 1]);
-    const double angle = portable::atan2(dot(cross(d, s.director[i]), t), dot(d, s.director[i]));
+    const Vec3d t = w.along[i], d = turned(w.along[i - 1], t, s.director[i - 1]), e = s.director[i];
+    const double angle = angle_between(dot(d, e), dot(cross(d, e), t));
     s.twist[i] = angle + portable::two_pi * std::floor((s.twist[i] - angle) / portable::two_pi + 0.5);
   }
 }
@@ -60,12 +60,12 @@ void relax_spin(const ThreadModel& m, std::span<const SpinHold> holds, int self,
   }
   for (const SpinHold& hold : holds) {
     const int e = hold.element;
-    const Vec3d t = element_direction(s, e), d = s.director[e];
+    const Vec3d t = w.along[e], d = s.director[e];
     const double angle = portable::atan2(dot(cross(d, hold.wanted), t), dot(d, hold.wanted));
     w.spin_diagonal[e] += 100 * c, w.spin[e] += 100 * c * angle;
   }
-  for (int k = 0; k < self; ++k) add_friction(m, w.self[k], true, s, w);
-  for (int k = 0; k < touching; ++k) add_friction(m, w.touch[k], false, s, w);
+  for (int k = 0; k < self; ++k) add_friction(m, w.self[k], true, w);
+  for (int k = 0; k < touching; ++k) add_friction(m, w.touch[k], false, w);
 
   for (int e = 0; e + 1 < elements; ++e) {  // tridiagonal, symmetric
     const double l = w.spin_off[e] / w.spin_diagonal[e];
@@ -80,13 +80,19 @@ void relax_spin(const ThreadModel& m, std::span<const SpinHold> holds, int self,
     double& spin = w.spin[e];
     spin = spin > 0.5 ? 0.5 : (spin < -0.5 ? -0.5 : spin);
     if (spin == 0) continue;
-    const Vec3d t = element_direction(s, e), d = s.director[e];
-    s.director[e] = normalised(portable::cos(spin) * d + portable::sin(spin) * cross(t, d), d);
+    const Vec3d t = w.along[e], d = s.director[e];
+    const double cosine = 1 - 0.5 * spin * spin * (1 - spin * spin / 12);  // near enough: it is made a unit again
+    s.director[e] = normalised(cosine * d + spin * (1 - spin * spin / 6) * cross(t, d), d);
   }
-  for (int k = 0; k < self; ++k) move_strain(m, true, s, w, w.self[k]);
-  for (int k = 0; k < touching; ++k) move_strain(m, false, s, w, w.touch[k]);
+  for (int k = 0; k < self; ++k) move_strain(m, true, w, w.self[k]);
+  for (int k = 0; k < touching; ++k) move_strain(m, false, w, w.touch[k]);
   for (int i = 1; i < elements; ++i)
-    if (s.alive[i - 1] && s.alive[i]) s.twist[i] += w.spin[i] - w.spin[i - 1];
+    if (s.alive[i - 1] && s.alive[i]) {
+      s.twist[i] += w.spin[i] - w.spin[i - 1];
+      const double spin = 0.5 * (w.spin[i] + w.spin[i - 1]);
+      const Vec3d d = w.node_director[i];
+      w.node_director[i] = normalised(d + spin * cross(w.node_along[i], d), d);
+    }
 }
 
 void push_twist(const ThreadModel& m, const ThreadState& s, ThreadWork& w) noexcept {

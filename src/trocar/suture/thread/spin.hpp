@@ -11,11 +11,8 @@ struct SpinHold {
   Vec3d wanted{0, 0, 0};
 };
 
-/// Directors follow the elements from where they were (`before`, directions) without spin.
-void carry_directors(const ThreadModel& m, Vec3d old_direction, int element, ThreadState& s) noexcept;
-
 /// Twist at the nodes from the directors, near what it was.
-void measure_twist(const ThreadModel& m, ThreadState& s) noexcept;
+void measure_twist(const ThreadModel& m, ThreadState& s, const ThreadWork& w) noexcept;
 
 /// Turns all elements about themselves towards equilibrium of twist, friction and holds; friction's strains follow.
 void relax_spin(const ThreadModel& m, std::span<const SpinHold> holds, int self, int touching, ThreadState& s,

@@ -33,11 +33,13 @@ struct Touch {
 
 struct ThreadWork {
   BlockSystem system;
-  std::vector<Vec3d> delta;        ///< (n) what nodes move in a solve
-  std::vector<Vec3d> bend_now;     ///< (n) rest bend in space
-  std::vector<double> bend_share;  ///< (n) of the bending stiffness that is left beyond yield
-  std::vector<Vec3d> box;          ///< (groups x 2) corners of groups of elements
-  std::vector<NearPair> near;      ///< thread on thread, in no order, then by (a, b)
+  std::vector<Vec3d> delta;                      ///< (n) what nodes move in a solve
+  std::vector<double> length;                    ///< (n - 1) of elements [m]
+  std::vector<Vec3d> along;                      ///< (n - 1) their directions
+  std::vector<Vec3d> node_along, node_director;  ///< (n) direction and material's director at inner nodes
+  std::vector<Vec3d> bend_now, bend_rest;        ///< (n) difference of directions there, and the one at rest
+  std::vector<Vec3d> box;                        ///< (groups x 2) corners of groups of elements
+  std::vector<NearPair> near;                    ///< thread on thread, in no order, then by (a, b)
   std::vector<std::int64_t> keys;
   std::vector<Touch> self, touch;                     ///< (contacts)
   std::vector<ElementRub> rubs;                       ///< (contacts)
@@ -47,10 +49,11 @@ struct ThreadWork {
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("system", s.system), v("delta", s.delta), v("bend_now", s.bend_now), v("bend_share", s.bend_share),
-        v("box", s.box), v("near", s.near), v("keys", s.keys), v("self", s.self), v("touch", s.touch),
-        v("rubs", s.rubs), v("spin_diagonal", s.spin_diagonal), v("spin_off", s.spin_off), v("spin", s.spin),
-        v("obstacle_moves", s.obstacle_moves), v("pull", s.pull);
+    v("system", s.system), v("delta", s.delta), v("length", s.length), v("along", s.along),
+        v("node_along", s.node_along), v("node_director", s.node_director), v("bend_now", s.bend_now),
+        v("bend_rest", s.bend_rest), v("box", s.box), v("near", s.near), v("keys", s.keys), v("self", s.self),
+        v("touch", s.touch), v("rubs", s.rubs), v("spin_diagonal", s.spin_diagonal), v("spin_off", s.spin_off),
+        v("spin", s.spin), v("obstacle_moves", s.obstacle_moves), v("pull", s.pull);
   }
 };
 

@@ -5,6 +5,7 @@
 #include <trocar/training/events/registry.hpp>
 #include <trocar/training/facts/needs.hpp>
 #include <trocar/training/observe/hands.hpp>
+#include <trocar/training/observe/stitches.hpp>
 #include <trocar/training/observe/watches.hpp>
 
 namespace trocar::training {

@@ -39,6 +39,11 @@ inline std::string_view needs_current(const sim::Model& model) {
   if (!model.energy.there) return needs_energy(model);
   return unless_there_is(model, &interactions::Abilities::coagulate, "an electrode");
 }
+inline std::string_view needs_sling(const sim::Model& model) {
+  const auto& list = model.objects.sutures.list;
+  const auto sling = [](const interactions::SutureModel& m) { return m.sling.there(); };
+  return std::any_of(list.begin(), list.end(), sling) ? "" : "a sling";
+}
 /// Nothing can be exchanged where every rack holds one instrument.
 inline std::string_view needs_choice(const sim::Model& model) {
   const auto choice = [](const sim::HandModel& hand) { return hand.rack.size() > 1; };

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/interactions/couplings/tissue_point.hpp>
+#include <trocar/interactions/objects/tissue_point.hpp>
 
 namespace trocar::interactions {
 namespace {
