@@ -74,7 +74,7 @@ struct SutureModels {
   std::vector<SutureModel> list;
   WallGrid walls;                                        ///< those of the Model once more
   std::vector<StitchTissue> organs, strands, membranes;  ///< of all bodies of the Model
-  std::vector<double> strangles;                         ///< (strands) tension of a loop that cuts through [N]; with slings
+  std::vector<double> strangles;  ///< (strands) tension of a loop that cuts through [N]; with slings
 
   const StitchTissue& of(BodyId body) const noexcept {
     return body.is(BodyKind::strand) ? strands[body.index()]

@@ -6,15 +6,15 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kFeedsOpen = 0.10;     // of the handle's way: as long as less is drawn, the loop is fed out
-constexpr double kGain = 0.25;          // of what thread would have to go for a tension to be right, a tick
-constexpr double kSpeedGain = 0.020;    // [m/s] a newton that a tension is off by, at most
-constexpr double kFastest = 0.6;        // [m/s] thread is pulled out of the tube
-constexpr double kApart = 1.1;          // diameters between both threads at the knot
-constexpr double kAtMouth = 0.0025;     // [m] a knot is at the mouth
-constexpr double kStandsBelow = 0.3;    // [N] of tension up to which the tube's end leads the thread's direction
-constexpr double kCalmer = 0.3;         // of a tension that is new: the rest is what was told before
-constexpr double kJustBelow = 1e-6;     // of an element: a place in it that is a node
+constexpr double kFeedsOpen = 0.10;   // of the handle's way: as long as less is drawn, the loop is fed out
+constexpr double kGain = 0.25;        // of what thread would have to go for a tension to be right, a tick
+constexpr double kSpeedGain = 0.020;  // [m/s] a newton that a tension is off by, at most
+constexpr double kRunsAtMost = 0.6;   // [m/s] thread is pulled out of the tube
+constexpr double kApart = 1.1;        // diameters between both threads at the knot
+constexpr double kAtMouth = 0.0025;   // [m] a knot is at the mouth
+constexpr double kStandsBelow = 0.3;  // [N] of tension up to which the tube's end leads the thread's direction
+constexpr double kCalmer = 0.3;       // of a tension that is new: the rest is what was told before
+constexpr double kJustBelow = 1e-6;   // of an element: a place in it that is a node
 constexpr int kTieSlot = 0;
 
 double thickness_of(const SutureModel& m) noexcept { return m.thread.stuff.diameter; }
@@ -111,7 +111,7 @@ void open_or_close(const SutureModel& m, const SlingHand& hand, double dt, Sutur
   const double closes = hand.most - m.sling.slides - g.tension;
   const double opens = g.tension - m.sling.slips - std::max(kTubeRubs, hand.most);
   if (closes > 0) feed_to(m, std::max(kLeastLoop, g.fed - way_for(m, closes, g.fed, kDraws, dt)), s);
-  if (opens > 0) feed_to(m, std::min(m.thread.length, g.fed + way_for(m, opens, g.fed, kFastest, dt)), s);
+  if (opens > 0) feed_to(m, std::min(m.thread.length, g.fed + way_for(m, opens, g.fed, kRunsAtMost, dt)), s);
   g.knot = g.fed;
 }
 
@@ -130,7 +130,7 @@ void slide_knot(const SutureModel& m, double dt, SutureState& s) noexcept {
   const double shorter = std::min(g.knot, g.fed - g.knot);
   const double closes = g.tail - g.tension - m.sling.slides, opens = g.tension - g.tail - m.sling.slips;
   if (closes > 0) g.knot = std::max(kLeastLoop, g.knot - way_for(m, closes, shorter, kDraws, dt));
-  if (opens > 0) g.knot = std::min(g.fed, g.knot + way_for(m, opens, shorter, kFastest, dt));
+  if (opens > 0) g.knot = std::min(g.fed, g.knot + way_for(m, opens, shorter, kRunsAtMost, dt));
   suture::TieState& tie = s.thread.ties[kTieSlot];
   tie.t = g.knot;
   const Vec3d apart = suture::point_at(m.thread, s.thread, g.knot) - s.thread.x[0];
@@ -140,18 +140,18 @@ void slide_knot(const SutureModel& m, double dt, SutureState& s) noexcept {
 /// The tail runs out of the tube where it is pulled at, and is drawn in as the hand wants.
 void run_tail(const SutureModel& m, const SlingHand& hand, Vec3d tip_before, double dt, SutureState& s) noexcept {
   SlingState& g = s.sling;
-  const double holds = std::max(kTubeRubs, hand.most), length = g.fed - g.knot;
+  const double holds = std::max(kTubeRubs, hand.most), tail = g.fed - g.knot;
   double fed = g.fed;
-  if (g.tail > holds) fed += way_for(m, g.tail - holds, length, kFastest, dt);
+  if (g.tail > holds) fed += way_for(m, g.tail - holds, tail, kRunsAtMost, dt);
   if (g.tail > 0.7 * holds) {  // what the tube goes back by comes out of it
     const double leaves = dot(tip_before - g.mouth.tip, normalised(s.thread.x[0] - g.mouth.tip, g.mouth.axis));
-    fed += std::clamp(leaves, 0.0, kFastest * dt);
+    fed += std::clamp(leaves, 0.0, kRunsAtMost * dt);
   } else if (hand.most > kTubeRubs && g.tail < hand.most) {
-    fed -= way_for(m, hand.most - g.tail, std::max(length, 0.003), kDraws, dt);
+    fed -= way_for(m, hand.most - g.tail, std::max(tail, 0.003), kDraws, dt);
   }
   feed_to(m, std::clamp(fed, g.knot, m.thread.length), s);
-  const bool at_mouth_again = g.fed - g.knot < 1e-4 && length < kAtMouth &&
-                              length(s.thread.x[0] - g.mouth.tip) < kAtMouth;
+  const bool at_mouth_again =
+      g.fed - g.knot < 1e-4 && tail < kAtMouth && length(s.thread.x[0] - g.mouth.tip) < kAtMouth;
   if (!at_mouth_again) return;
   g.stage = SlingState::open;
   g.knot = g.fed;

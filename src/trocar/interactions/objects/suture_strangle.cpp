@@ -7,19 +7,19 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr std::uint64_t kFindsEvery = 4;      // ticks in which a loop looks what it lies around
-constexpr double kTouchesAhead = 0.0004;      // [m] contacts are there before they touch
-constexpr double kElementsAlong = 0.012;      // [m] of a strand to either side of a loop that thread may lie on
-constexpr double kSkinHardens = 0.15;         // of the thread's thickness, as suture::set_press() has it
-constexpr double kMostStiff = 20000;          // [N/m] of all that presses on a strand, taken into account
-constexpr double kMostSunk = 0.97;            // of the depth at which a strand is crushed
-constexpr double kLeastDepth = 1e-5;          // [m] at which a law's secant is taken
+constexpr std::uint64_t kFindsEvery = 4;  // ticks in which a loop looks what it lies around
+constexpr double kTouchesAhead = 0.0004;  // [m] contacts are there before they touch
+constexpr double kElementsAlong = 0.012;  // [m] of a strand to either side of a loop that thread may lie on
+constexpr double kSkinHardens = 0.15;     // of the thread's thickness, as suture::set_press() has it
+constexpr double kMostStiff = 20000;      // [N/m] of all that presses on a strand, taken into account
+constexpr double kMostSunk = 0.97;        // of the depth at which a strand is crushed
+constexpr double kLeastDepth = 1e-5;      // [m] at which a law's secant is taken
 
 /// Where a point is beside a strand's middle line.
 struct Beside {
   StrandPlace place;
-  Vec3d on, out;        ///< nearest point of the line [m]; unit, from there to the point
-  double away = 1e9;    ///< [m]
+  Vec3d on, out;      ///< nearest point of the line [m]; unit, from there to the point
+  double away = 1e9;  ///< [m]
 
   bool there() const noexcept { return away < 1e8; }
 };
@@ -62,7 +62,14 @@ class Strangling {
  public:
   Strangling(const SutureModels& models, const SutureModel& m, const TissueBodies& bodies, double dt, SutureState& s,
              SutureWork& w, TissueLoads loads) noexcept
-      : m_models(models), m_model(m), m_bodies(bodies), m_dt(dt), m_state(s), m_sling(s.sling), m_work(w), m_loads(loads) {}
+      : m_models(models),
+        m_model(m),
+        m_bodies(bodies),
+        m_dt(dt),
+        m_state(s),
+        m_sling(s.sling),
+        m_work(w),
+        m_loads(loads) {}
 
   void bear() const noexcept {
     for (std::int32_t i = 0; i < m_sling.around_count; ++i) {
@@ -162,7 +169,8 @@ class Strangling {
     if (depth < -kTouchesAhead) return;
     std::int32_t& on = m_work.sling.on[size_t(n)];
     if (on >= 0 && m_work.sling.deep[size_t(n)] >= depth) return;  // it lies deeper in another one
-    const StrangleLaw law = strangle_law(youngs_of(body, at.place.element), radius, lumen, std::max(depth, kLeastDepth));
+    const StrangleLaw law =
+        strangle_law(youngs_of(body, at.place.element), radius, lumen, std::max(depth, kLeastDepth));
     const double piece = m_model.thread.spacing * (n == 0 ? 0.5 : 1.0);
     const FreeEnd end = free_end(body, s, at.place);
     const Vec3d along = normalised(s.x[e + 1] - s.x[e]);

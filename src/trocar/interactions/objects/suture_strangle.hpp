@@ -16,8 +16,8 @@
 
 namespace trocar::interactions {
 
-inline constexpr double kCrushed = 0.3;    ///< of the wall's thickness: as thin a loop crushes a strand.     [d]
-inline constexpr double kSteepness = 2;    ///< of the slope towards a free end, a radius.                    [d]
+inline constexpr double kCrushed = 0.3;  ///< of the wall's thickness: as thin a loop crushes a strand.     [d]
+inline constexpr double kSteepness = 2;  ///< of the slope towards a free end, a radius.                    [d]
 
 /// Force a length of thread at a depth in a strand, and how it grows with that [N/m], [N/m^2].
 struct StrangleLaw {

@@ -31,7 +31,11 @@ std::string names_of(const List& list) {
 /// A linkage, led by its handle.
 class LedLinkage {
  public:
-  enum Way { angle, gap, along };  ///< what opens: jaws that turn or stay parallel, a clamp that is drawn along the axis
+  enum Way {
+    angle,
+    gap,
+    along
+  };  ///< what opens: jaws that turn or stay parallel, a clamp that is drawn along the axis
 
   LedLinkage(const Mechanism& m, int drive, int upper, int lower, Way way)
       : m_m(m),

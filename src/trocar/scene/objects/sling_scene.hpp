@@ -1,4 +1,5 @@
-// A suture that is a sling: a loop that an instrument of the kind "endoloop" brings in (interactions/objects/suture_sling.hpp).
+// A suture that is a sling: a loop that an instrument of the kind "endoloop" brings in
+// (interactions/objects/suture_sling.hpp).
 #pragma once
 
 #include <vector>
@@ -17,8 +18,8 @@ namespace trocar::scene {
 
 struct SlingSetting {
   bool there = false;
-  double loop = 0.060;                ///< diameter of the open loop [m]
-  double slides = 1, slips = 11;      ///< of its knot [N]
+  double loop = 0.060;            ///< diameter of the open loop [m]
+  double slides = 1, slips = 11;  ///< of its knot [N]
   /// Thread that is computed: all of the open loop.
   double thread() const noexcept;
 };

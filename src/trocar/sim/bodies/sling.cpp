@@ -89,7 +89,8 @@ void watch(StepContext& c, SlingState& g) noexcept {
     SlingAround& a = g.around[std::size_t(k)];
     if (a.squeeze > kTightFrom) is |= kWasTight;
     if (cover_at(c, a) >= kLoopCloses) {
-      if (!(g.was_closed & kWasClosed)) tell(c, Event::loop_tightened, std::max(0, g.hand), BodyId::strand(std::size_t(a.strand)));
+      if (!(g.was_closed & kWasClosed))
+        tell(c, Event::loop_tightened, std::max(0, g.hand), BodyId::strand(std::size_t(a.strand)));
       is |= kWasClosed;
     }
     g.last = a.strand;
