@@ -34,7 +34,7 @@ const interactions::ToolModel& held_by(const sim::Model& model, const sim::State
 }
 
 bool has_valves(const sim::Model& model, const sim::State& state, int h) {
-  return held_by(model, state, h).can().irrigate;
+  return held_by(model, state, h).can().irrigate || held_by(model, state, h).can().inject;
 }
 
 bool is_bare_electrode(const sim::Model& model, const sim::State& state, int h) {

@@ -18,6 +18,7 @@ enum class BodyKind : std::int16_t {
   rigid = 3,
   fat = 4,
   bag = 5,
+  suture = 6,
 };
 
 struct BodyKindName {
@@ -31,6 +32,7 @@ inline constexpr BodyKindName kBodyKinds[] = {
     {BodyKind::rigid, "rigid object", "rigid objects", "a ring or a rod that does not bend, and is no tissue"},
     {BodyKind::fat, "fat", "bodies of fat", "lobules between ducts and vessels, which come apart"},
     {BodyKind::bag, "bag", "bags", "a retrieval bag: cloth on a hoop, which holds what is put into it"},
+    {BodyKind::suture, "suture", "sutures", "a needle with a thread, or either alone"},
 };
 
 /// A body by its kind and its number among its kind. Four bytes; their order is by kind, then number.

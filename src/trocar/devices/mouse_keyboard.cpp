@@ -26,7 +26,8 @@ constexpr HelpLine kHelp[] = {
     {Device::keyboard, "X", "another instrument for this hand, another hand"},
     {Device::keyboard, "V", "bring the instrument into the view"},
     {Device::keyboard, "R F", "light post of an oblique endoscope"},
-    {Device::keyboard, "A D", "suction-irrigator: water, suction, as long as it is held"},
+    {Device::keyboard, "A D",
+     "suction-irrigator: water, suction, as long as it is held; injection needle: press, draw the plunger"},
     {Device::keyboard, "G, Space", "of a hook: coagulate, cut, as long as it is held"},
     {Device::keyboard, "T", "wipe the lens; it takes eight seconds"},
     {Device::keyboard, "K", "declare that it is shown: the critical view"},
@@ -38,7 +39,8 @@ constexpr HelpLine kHelp[] = {
     {Device::mouse, "right drag", "roll the instrument, or the endoscope's picture"},
     {Device::mouse, "move with U held", "bend a wrist"},
     {Device::mouse, "left held, right click", "lock the jaws; the same again: unlock"},
-    {Device::mouse, "left, right button", "of a suction-irrigator: suction, water"},
+    {Device::mouse, "left, right button",
+     "of a suction-irrigator: suction, water; of a needle: draw, press the plunger"},
     {Device::mouse, "left button", "of a hook: coagulate, as long as it is held"},
     {Device::mouse, "middle or right click", "choose hand, both hands, instrument, fine motion, pause"},
     {Device::mouse, "side buttons", "lead the previous, the next hand"},
@@ -236,6 +238,13 @@ void open_valves(const HandSample& sample, HandState& state, HandCommand& comman
   command.irrigate = irrigate;
 }
 
+/// What locks jaws draws a needle into its shaft, and lets it out again; valves do not mind.
+void move_needle(const HandSettings& settings, float seconds, HandState& state) {
+  float& handle = state.handle[state.led];
+  const float to = state.ratchet[state.led] ? 1.0f : 0.0f;
+  handle += std::clamp(to - handle, -settings.open_per_second * seconds, settings.open_per_second * seconds);
+}
+
 /// What closes jaws coagulates with an electrode that has none, what locks jaws cuts.
 void press_switches(const HandSample& sample, HandState& state, HandCommand& command) {
   const Gamepad& pad = sample.gamepad;
@@ -330,7 +339,8 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
   if (state.led == kScope) {
     command.scope = scope_motion(settings, sample, s);
   } else {
-    if (jaws && (sample.pressed.has(Key::space) || trigger || (tapped && with_left))) toggle_ratchet(state);
+    const bool locks = sample.pressed.has(Key::space) || (jaws && (trigger || (tapped && with_left)));
+    if ((jaws || valves) && locks) toggle_ratchet(state);
     HandSample steered = sample;
     steered.right_button &= !valves;
     command.tip = tip_motion(settings, steered, s);
@@ -338,9 +348,10 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
     if (bends) command.wrist = wrist_motion(settings, all, s);
     if (jaws)
       move_handle(settings, sample, s.seconds, state);
-    else if (valves)
+    else if (valves) {
       open_valves(sample, state, command);
-    else
+      move_needle(settings, s.seconds, state);
+    } else
       press_switches(sample, state, command);
   }
   state.last = all;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kFinest = 0.004;       // [m] edge of a cell
 constexpr double kMostSkinCells = 1e5;  // larger cells rather than more
-constexpr double kRounding = 1e-7;      // [m] far more than what rounding misplaces
+constexpr double kGridRounding = 1e-7;  // [m] far more than what rounding misplaces
 
 double squared(double x) { return x * x; }
 
@@ -35,7 +35,7 @@ struct Cell {
 void keep_candidates(const tissue::Skin& skin, const Cell& cell, std::vector<std::int32_t>& within) {
   double bound = 1e30;
   const auto at = [&](std::int32_t v) { return vec_cast<double>(skin.rest[size_t(v)]); };
-  for (const std::int32_t v : within) bound = std::min(bound, std::sqrt(cell.farthest2(at(v))) + kRounding);
+  for (const std::int32_t v : within) bound = std::min(bound, std::sqrt(cell.farthest2(at(v))) + kGridRounding);
   std::erase_if(within, [&](std::int32_t v) { return cell.nearest2(at(v)) > squared(bound); });
 }
 
@@ -79,8 +79,8 @@ SkinGrid make_skin_grid(const tissue::Skin& skin, double reach) {
   std::vector<std::vector<std::int32_t>> within(size_t(grid.cells[0]) * size_t(grid.cells[1]) * size_t(grid.cells[2]));
   const auto cell_of = [&](int i, int j, int k) {
     const Vec3d low = grid.origin + edge * Vec3d{double(i), double(j), double(k)};
-    return Cell{low - Vec3d{kRounding, kRounding, kRounding},
-                low + Vec3d{edge + kRounding, edge + kRounding, edge + kRounding}};
+    return Cell{low - Vec3d{kGridRounding, kGridRounding, kGridRounding},
+                low + Vec3d{edge + kGridRounding, edge + kGridRounding, edge + kGridRounding}};
   };
   const auto number = [&](int i, int j, int k) {
     return (size_t(k) * size_t(grid.cells[1]) + size_t(j)) * size_t(grid.cells[0]) + size_t(i);
@@ -96,7 +96,7 @@ SkinGrid make_skin_grid(const tissue::Skin& skin, double reach) {
     for (int k = from[2]; k <= to[2]; ++k)
       for (int j = from[1]; j <= to[1]; ++j)
         for (int i = from[0]; i <= to[0]; ++i)
-          if (cell_of(i, j, k).nearest2(p) <= squared(reach + kRounding)) within[number(i, j, k)].push_back(v);
+          if (cell_of(i, j, k).nearest2(p) <= squared(reach + kGridRounding)) within[number(i, j, k)].push_back(v);
   }
   grid.first = {0};
   for (int k = 0; k < grid.cells[2]; ++k)

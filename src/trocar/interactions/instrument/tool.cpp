@@ -38,6 +38,7 @@ void lay_jaws(const ToolModel& model, double aperture, ToolShape& s) noexcept {
   if (model.foot > 0) return bend_wire(model, s);
   const Vec3d axis = s.frame.axis(), open = s.frame.opening();
   s.spreads = model.can().spread;
+  s.needle_in = model.needle.there ? model.needle.length * (1 - std::clamp(aperture, 0.0, 1.0)) : 0;
   s.half_gap = 0.5 * model.parallel_gap * aperture;
   s.half_angle = 0.5 * model.opening * aperture;
   const double c = portable::cos(s.half_angle), sn = portable::sin(s.half_angle);

@@ -11,6 +11,7 @@
 #include <trocar/core/body_id.hpp>
 #include <trocar/core/fields.hpp>
 #include <trocar/interactions/instrument/linkage.hpp>
+#include <trocar/interactions/instrument/syringe.hpp>
 #include <trocar/interactions/instrument/tool_kind.hpp>
 #include <trocar/kinematics/articulation.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
@@ -52,6 +53,7 @@ struct ToolModel {
   double clip_length = 0;  ///< [m]
   std::int32_t clips = 0;  ///< in the magazine at the start
   ElectrodeModel electrode;
+  NeedleModel needle;                         ///< that comes out of the blunt end of an injection needle
   LinkageModel linkage;                       ///< between handle and jaws, where the file names a mechanism
   std::shared_ptr<const LinkageWorks> works;  ///< of that what is drawn; null: nothing
   kinematics::Articulation bends;             ///< a wrist, or more; without joints the instrument is rigid
@@ -66,8 +68,9 @@ struct ToolModel {
         v("pinch_max", s.pinch_max), v("friction", s.friction), v("rubbing", s.rubbing),
         v("clip_length", s.clip_length), v("clips", s.clips), v("foot", s.foot, core::only_if(s.foot > 0)),
         v("electrode", s.electrode, core::only_if(s.electrode.there)),
-        v("linkage", s.linkage, core::only_if(s.linkage.there)), v("bends", s.bends, core::only_if(s.bends.bends())),
-        v("name", s.name, core::kNotHashed), v("works", s.works, core::kNotHashed);
+        v("needle", s.needle, core::only_if(s.needle.there)), v("linkage", s.linkage, core::only_if(s.linkage.there)),
+        v("bends", s.bends, core::only_if(s.bends.bends())), v("name", s.name, core::kNotHashed),
+        v("works", s.works, core::kNotHashed);
   }
 };
 
@@ -141,6 +144,7 @@ struct ToolShape {
   int links = 0;
   double half_angle = 0;  ///< of each jaw from the axis [rad]
   double half_gap = 0;    ///< at the pivot (parallel jaws) [m]
+  double needle_in = 0;   ///< how far an injection needle is drawn in [m]
   bool has_foot = false;  ///< it is a hook's, and has no jaws
   bool spreads = false;   ///< its jaws push apart what lies beside them
 

@@ -24,6 +24,7 @@ enum class ToolKind : std::int32_t {
   bipolar,
   dissector,
   bag,
+  injection_needle,
 };
 
 /// Verbs that instruments do with what is at their tip. What jaws do is in sim/verbs.
@@ -36,6 +37,7 @@ struct Abilities {
   bool bipolar = false;    ///< ... and current goes from jaw to jaw
   bool hook = false;       ///< its end is a wire that may be bent to a foot, which catches bands
   bool spread = false;     ///< jaws that open push apart what lies on their outer sides
+  bool inject = false;     ///< a hollow needle comes out of the shaft, with a syringe behind it
   bool bag = false;        ///< a sleeve that the scene's bag comes out of (interactions/objects/bag.hpp)
 
   /// Legs of clips and blades come astride of what they close on.
@@ -57,6 +59,7 @@ inline constexpr KindOfTool kToolKinds[] = {
     {ToolKind::bipolar, "bipolar", {.grip = true, .coagulate = true, .bipolar = true}},
     {ToolKind::dissector, "dissector", {.grip = true, .spread = true}},
     {ToolKind::bag, "bag", {.bag = true}},
+    {ToolKind::injection_needle, "injection_needle", {.inject = true}},
 };
 
 constexpr const KindOfTool& about(ToolKind kind) noexcept { return kToolKinds[std::size_t(kind)]; }

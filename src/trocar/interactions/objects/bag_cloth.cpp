@@ -14,13 +14,13 @@ constexpr double kRoom = 0.060;                 // [m] of the sleeve in the body
 constexpr double kNeck = 0.016;                 // [m] a sleeve no deeper than this has its end in the port
 constexpr double kUnrolled = 0.9;               // share of the hoop that is out when all of the cloth is
 constexpr double kRolled = 0.12;                // of its depth: how the cloth lies under the hoop as it comes out
-constexpr double kStill = 4;                    // [1/s] speed is lost to wet film and gas
+constexpr double kFilmDrags = 4;                // [1/s] speed is lost to wet film and gas
 constexpr double kQuickestNode = 3;             // [m/s]
 constexpr double kStiff = 0.1;                  // [N/m] of a bend
 constexpr double kTaut = 0.98, kStilled = 0.5;  // of its length, squared; share of a swing that is lost in a tick
 constexpr double kViscous = 0.05;               // of any other motion between two nodes
 constexpr double kComesOut = 0.1;               // share of what has sunk into the cloth that comes out in a tick
-constexpr int kSweeps = 4;
+constexpr int kClothSweeps = 4;
 constexpr double kThrownOut = 0.1;    // [m/s] at most
 constexpr double kThick = 0.0008;     // [m] half the cloth's thickness, with what clings to it
 constexpr double kRodClear = 0.0005;  // [m]
@@ -260,13 +260,13 @@ bool advance_cloth(const BagModel& m, Vec3d gravity, double h, BagState& s, BagW
   be_patient(h, s, w);
   w.before = s.x;
   for (size_t n = size_t(m.around); n < s.x.size() && s.unrolled >= 1; ++n) {
-    s.v[n] = (1 - kStill * h) * (s.v[n] + h * gravity);
+    s.v[n] = (1 - kFilmDrags * h) * (s.v[n] + h * gravity);
     s.x[n] += h * s.v[n];
   }
   lay_hoop(m, s);
   if (s.unrolled < 1) return true;
   keep_apart(m, h, s);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  for (int sweep = 0; sweep < kClothSweeps; ++sweep) {
     press_out(m, s, w);
     push_aside(m, s, w);
     hold_off(m, s, w);

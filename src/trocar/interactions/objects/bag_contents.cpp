@@ -14,7 +14,7 @@ constexpr double kTouchAhead = 0.0005;  // [m] touches are there before anything
 constexpr double kAnotherSide = 0.012;  // [m] deeper is another part of the cloth ...
 constexpr double kStillIn = 0.040;      // [m] ... but of what is inside, which has nowhere else to be
 constexpr double kInMouth = 0.006;      // [m] about the mouth's plane: what lies there keeps the hoop open
-constexpr double kLeaves = 0.002;       // [m] that what keeps it open is away from the hoop
+constexpr double kLeavesBag = 0.002;    // [m] that what keeps it open is away from the hoop
 constexpr double kBack = 0.0005;        // [m] above the mouth before what was inside has left ...
 constexpr double kPouchBack = 0.003;    // ... and a node of a pouch, whose nodes are about 5 mm apart
 // Of a pouch in the bag; a node of a gallbladder weighs some 2 mN.
@@ -63,7 +63,7 @@ double reach_in_mouth(const BagModel& m, const BagState& s, const BagWork& w, si
     if (s.points[i].where == BagPoint::elsewhere || !w.bodies[i].near) continue;
     const AtMouth at = at_mouth(m, s, w.bodies[i].x);
     if (std::fabs(at.height) < std::max(kInMouth, count == 1 ? w.bodies[i].radius : 0.0))
-      reach = std::max(reach, at.out + w.bodies[i].radius + kLeaves);
+      reach = std::max(reach, at.out + w.bodies[i].radius + kLeavesBag);
   }
   return count == 1 || (some_in && some_out) ? reach : 0;
 }
@@ -73,7 +73,7 @@ double reach_of_rod(const BagModel& m, const BagState& s, const collision::Capsu
   const double a = dot(rod.a - s.middle(m), s.frame.up), b = dot(rod.b - s.middle(m), s.frame.up);
   if (a * b >= 0) return 0;
   const AtMouth at = at_mouth(m, s, rod.a + (a / (a - b)) * (rod.b - rod.a));
-  return at.out < m.hoop * s.hoop ? at.out + rod.radius + kLeaves : 0;
+  return at.out < m.hoop * s.hoop ? at.out + rod.radius + kLeavesBag : 0;
 }
 
 /// Downhill from `start`.

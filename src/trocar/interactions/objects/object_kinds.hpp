@@ -10,42 +10,47 @@
 #include <trocar/interactions/objects/bag.hpp>
 #include <trocar/interactions/objects/fat.hpp>
 #include <trocar/interactions/objects/rigid.hpp>
+#include <trocar/interactions/objects/suture.hpp>
 
 namespace trocar::interactions {
 
-using ObjectKinds = core::KindList<Rigid, Fat, Bag>;
+using ObjectKinds = core::KindList<Rigid, Fat, Bag, Suture>;
 
 /// All of them, a member a kind, which the kind's part() names. Kinds that a scene lacks are not in its hashes.
 struct ObjectModels {
   RigidModels rigid;
   FatBodies fat;
   BagModels bags;
+  SutureModels sutures;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
     v("rigid", s.rigid, core::only_if(!s.rigid.list.empty())), v("fat", s.fat, core::only_if(!s.fat.list.empty())),
-        v("bags", s.bags, core::only_if(!s.bags.list.empty()));
+        v("bags", s.bags, core::only_if(!s.bags.list.empty())),
+        v("sutures", s.sutures, core::only_if(!s.sutures.list.empty()));
   }
 };
 struct ObjectStates {
   std::vector<RigidState> rigid;
   std::vector<FatBodyState> fat;
   std::vector<BagState> bags;
+  std::vector<SutureState> sutures;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
     v("rigid", s.rigid, core::only_if(!s.rigid.empty())), v("fat", s.fat, core::only_if(!s.fat.empty())),
-        v("bags", s.bags, core::only_if(!s.bags.empty()));
+        v("bags", s.bags, core::only_if(!s.bags.empty())), v("sutures", s.sutures, core::only_if(!s.sutures.empty()));
   }
 };
 struct ObjectWork {
   RigidWork rigid;
   FatWorks fat;
   BagWorks bags;
+  SutureWorks sutures;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("rigid", s.rigid), v("fat", s.fat), v("bags", s.bags);
+    v("rigid", s.rigid), v("fat", s.fat), v("bags", s.bags), v("sutures", s.sutures);
   }
 };
 

@@ -15,7 +15,7 @@ constexpr double kSlowly = 0.02;      // [m/s] the same of walls and beads, whic
 constexpr double kSinks = 2e-5;       // [m] that is left
 constexpr double kSunkShare = 0.2;    // of what has sunk in, in a tick
 constexpr int kContactSweeps = 40;
-constexpr double kAtRest = 1e-6;  // [m/s] a sweep that changes less is the last
+constexpr double kContactStill = 1e-6;  // [m/s] a sweep that changes less is the last
 
 class Finder {
  public:
@@ -211,7 +211,7 @@ void solve_contacts(double tick, RigidWork& work) noexcept {
   for (int sweep = 0; sweep < kContactSweeps; ++sweep) {
     double changed = 0;
     for (RigidContact& c : work.contacts) changed = std::max(changed, solve(tick, work, c));
-    if (changed < kAtRest) return;
+    if (changed < kContactStill) return;
   }
 }
 

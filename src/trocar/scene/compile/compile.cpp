@@ -271,9 +271,11 @@ sim::Model compile(const Description& d, CompileReport* report) {
   compile_vessels(d, model, faults, report);
   compile_fluids(d, model, faults);
   compile_energy(d, model, faults);
+  compile_injection(d, model);
   compile_motion(d, model, faults);
   compile_marks(d, model, faults);
   BagScene::expect_hand(settings_of(BagScene{}, d.objects), model, faults);
+  compile_sutures(d, model, faults);
   if (!faults.empty()) throw core::BadInput(faults);
   compile_elastostatic(d, model, faults, report);
   if (!faults.empty()) throw core::BadInput(faults);

@@ -1,8 +1,11 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/scene/compile/compile_hands.hpp>
 #include <trocar/scene/mechanisms/instrument_mechanism.hpp>
+#include <trocar/sim/model/bodies.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -16,6 +19,21 @@ interactions::ElectrodeModel electrode_of(const Instrument& i) {
   out.current.efficiency = i.electrode.efficiency;
   out.current.stick_force = i.electrode.stick_force;
   if (i.electrode.seals > 0) (out.current.bipolar ? out.seal.pressed : out.seal.bare) = i.electrode.seals;
+  return out;
+}
+
+interactions::NeedleModel needle_of(const Instrument& i) {
+  interactions::NeedleModel out;
+  if (!i.can().inject) return out;
+  out.there = true;
+  out.length = i.needle.length;
+  out.radius = 0.5 * i.needle.diameter;
+  out.bore = i.needle.bore;
+  out.plunger = i.needle.plunger;
+  out.holds = i.needle.holds;
+  out.flow = i.needle.flow / 60;
+  out.most_force = i.needle.most_force;
+  out.units = i.needle.units;
   return out;
 }
 
@@ -36,6 +54,7 @@ interactions::ToolModel tool_of(const Instrument& i, std::vector<core::Fault>& f
   tool.clip_length = i.clip_length;
   tool.clips = i.clips;
   tool.electrode = electrode_of(i);
+  tool.needle = needle_of(i);
   take_linkage(i, tool, faults);
   take_wrist(i, tool, faults);
   return tool;
@@ -75,6 +94,11 @@ kinematics::PortModel give_of(const Port& port, const kinematics::TipFrame& plac
   return give;
 }
 
+const Tissue* tissue_named(const Description& d, const std::string& name) {
+  const auto found = std::find_if(d.tissues.begin(), d.tissues.end(), [&](const Tissue& t) { return t.name == name; });
+  return found == d.tissues.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 void compile_hands(const Description& d, sim::Model& model, std::vector<core::Fault>& faults) {
@@ -110,6 +134,25 @@ void compile_hands(const Description& d, sim::Model& model, std::vector<core::Fa
   const kinematics::FulcrumPose pose =
       kinematics::inverse(model.scope.port, d.scope_placement.tip, d.scope_placement.roll);
   model.start.scope = {float(pose.yaw), float(pose.pitch), float(pose.roll), float(pose.depth), 0.0f};
+}
+
+bool has_needle(const sim::Model& model) {
+  for (std::size_t t = 0; t < model.hands.size(); ++t)
+    if (model.syringe_of(t) > 0) return true;
+  return false;
+}
+
+void compile_injection(const Description& d, sim::Model& model) {
+  if (!has_needle(model)) return;
+  model.injection.organs.resize(std::size_t(model.organs()));
+  // What has no cells, or cells that blades change, takes nothing up: no needle gets in.
+  for (std::size_t i = 0; i < model.solids.size(); ++i) {
+    const sim::SolidModel& solid = model.solids[i];
+    const Tissue* tissue = tissue_named(d, solid.tissue);
+    if (!tissue || solid.network.tets.empty()) continue;
+    model.injection.organs[i].puncture = tissue->puncture;
+    model.injection.organs[i].infusion = tissue::infusion_of(solid.network, tissue->young);
+  }
 }
 
 }  // namespace trocar::scene

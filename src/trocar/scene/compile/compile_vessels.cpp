@@ -53,6 +53,10 @@ vessels::VesselGraph joined(const Description& d) {
   all.settings.max_openings = interactions::kMaxOpenings;
   // What heat seals is closed as by clips, at both ends.
   all.settings.max_clips = interactions::kMaxVesselClips + (d.energy ? 2 * interactions::kMaxSeals : 0);
+  // A drug that is injected narrows small ones, as partial clips at both ends would.
+  const auto injects = [](const Instrument& i) { return i.can().inject; };
+  if (std::any_of(d.instruments.begin(), d.instruments.end(), injects))
+    all.settings.max_clips += 2 * int(all.segments.size());
   if (d.breathing) all.heart.breaths = d.breathing->per_minute;
   return all;
 }

@@ -37,8 +37,10 @@ struct Tissue {
   double failure_strain = 0;  ///< tears beyond it (0: never)
   double damping_ms = 2;      ///< stiffness-proportional damping, a time [ms]
   double fracture = 0;        ///< what it takes to tear a square metre of it off (0: bonds never do) [J/m^2]
+  double puncture = 0.5;      ///< force at which a needle's tip gets through its surface (0: none does) [N]
+  double stitch_damage = 0;   ///< of a stitch's pull, from which on it harms [N]; 0: interactions::StitchTissue's
   std::string source;         ///< literature or "ours": of the figures that have no source of their own below
-  std::array<std::string, 9> source_of;  ///< in the order of kTissueFigures; empty: `source`
+  std::array<std::string, 11> source_of;  ///< in the order of kTissueFigures; empty: `source`
   core::Location at;
 };
 /// The figures of a tissue, as files name them.
@@ -46,15 +48,17 @@ struct TissueFigure {
   const char* key;
   double Tissue::*value;
 };
-inline constexpr std::array<TissueFigure, 9> kTissueFigures{{{"density_kg_m3", &Tissue::density},
-                                                             {"young_Pa", &Tissue::young},
-                                                             {"poisson", &Tissue::poisson},
-                                                             {"p1", &Tissue::p1},
-                                                             {"p2", &Tissue::p2},
-                                                             {"strain_cap", &Tissue::strain_cap},
-                                                             {"failure_strain", &Tissue::failure_strain},
-                                                             {"damping_ms", &Tissue::damping_ms},
-                                                             {"fracture_J_m2", &Tissue::fracture}}};
+inline constexpr std::array<TissueFigure, 11> kTissueFigures{{{"density_kg_m3", &Tissue::density},
+                                                              {"young_Pa", &Tissue::young},
+                                                              {"poisson", &Tissue::poisson},
+                                                              {"p1", &Tissue::p1},
+                                                              {"p2", &Tissue::p2},
+                                                              {"strain_cap", &Tissue::strain_cap},
+                                                              {"failure_strain", &Tissue::failure_strain},
+                                                              {"damping_ms", &Tissue::damping_ms},
+                                                              {"fracture_J_m2", &Tissue::fracture},
+                                                              {"puncture_N", &Tissue::puncture},
+                                                              {"stitch_damage_N", &Tissue::stitch_damage}}};
 
 /// A section of a lofted body: a super-ellipse with two half-axis vectors.
 struct Section {
@@ -429,6 +433,16 @@ struct ElectrodeSetting {
   double seals = 0;          ///< largest outer diameter of vessels that it seals [m]; 0: 1 mm bare, 3 mm between jaws
 };
 
+/// Of an injection needle: the needle, and the syringe behind it.
+struct NeedleSetting {
+  double length = 0.020, diameter = 0.0007, bore = 0.00041;  ///< 22 G [m]
+  double plunger = 0.0145;                                   ///< inner diameter of the syringe [m]
+  double holds = 10e-6;                                      ///< [m^3]
+  double flow = 10e-6;                                       ///< that a hand has in mind [m^3/min]
+  double most_force = 40;                                    ///< of a thumb [N]
+  double units = 0;                                          ///< of a drug that narrows vessels [IU/mL]; 0: saline
+};
+
 /// An instrument's shape and grip. Jaws open symmetrically in the plane of the shaft axis and the opening direction.
 struct Instrument {
   std::string name, title;
@@ -443,6 +457,7 @@ struct Instrument {
   double clip_length = 0.0085;    ///< clip applier: length of a closed clip [m]
   int clips = 0;                  ///< clips in the magazine
   ElectrodeSetting electrode;     ///< of hooks and bipolar forceps
+  NeedleSetting needle;           ///< of injection needles
   NamedMechanism linkage;         ///< between handle and jaws; none: they open as the handle does
   std::string handle = "handle";  ///< the linkage's actuator
   WristSetting wrist;

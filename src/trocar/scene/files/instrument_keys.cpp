@@ -21,6 +21,27 @@ const Table<ElectrodeSetting>& electrode() {
   return table;
 }
 
+const Table<NeedleSetting>& needle() {
+  using R = Rows<NeedleSetting>;
+  using N = NeedleSetting;
+  static const Table<N> table{
+      "needle",
+      "What comes out of an injection needle's shaft, and the syringe behind it.",
+      {R::number("length_mm", units::mm, &N::length, 2, 60, "beyond the shaft when it is out, default {}"),
+       R::number("diameter_mm", units::mm, &N::diameter, 0.3, 3, "default {}: 22 G"),
+       R::number("bore_mm", units::mm, &N::bore, 0.1, 2.8, "inner diameter, default {}"),
+       R::number("plunger_mm", units::mm, &N::plunger, 2, 50, "inner diameter of the syringe, default {}"),
+       R::number("holds_mL", units::millilitre, &N::holds, 0.1, 100, "in the syringe at the start, default {}"),
+       R::number("flow_mL_min", units::millilitre, &N::flow, 0.1, 120, "that a hand has in mind, default {}"),
+       R::number("most_force_N", units::one, &N::most_force, 1, 200, "of a thumb on the plunger, default {}"),
+       R::number("drug_IU_mL", units::one, &N::units, 0, 1000,
+                 "of a drug that narrows vessels, vasopressin; default {}: saline, which does not")},
+      [](const JsonObject& o, N& n, Context&) {
+        if (!(n.bore < n.diameter)) o.fault("bore_mm", "expected less than diameter_mm, got no less");
+      }};
+  return table;
+}
+
 /// The name of a file of a mechanism, which is read with it.
 template <class T, class Member>
 Row<T> mechanism_row(const char* name, Member member, const std::string& meaning) {
@@ -90,6 +111,7 @@ std::vector<Row<Instrument>> instrument_rows() {
       R::object("electrode", electrode, &I::electrode, "of a hook or bipolar forceps").only([](const I& i) {
         return i.can().coagulate;
       }),
+      R::object("needle", needle, &I::needle, "of an injection needle").only([](const I& i) { return i.can().inject; }),
       mechanism_row<I>("mechanism", &I::linkage,
                        "a file of a mechanism, relative to this one: jaws go as its linkage says, and open as far; "
                        "default: as the handle"),
@@ -106,6 +128,8 @@ void check_instrument(const JsonObject& o, Instrument& i, Context&) {
   if (o.has("electrode") && o.has("kind") && !i.can().coagulate)
     o.fault("electrode", fmt::format("expected an electrode only in a {}, got one in a {}",
                                      kinds_that(&Abilities::coagulate), kind));
+  if (o.has("needle") && o.has("kind") && !i.can().inject)
+    o.fault("needle", fmt::format("expected a needle only in a {}, got one in a {}", kinds_that(&Abilities::inject), kind));
   if (i.parallel_gap > 0 && i.opening > 0)
     o.fault("opening_deg", "expected 0 or nothing beside parallel_gap_mm (jaws turn or stay parallel), got an angle");
   if (o.has("mechanism") && o.has("opening_deg"))

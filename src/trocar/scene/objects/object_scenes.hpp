@@ -9,10 +9,11 @@
 #include <trocar/scene/objects/bag_scene.hpp>
 #include <trocar/scene/objects/fat_scene.hpp>
 #include <trocar/scene/objects/rigid_scene.hpp>
+#include <trocar/scene/objects/suture_scene.hpp>
 
 namespace trocar::scene {
 
-using ObjectScenes = core::KindList<RigidScene, FatScene, BagScene>;
+using ObjectScenes = core::KindList<RigidScene, FatScene, BagScene, SutureScene>;
 
 namespace objects {
 template <class K>

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/numerics/portable.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
 #include <trocar/sim/bodies/views.hpp>
 
@@ -9,6 +10,8 @@ namespace {
 
 // Loose tissue is a few threads and much water: what current does to it is not computed but said.
 constexpr double kBurns = 0.0022;   // [m] from the electrode.                   Our choice
+constexpr double kLoosens = 5e-6;   // [m^3] that loosens a bond where it comes in.  Our choice
+constexpr float kLoosest = 0.85f;   // of a bond: threads remain.                    Our choice
 constexpr double kBurnTime = 0.15;  // [s] until such a bond has parted.         Our choice
 
 interactions::BondedNodes nodes_of(StepContext& c, const interactions::BondSet& set) noexcept {
@@ -66,6 +69,19 @@ void burn_bonds(StepContext& c, Vec3d electrode, double dt) noexcept {
     if (length(electrode - (foot + w * (node - foot))) > kBurns) return;
     state.damage = std::min(1.0f, state.damage + float(dt / kBurnTime));
     state.cause = interactions::BondState::burnt;
+  });
+}
+
+void loosen_bonds(StepContext& c, Vec3d at, double volume, double spread) noexcept {
+  if (c.model.bonds.empty()) return;
+  const double most2 = 9 * spread * spread, per = 1 / (2 * spread * spread);
+  for_bonds(c, [&](const interactions::BondSet&, interactions::BondState& state, Vec3d foot, Vec3d node) {
+    if (!state.holds()) return;
+    const double w = geometry::closest_on_segment(at, foot, node);
+    const double far2 = geometry::distance2(at, foot + w * (node - foot));
+    if (far2 > most2) return;
+    const auto more = float(volume / kLoosens * portable::exp(-far2 * per));
+    state.damage = std::max(state.damage, std::min(kLoosest, state.damage + more));
   });
 }
 

@@ -17,6 +17,10 @@ int sever_bonds(StepContext& context, const geometry::Blade& blade) noexcept;
 /// @param dt  for how long it has been there [s]
 void burn_bonds(StepContext& context, Vec3d electrode, double dt) noexcept;
 
+/// Fluid that has been injected near a plane loosens what bridges it: oedema between wall and bed.
+/// @param at  the needle's point [m]; @param volume  that has come in this time [m^3]; @param spread  sigma of where [m]
+void loosen_bonds(StepContext& context, Vec3d at, double volume, double spread) noexcept;
+
 /// Blood that oozes into the film on an organ where bonds of a set have been torn or cut off it. One bond after the
 /// other has its turn, with what all of them would have oozed since its last.
 struct Ooze {

@@ -35,6 +35,13 @@ std::span<const std::uint8_t> folded_of(StepContext& c, SolidRef s) noexcept {
   return folded_rows(model_of(c.model, s).network, c.state.solids[s.index], c.work.solid_work[s.index]);
 }
 
+namespace {
+std::span<const Vec3f> pushed_from_within(const StepContext& c, size_t organ) noexcept {
+  if (c.work.infusion.empty() || c.work.infusion[organ].pushes == 0) return {};
+  return c.work.infusion[organ].force;
+}
+}  // namespace
+
 void advance(StepContext& c, SolidRef s) noexcept {
   if (advance_at_once(c, s)) return;
   interactions::NetworkLoads& loads = c.work.organ_loads[s.organ()];
@@ -44,7 +51,8 @@ void advance(StepContext& c, SolidRef s) noexcept {
   const tissue::Hands hands = loads.handled() ? tissue::Hands::on : tissue::Hands::off;
   c.work.organ_reports[s.organ()] =
       tissue::advance(model_of(c.model, s).network, loads.sorted, loads.reaction, c.state.solids[s.index],
-                      c.work.solid_work[s.index], nullptr, hands, c.work.organ_scars[s.organ()]);
+                      c.work.solid_work[s.index], nullptr, hands, c.work.organ_scars[s.organ()],
+                      pushed_from_within(c, s.organ()));
   after_network(c, s);
   settle_held_nodes(c, s);
 }

@@ -33,6 +33,15 @@ void take_hold(const Model& model, const HandModel& hand, interactions::ToolStat
   }
 }
 
+void take_needles(const Model& model, size_t hand, State& s) {
+  const auto& sutures = interactions::part_of<interactions::Suture>(model.objects).list;
+  for (size_t i = 0; i < sutures.size(); ++i)
+    if (sutures[i].hand == std::int32_t(hand))
+      interactions::hold_from_start(sutures[i], s.objects.sutures[i], BodyId(BodyKind::suture, i), model.placed(hand),
+                                    interactions::shape_of(model.placed(hand), s.tools[hand].pose(), 0.1),
+                                    s.tools[hand]);
+}
+
 }  // namespace
 
 State drawn_bodies(const Model& model) {
@@ -66,6 +75,7 @@ State initial_state(const Model& model) {
     tool.aperture = interactions::aperture_of(model.placed(t).linkage, double(in.handle));
     tool.clips_left = model.placed(t).clips;
     take_hold(model, model.hands[t], tool);
+    take_needles(model, t, s);
     for (size_t i = 0; i < model.hands[t].rack.size(); ++i)
       s.magazine[t * size_t(kMaxRack) + i] = model.hands[t].rack[i].clips;
   }
@@ -108,6 +118,14 @@ State initial_state(const Model& model) {
     const fluids::Mix poured =
         fluids::fill_level(model.wet.model.pool, s.pool_floor, model.wet.pool_at_start, s.fluids.pool);
     fluids::receive(s.fluids.ledger, fluids::Source::kBled, fluids::Place::kPool, poured);
+  }
+  if (model.injection.there()) {
+    s.injection.hands.resize(model.hands.size());
+    s.injection.tracks.resize(size_t(kMaxTracks));
+    s.injection.given.resize(size_t(model.organs()));
+    for (const PiercedOrgan& o : model.injection.organs) s.injection.organs.push_back(tissue::dry(o.infusion));
+    for (size_t t = 0; t < model.hands.size(); ++t)
+      s.injection.hands[t].left = std::int64_t(model.syringe_of(t) / fluids::kM3PerPicolitre + 0.5);
   }
   if (model.irrigates()) s.impacts.resize(size_t(model.wet.model.droplets.capacity));
   make_counters(model, s);

@@ -63,6 +63,12 @@ bool Model::irrigates() const noexcept {
   return wet.there && std::any_of(hands.begin(), hands.end(), in_rack);
 }
 
+double Model::syringe_of(size_t hand) const noexcept {
+  for (const interactions::ToolModel& tool : hands[hand].rack)
+    if (tool.can().inject) return tool.needle.holds;
+  return 0;
+}
+
 int Model::target_index(const std::string& target) const { return find_name(targets, target); }
 
 void add_to_hash(core::Hasher& h, const VesselsModel& vessels) noexcept {

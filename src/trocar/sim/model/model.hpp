@@ -22,6 +22,7 @@
 #include <trocar/interactions/couplings/vessel_path.hpp>
 #include <trocar/interactions/instrument/tool.hpp>
 #include <trocar/interactions/objects/object_kinds.hpp>
+#include <trocar/sim/model/injection.hpp>
 #include <trocar/sim/model/input.hpp>
 #include <trocar/sim/model/mark.hpp>
 #include <trocar/sim/model/motion.hpp>
@@ -354,6 +355,7 @@ struct Model {
   VesselsModel vessels;
   WetModel wet;
   EnergyModel energy;
+  InjectionModel injection;
   MotionModel motion;
   tissue::Box cavity{{-1e9f, -1e9f, -1e9f}, {1e9f, 1e9f, 1e9f}};  ///< nothing leaves it (containing.hpp)
   std::vector<HandModel> hands;                                   ///< at most kMaxTools
@@ -376,10 +378,11 @@ struct Model {
   /// The one it begins with.
   const interactions::ToolModel& placed(size_t hand) const noexcept { return hands[hand].rack.front(); }
 
-  bool bends() const noexcept;       ///< some instrument does, in some rack
-  bool ports_move() const noexcept;  ///< some trocar's fulcrum does
-  bool irrigates() const noexcept;   ///< there are fluids, and a suction-irrigator in a rack
-  int free_nodes() const;            ///< nodes that move, all bodies
+  bool bends() const noexcept;                    ///< some instrument does, in some rack
+  bool ports_move() const noexcept;               ///< some trocar's fulcrum does
+  bool irrigates() const noexcept;                ///< there are fluids, and a suction-irrigator in a rack
+  double syringe_of(size_t hand) const noexcept;  ///< what the first needle in its rack holds [m^3]; 0: there is none
+  int free_nodes() const;                         ///< nodes that move, all bodies
   int organs() const { return int(solids.size() + cuttables.size()); }
   int surfaces() const { return organs() + int(walls.size()); }  ///< organs first
   const std::string& organ_name(int organ) const;
@@ -400,8 +403,10 @@ struct Model {
         v("scope", s.scope), v("start", s.start), v("cavity", s.cavity), v("surface_pairs", s.surface_pairs),
         v("strand_pairs", s.strand_pairs), v("self_pairs", s.self_pairs), v("samples", s.samples), v("marks", s.marks),
         v("vessels", s.vessels, core::only_if(s.vessels.there())), v("wet", s.wet, core::only_if(s.wet.there)),
-        v("energy", s.energy, core::only_if(s.energy.there)), v("motion", s.motion, core::only_if(s.motion.there())),
-        v("objects", s.objects), v("instruments_push", s.instruments_push, core::only_if(s.instruments_push)),
+        v("energy", s.energy, core::only_if(s.energy.there)),
+        v("injection", s.injection, core::only_if(s.injection.there())),
+        v("motion", s.motion, core::only_if(s.motion.there())), v("objects", s.objects),
+        v("instruments_push", s.instruments_push, core::only_if(s.instruments_push)),
         v("statics", s.statics, core::only_if(!s.statics.empty())),
         v("bonds", s.bonds, core::only_if(!s.bonds.empty())), v("name", s.name, core::kNotHashed),
         v("file", s.file, core::kNotHashed), v("anatomy", s.anatomy, core::kNotHashed),

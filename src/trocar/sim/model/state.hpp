@@ -104,6 +104,7 @@ struct State {
   std::int32_t impact_count = 0;
   std::array<std::uint8_t, kMaxTools> valves{};  ///< (hands) Valve, in the last tick
   std::vector<std::uint8_t> seen;                ///< (samples) 1 = in view when last looked
+  InjectionState injection;                      ///< empty without an injection needle
   std::uint8_t declaring = 0;                    ///< kDeclare was down in the last tick
 
   template <class S, class V>
@@ -131,6 +132,7 @@ struct State {
         v("impacts", s.impacts, core::FieldNote{.hashed = irrigates, .first = s.impact_count}), v("objects", s.objects),
         v("statics", s.statics, core::only_if(!s.statics.empty())),
         v("bonds", s.bonds, core::only_if(!s.bonds.empty())),
+        v("injection", s.injection, core::only_if(s.injection.there())),
         v("declaring", s.declaring, core::only_if(s.declaring != 0)),
         v("joints", s.joints, core::only_if(!s.joints.empty())), v("ports", s.ports, core::only_if(!s.ports.empty()));
   }

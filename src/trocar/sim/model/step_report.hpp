@@ -22,12 +22,15 @@ struct Event {
     exchanged,
     torn,
     parted,
-    declared
+    declared,
+    pierced,
+    injected
   } kind = none;
   std::int32_t tool = 0;
   /// The clip's or the cut's number in the State's book; grasped: the body held (BodyId::code);
   /// parted: the body that current has cut, likewise; torn: the body that tore, likewise, under the hand that pulls or
-  /// presses most; exchanged: the new instrument's number in the rack; released, slipped and declared: -1.
+  /// presses most; exchanged: the new instrument's number in the rack; released, slipped and declared: -1;
+  /// pierced, injected: the organ that a needle has gone into or is about to fill.
   std::int32_t index = 0;
 
   /// The body that `index` says, of a kind of event that says one.
@@ -36,8 +39,8 @@ struct Event {
 
 /// A kind of event in words. A new kind of event is one line above and one here.
 struct EventWords {
-  /// Without which it never happens: jaws that grip, a rack of several instruments, current.
-  enum Needs { nothing, grip, choice, current };
+  /// Without which it never happens: jaws that grip, a rack of several instruments, current, an injection needle.
+  enum Needs { nothing, grip, choice, current, needle };
 
   Event::Kind kind;
   const char* name;     ///< as lists of what happened have it
@@ -59,6 +62,8 @@ inline constexpr EventWords kEventWords[] = {
     {Event::parted, "parted", "{tool} parted {body}", "Current cut a body.", true, EventWords::current},
     {Event::declared, "declared", "declared",
      "Who operates declared, by key or pedal, that what was to be shown is shown."},
+    {Event::pierced, "pierced", "{tool} pierced {body}", "A needle went into an organ.", true, EventWords::needle},
+    {Event::injected, "injected", "{tool} injects into {body}", nullptr, true},
 };
 /// Of a kind that is not Event::none.
 constexpr const EventWords& words_of(Event::Kind kind) noexcept { return kEventWords[std::size_t(kind) - 1]; }

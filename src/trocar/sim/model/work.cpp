@@ -109,6 +109,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     w.busy.resize(model.vessels.list.size());
     w.bleeds.resize(2 * interactions::kMaxOpenings);
   }
+  for (const PiercedOrgan& o : model.injection.organs) w.infusion.push_back(tissue::make_work(o.infusion));
   if (model.energy.there) w.heat = tissue::make_work(model.energy.heat);
   if (model.wet.there) {
     w.fluids = fluids::make_work(model.wet.model);

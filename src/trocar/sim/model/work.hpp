@@ -28,6 +28,16 @@ struct Bleed {
   bool fed = false;             ///< a way leads here from a source
 };
 
+/// Fluid of needles that comes into the open in this tick.
+struct NeedleOutlet {
+  Vec3d place;                  ///< [m]
+  Vec3d direction{0, 0, 1};     ///< unit
+  double area = 0;              ///< [m^2]
+  std::int64_t picolitres = 0;
+  std::int32_t film = -1;       ///< >= 0: it runs out over the skin there
+};
+inline constexpr std::int32_t kMaxNeedleOutlets = 12;
+
 struct Work {
   core::ThreadPool* pool = nullptr;             ///< may be null; never changes a bit of the result
   std::vector<tissue::SkinPose> poses;          ///< (organs)
@@ -78,6 +88,9 @@ struct Work {
   bool current_flows = false;
   fluids::FluidsWork fluids;
   interactions::WetWork wet;
+  std::vector<tissue::InfusionWork> infusion;  ///< (organs) empty in scenes without needles
+  std::array<NeedleOutlet, kMaxNeedleOutlets> needle_outlets;
+  std::int32_t needle_outlet_count = 0;
   std::vector<fluids::Outlet> wounds;  ///< (2 kMaxOpenings) sides of openings
   std::array<fluids::Capsule, kMaxTools * interactions::kToolParts> wet_tools;
   std::array<fluids::SuctionIrrigator, kMaxTools> valves;  ///< (hands) closed where there is none
@@ -103,7 +116,8 @@ struct Work {
         v("vessel_posed", s.vessel_posed), v("flow", s.flow), v("open", s.open), v("closed", s.closed),
         v("flows", s.flows), v("walls", s.walls), v("busy", s.busy), v("impact_at", s.impact_at), v("bleeds", s.bleeds),
         v("bleed_count", s.bleed_count), v("heat", s.heat), v("heat_sources", s.heat_sources), v("steam", s.steam),
-        v("current_flows", s.current_flows), v("fluids", s.fluids), v("wet", s.wet), v("wounds", s.wounds),
+        v("current_flows", s.current_flows), v("fluids", s.fluids), v("wet", s.wet), v("infusion", s.infusion), v("needle_outlets", s.needle_outlets),
+        v("needle_outlet_count", s.needle_outlet_count), v("wounds", s.wounds),
         v("wet_tools", s.wet_tools), v("valves", s.valves), v("nodes", s.nodes), v("cuttable_skins", s.cuttable_skins),
         v("skins", s.skins, core::kMadeOnce), v("organ_order", s.organ_order, core::kMadeOnce),
         v("strand_order", s.strand_order, core::kMadeOnce), v("membrane_order", s.membrane_order, core::kMadeOnce),

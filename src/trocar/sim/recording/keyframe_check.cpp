@@ -22,6 +22,25 @@ bool sound(const Model& model, int rack, const interactions::ToolState& t) {
   return true;
 }
 
+bool sound(const Model& model, const interactions::SkinPlace& place) {
+  if (!place.body.exists()) return place.body == BodyId{};
+  if (!place.body.is(BodyKind::organ) || place.body.index() >= std::size_t(model.organs())) return false;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (place.vertex[k] < 0 || place.vertex[k] >= places_on(model, place.body) ||
+        !(std::fabs(place.weight[k]) <= 1.001))
+      return false;
+  return true;
+}
+
+/// A needle is in nothing, or in a lattice at places of its skin.
+bool sound(const Model& model, const NeedleHand& hand) {
+  for (const double v : {hand.at.x, hand.at.y, hand.at.z, hand.anchor, hand.depth, hand.press, hand.flow,
+                         hand.tip_pressure, hand.plunger})
+    if (!(std::fabs(v) < 1e9)) return false;
+  if (hand.vessel < -1 || hand.vessel >= std::int32_t(model.vessels.list.size()) || hand.left < 0) return false;
+  return sound(model, hand.entry) && sound(model, hand.touch);
+}
+
 }  // namespace
 
 bool sound(const geometry::CuttableTets& b) {
@@ -61,6 +80,11 @@ bool sound(const Model& model, const State& s) {
   for (const std::vector<interactions::BondState>& bonds : s.bonds)
     for (const interactions::BondState& bond : bonds)
       if (!(bond.damage >= 0 && bond.damage <= 1)) return false;
+  for (const NeedleHand& hand : s.injection.hands)
+    if (!sound(model, hand)) return false;
+  for (const tissue::InfusionState& organ : s.injection.organs)
+    for (std::size_t r = 0; r < organ.dose.size(); ++r)
+      if (!(organ.dose[r] >= 0 && organ.dose[r] < 1e6f) || organ.since[r] > s.tick + 1) return false;
   bool good = true;
   visit_books(model, s, [&](auto verb, auto book) {
     for (const auto& record : book.used()) good = good && verb.sound(model, record);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include <trocar/fluids/shown_fluids.hpp>
@@ -58,6 +59,25 @@ void take_heat(Source& in, const Model& model, State& s) {
   if (!in.good) return;
   in.at += size_t(read);
   s.heat.tick = s.tick;  // so that who draws sees that it has changed
+}
+
+void take_injection(Source& in, InjectionState& s) {
+  in.take(s.hands.data(), s.hands.size());
+  in.take(&s.account, 1);
+  for (tissue::InfusionState& organ : s.organs) {
+    std::fill(organ.dose.begin(), organ.dose.end(), 0.0f);
+    std::fill(organ.since.begin(), organ.since.end(), 0u);
+    std::uint32_t n = 0, row = 0;
+    in.take(&n, 1);
+    in.good = in.good && n <= organ.dose.size();
+    for (std::uint32_t k = 0; in.good && k < n; ++k) {
+      in.take(&row, 1);
+      in.good = in.good && row < organ.dose.size();
+      if (!in.good) return;
+      in.take(&organ.dose[row], 1);
+      in.take(&organ.since[row], 1);
+    }
+  }
 }
 
 /// Keyframes that were written before fluids were in them end here, and show none.
@@ -122,6 +142,7 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   for (auto& bonds : s.bonds) in.take(bonds.data(), bonds.size());
   in.take(s.joints.data(), s.joints.size());
   in.take(s.ports.data(), s.ports.size());
+  if (s.injection.there()) take_injection(in, s.injection);
   if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
   if (model.wet.there) lay_floor(model, s);
   state = std::move(s);

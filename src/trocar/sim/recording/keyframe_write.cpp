@@ -38,6 +38,24 @@ void put_vessels(std::vector<std::uint8_t>& out, const State& s) {
   put(out, s.vessel_clips.data(), size_t(s.vessel_clip_count));
 }
 
+/// What is seen of it: where a drug is and since when. Numbers of what lies there are small beside that.
+void put_injection(std::vector<std::uint8_t>& out, const InjectionState& s) {
+  put(out, s.hands.data(), s.hands.size());
+  put(out, &s.account, 1);
+  for (const tissue::InfusionState& organ : s.organs) {
+    std::uint32_t n = 0;
+    for (const float dose : organ.dose) n += dose > 0 ? 1 : 0;
+    put(out, &n, 1);
+    for (size_t r = 0; r < organ.dose.size(); ++r) {
+      if (!(organ.dose[r] > 0)) continue;
+      const auto row = std::uint32_t(r);
+      put(out, &row, 1);
+      put(out, &organ.dose[r], 1);
+      put(out, &organ.since[r], 1);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
@@ -85,6 +103,7 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
   for (const auto& bonds : s.bonds) put(out, bonds.data(), bonds.size());
   put(out, s.joints.data(), s.joints.size());
   put(out, s.ports.data(), s.ports.size());
+  if (s.injection.there()) put_injection(out, s.injection);
   return out;
 }
 

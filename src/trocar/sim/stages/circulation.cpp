@@ -4,6 +4,7 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/bodies/vessel_wounds.hpp>
 #include <trocar/sim/stages/circulation.hpp>
+#include <trocar/sim/stages/injecting.hpp>
 #include <trocar/sim/stages/pulse_feel.hpp>
 #include <trocar/sim/stages/stage.hpp>
 #include <trocar/sim/verbs/sealing.hpp>
@@ -108,6 +109,23 @@ void beat(StepContext& c) noexcept {
 
 namespace {
 
+constexpr double kConstricts = 0.0005;  // [m] radius: what is no wider is narrowed by a drug
+constexpr double kResists = 4;          // times what it resists as it was comes on top: R_up x 5            Our choice
+
+/// Small vessels in blanched tissue: a partial clip at either end, which resists R (1 / (1 - cover)^2 - 1).
+void lay_out_blanching(const StepContext& c, std::span<vessels::Occlusion> out) noexcept {
+  for (vessels::Occlusion& narrow : out) narrow = {};
+  for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
+    const interactions::VesselPath& path = path_of(c, v);
+    if (interactions::vessel_radius(path, 0.5) > kConstricts) continue;
+    const double share = blanched_around(c.model, c.state, path);
+    if (!(share > 0)) continue;
+    const double cover = 1 - 1 / std::sqrt(1 + kResists * share);
+    out[2 * v] = {std::int32_t(v), 0, cover};
+    out[2 * v + 1] = {std::int32_t(v), 1, cover};
+  }
+}
+
 /// Openings and clips of the State as the flow wants them.
 void lay_out(StepContext& c) noexcept {
   const State& s = c.state;
@@ -124,7 +142,10 @@ void lay_out(StepContext& c) noexcept {
     out.sealed = sealed_share(s, int(i));
     out.outside = outside;
   }
-  lay_out_seals(s, std::span(c.work.closed).subspan(interactions::kMaxVesselClips));
+  const std::span<vessels::Occlusion> closed(c.work.closed);
+  const size_t narrow = c.model.injection.there() ? 2 * c.model.vessels.list.size() : 0;
+  lay_out_seals(s, closed.subspan(interactions::kMaxVesselClips).first(closed.size() - narrow - interactions::kMaxVesselClips));
+  if (narrow > 0) lay_out_blanching(c, closed.last(narrow));
   for (size_t i = 0; i < size_t(interactions::kMaxVesselClips); ++i) {
     vessels::Occlusion& out = c.work.closed[i];
     out = {};

@@ -1,5 +1,6 @@
 #include <trocar/sim/bodies/bag.hpp>
 #include <trocar/sim/bodies/bodies.hpp>
+#include <trocar/sim/bodies/suture.hpp>
 #include <trocar/sim/stages/contacts.hpp>
 #include <trocar/sim/stages/stage.hpp>
 
@@ -73,6 +74,7 @@ void touch_organs(StepContext& c) noexcept {
   }
   rest_objects(c);
   rest_bags(c);
+  rest_sutures(c);
 }
 
 }  // namespace trocar::sim

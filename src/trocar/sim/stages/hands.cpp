@@ -101,8 +101,9 @@ void move_hand(StepContext& c, size_t t) noexcept {
   if (!known) c.report.flags |= StepReport::kBadInput;
   interactions::ToolCommand command{held_pose(c.model, c.state, t, pose_of(in)), double(in.handle)};
   if (known && in.instrument != tool.instrument) {
-    // An empty hand opens its jaws; a bag's mouth is shut before it is drawn out.
-    command = {tool.pose(), c.model.tool(c.state, t).can().bag ? 1.0 : 0.0};
+    // An empty hand opens its jaws; a bag's mouth is shut before it is drawn out, and a needle drawn in.
+    const interactions::Abilities& can = c.model.tool(c.state, t).can();
+    command = {tool.pose(), can.bag || can.inject ? 1.0 : 0.0};
     const bool free = tool.holds == 0 && !holds_open_bag(c, t) && !joints_of(c.state, t).bent();
     if (free) command.pose.depth = kParked;
     if (free && tool.depth <= kParked) change_instrument(c, t, in.instrument);

@@ -1,3 +1,4 @@
+#include <trocar/sim/bodies/suture.hpp>
 #include <trocar/sim/stages/instruments.hpp>
 #include <trocar/sim/stages/reaction_forces.hpp>
 #include <trocar/sim/stages/stage.hpp>
@@ -49,6 +50,7 @@ void gather_reaction_forces(StepContext& c) noexcept {
     const interactions::WallStop& wall = c.work.wall_stops[t];
     if (wall.stopped) add_force(tool.contact_force, wall.force * wall.normal);
     const int held = tool.holds, slips = tool.slipped;
+    slip_in_jaws(c, t);
     interactions::slip(c.model.tool(c.state, t), c.work.shapes[t], view, tool);
     if (held > 0 && tool.holds == 0) tell_lost(c, t, slips);
     interactions::remember(tool, joints_of(c.state, t), c.work.touches[t], c.state.touches[t], port_shift(c.state, t));

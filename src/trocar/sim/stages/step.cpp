@@ -3,11 +3,13 @@
 #include <trocar/sim/bodies/bonds.hpp>
 #include <trocar/sim/bodies/fat.hpp>
 #include <trocar/sim/bodies/spilling.hpp>
+#include <trocar/sim/bodies/suture.hpp>
 #include <trocar/sim/stages/advancing.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 #include <trocar/sim/stages/contacts.hpp>
 #include <trocar/sim/stages/containing.hpp>
 #include <trocar/sim/stages/hands.hpp>
+#include <trocar/sim/stages/injecting.hpp>
 #include <trocar/sim/stages/instruments.hpp>
 #include <trocar/sim/stages/jaws.hpp>
 #include <trocar/sim/stages/peristalsis.hpp>
@@ -50,6 +52,7 @@ constexpr Stage kStages[] = {
     {"contract", contract},
     {"work jaws", work_jaws},
     {"touch tissue", touch_tissue},
+    {"pierce tissue", pierce_tissue},
     {"touch organs", touch_organs},
     {"adhere", apply_adhesion},
     {"gather scars", gather_scars},
@@ -59,16 +62,19 @@ constexpr Stage kStages[] = {
     {"pull on bonds", pull_on_bonds},
     {"pull on fat", pull_on_fat},
     {"advance strands", advance_strands},
+    {"swell tissue", swell_tissue},
     {"advance organs", advance_organs},
     {"advance membranes", advance_membranes},
     {"let stones fall", let_stones_fall},
     {"advance objects", advance_objects},
+    {"sew", sew},
     {"hold in bags", hold_in_bags},
     {"contain", contain},
     {"gather reactions", gather_reaction_forces},
     {"heat tissue", heat_tissue},
     {"tear", tear_tissue},
     {"let blood flow", let_blood_flow},
+    {"inject", inject},
     {"move fluids", move_fluids},
     {"look for targets", look_for_targets},
     {"sum up", sum_up},

@@ -52,8 +52,8 @@ size_t lay_out_leaks(StepContext& c, size_t place) noexcept {
   return place;
 }
 
-/// What oozes where bonds were.
-void lay_out_oozing(StepContext& c, size_t place) noexcept {
+/// What oozes where bonds were. @return as above
+size_t lay_out_oozing(StepContext& c, size_t place) noexcept {
   for (size_t i = 0; i < c.model.bonds.size() && place > 0; ++i) {
     if (!(c.model.bonds[i].oozes > 0) && !(c.model.bonds[i].bleeds > 0)) continue;
     fluids::Outlet& o = c.work.wounds[--place];
@@ -64,6 +64,23 @@ void lay_out_oozing(StepContext& c, size_t place) noexcept {
     if (o.area > 0) continue;
     o.position = vec_cast<float>(ooze.place);
     o.film = ooze.film;
+  }
+  return place;
+}
+
+/// What needles spill and what runs back along their ways.
+void lay_out_needles(StepContext& c, size_t place) noexcept {
+  if (!c.model.injection.there()) return;
+  for (std::int32_t i = 0; i < c.work.needle_outlet_count && place > 0; ++i) {
+    const NeedleOutlet& needle = c.work.needle_outlets[size_t(i)];
+    fluids::Outlet& o = c.work.wounds[--place];
+    o.flow.saline += needle.picolitres;
+    if (o.area > 0) continue;  // it leaves with a wound
+    o.source = fluids::Source::kIrrigated;
+    o.position = vec_cast<float>(needle.place);
+    o.direction = vec_cast<float>(needle.direction);
+    o.area = needle.area;
+    o.film = needle.film;
   }
 }
 
@@ -215,7 +232,7 @@ void press_with_drops(StepContext& c) noexcept {
 void move_fluids(StepContext& c) noexcept {
   if (!c.model.wet.there) return;
   lay_out_bleeding(c);
-  lay_out_oozing(c, lay_out_leaks(c, c.work.wounds.size()));
+  lay_out_needles(c, lay_out_oozing(c, lay_out_leaks(c, c.work.wounds.size())));
   const interactions::WetBodies bodies = wet_bodies(c);
   const int tools = lay_out_instruments(c, bodies.count());
   lay_out_valves(c, bodies);

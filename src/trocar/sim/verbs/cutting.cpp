@@ -6,6 +6,7 @@
 #include <trocar/sim/bodies/bodies.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
 #include <trocar/sim/bodies/fat.hpp>
+#include <trocar/sim/bodies/suture.hpp>
 #include <trocar/sim/bodies/vessel_wounds.hpp>
 #include <trocar/sim/bodies/views.hpp>
 #include <trocar/sim/model/seen.hpp>
@@ -125,6 +126,7 @@ void Cutting::work(StepContext& c, std::size_t t) noexcept {
   update_scissors(model, c.work.shapes[t], int(t), tissue_of(c), s.strands, jaw_tips_visible(c.model, s, int(t)),
                   s.tick, tool, {s.cuts, s.cut_count});
   if (armed && !tool.armed) {
+    cut_threads(c, t);
     cut_lattices(c, t);
     const geometry::Blade blade = interactions::closed_blades(model, c.work.shapes[t]);
     cut_folds(c, t, blade, false);

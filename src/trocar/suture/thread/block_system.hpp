@@ -43,7 +43,8 @@ struct Block {
 
 class BlockSystem {
  public:
-  explicit BlockSystem(int nodes = 0);
+  BlockSystem() : BlockSystem(0) {}
+  explicit BlockSystem(int nodes);
 
   void open() noexcept;
   /// These nodes (at most 4, ascending) are coupled with each other.

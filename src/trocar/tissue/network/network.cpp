@@ -77,11 +77,25 @@ int first_non_finite(const NetworkModel& m, const NetworkState& s) {
   return -1;
 }
 
+/// What pushes all of a tick alike, in the sub-step that the kernel has made: the weights of its rows hold dt / m.
+void push_steadily(const KernelArgs& a, std::span<const Vec3f> steady) noexcept {
+  for (std::size_t r = 0; r < steady.size(); ++r) {
+    const Vec3f f = steady[r];
+    if (f.x == 0 && f.y == 0 && f.z == 0) continue;
+    const RowPack& w = a.rows[r / kSlice];
+    const std::size_t lane = r % kSlice;
+    NodeState& n = a.out[r];
+    const Vec3f dv{w.wx[lane] * f.x, w.wy[lane] * f.y, w.wz[lane] * f.z};
+    n.vx += dv.x, n.vy += dv.y, n.vz += dv.z;
+    n.x += a.dt * dv.x, n.y += a.dt * dv.y, n.z += a.dt * dv.z;
+  }
+}
+
 }  // namespace
 
 StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::span<Vec3f> reactions, NetworkState& s,
                    NetworkWork& w, core::ThreadPool* pool, Hands hands,
-                   std::span<const ScarredSpring> springs) noexcept {
+                   std::span<const ScarredSpring> springs, std::span<const Vec3f> steady) noexcept {
   LoadedBody body = loaded_body(m);
   StepReport report = check_loads(body, loads);
   ScarredSprings scars(body, springs, w.scars);
@@ -100,6 +114,7 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
     args.in = s.nodes.data();
     args.out = w.other.data();
     fine = run_substep(args, w.forces, pool) && fine;
+    push_steadily(args, steady);
     scars.apply(args.in, args.out);
     guard.mend(args.in, args.out);
     fine = pull.apply(args.in, args.out) && fine;

@@ -194,10 +194,11 @@ NetworkWork make_work(const NetworkModel& model, int threads = 1);
 /// force each load exerted on its node, averaged over the tick [N]; what holds the tissue feels the opposite.
 /// @param hands  on: folded cells are not driven home, as hands may be what keeps them folded
 /// @param scars  springs that heat has changed (network_scars.hpp)
+/// @param steady  (rows) forces that stay the same for all of the tick [N], or empty
 /// Bits depend neither on the pool nor on the SIMD width.
 StepReport advance(const NetworkModel& model, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
                    NetworkState& state, NetworkWork& work, core::ThreadPool* pool = nullptr, Hands hands = Hands::off,
-                   std::span<const ScarredSpring> scars = {}) noexcept;
+                   std::span<const ScarredSpring> scars = {}, std::span<const Vec3f> steady = {}) noexcept;
 
 inline NodeView view_of(const NetworkModel& model, const NetworkState& state) noexcept {
   return {state.nodes, model.row_of_node, model.origin};

@@ -62,6 +62,8 @@ constexpr Lacks lacks_for(sim::EventWords::Needs needs) {
       return needs_choice;
     case sim::EventWords::current:
       return needs_current;
+    case sim::EventWords::needle:
+      return needs_needle;
     case sim::EventWords::nothing:
       break;
   }

@@ -39,6 +39,9 @@ inline std::string_view needs_current(const sim::Model& model) {
   if (!model.energy.there) return needs_energy(model);
   return unless_there_is(model, &interactions::Abilities::coagulate, "an electrode");
 }
+inline std::string_view needs_needle(const sim::Model& model) {
+  return model.injection.there() ? "" : "an injection needle";
+}
 /// Nothing can be exchanged where every rack holds one instrument.
 inline std::string_view needs_choice(const sim::Model& model) {
   const auto choice = [](const sim::HandModel& hand) { return hand.rack.size() > 1; };

@@ -13,6 +13,7 @@ constexpr Unit kUnits[] = {
     {"mm2", 1e-6, "square millimetres"},
     {"mm", 1e-3, "millimetres"},
     {"mL", 1e-6, "millilitres"},
+    {"IU", 1, "international units"},
     {"deg", portable::pi / 180, "degrees"},
     {"N", 1, "newtons"},
     {"s", 1, "seconds"},

@@ -127,13 +127,18 @@ void OrganDrawing::sink_wounds() {
 }
 
 void OrganDrawing::update(const tissue::NetworkState& state, std::span<const std::uint8_t> parted,
-                          std::span<const collision::Capsule> rods, const HeatMarks* burnt) {
+                          std::span<const collision::Capsule> rods, const HeatMarks* burnt, const Blanching* blanched) {
+  if (blanched && m_own_tint.empty())
+    for (const Paint& p : m_paint) m_own_tint.push_back(p.tint);
+  for (std::size_t i = 0; blanched && i < m_paint.size(); ++i)
+    m_paint[i].tint = std::max(m_own_tint[i], blanched->pale(i));
+  const bool repainted = burnt || blanched;
   for (std::size_t i = 0; burnt && i < m_paint.size(); ++i) m_paint[i].burn = burnt->burn(i);
   const auto cut = [](std::uint8_t p) { return p != 0; };
   const bool was_open = !m_wound.empty(), open = std::any_of(parted.begin(), parted.end(), cut);
   const bool changed =
-      open ? burnt || !std::equal(parted.begin(), parted.end(), m_parted.begin(), m_parted.end()) : was_open;
-  if (!m_moved(state.nodes) && !changed && !burnt && !m_dented && !near(m_box, rods)) return;
+      open ? repainted || !std::equal(parted.begin(), parted.end(), m_parted.begin(), m_parted.end()) : was_open;
+  if (!m_moved(state.nodes) && !changed && !repainted && !m_dented && !near(m_box, rods)) return;
   ++m_version;
   tissue::pose_skin(view_of(m_solid->network, state), m_solid->fine, m_pose);
   render::vertex_normals(m_pose.position, m_indices, m_normals);
@@ -153,7 +158,7 @@ void OrganDrawing::update(const tissue::NetworkState& state, std::span<const std
                       .paint = m_paint,
                       .indices = m_indices,
                       .coarser = m_coarser});
-    else if (burnt)
+    else if (repainted)
       m_mesh.repaint(m_pose.position, m_normals, m_paint);
     else
       m_mesh.move(m_pose.position, m_normals);

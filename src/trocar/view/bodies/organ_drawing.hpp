@@ -9,6 +9,7 @@
 #include <trocar/view/base/mesh_buffer.hpp>
 #include <trocar/view/base/moved.hpp>
 #include <trocar/view/base/relief.hpp>
+#include <trocar/view/bodies/blanching.hpp>
 
 namespace trocar::view {
 
@@ -22,8 +23,10 @@ class OrganDrawing {
   /// @param parted one byte a triangle of solid.fine, 1 = cut open (empty: none)
   /// @param rods instruments that may touch it: they leave a dent, finer than the mechanics resolve
   /// @param burnt what heat has left on the vertices of solid.fine, where that has changed; else null
+  /// @param blanched what a drug has, likewise
   void update(const tissue::NetworkState& state, std::span<const std::uint8_t> parted = {},
-              std::span<const collision::Capsule> rods = {}, const HeatMarks* burnt = nullptr);
+              std::span<const collision::Capsule> rods = {}, const HeatMarks* burnt = nullptr,
+              const Blanching* blanched = nullptr);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   bool dented() const { return m_dented; }  ///< by an instrument
   /// Rises whenever it is drawn anew: what follows it looks whether it has to.
@@ -58,6 +61,7 @@ class OrganDrawing {
   std::vector<std::uint8_t> m_parted;  ///< as drawn
   std::vector<WoundVertex> m_wound;    ///< they follow the skin's vertices in the mesh
   std::vector<Paint> m_paint;          ///< of the skin
+  std::vector<std::uint8_t> m_own_tint;  ///< of its paint, where it is not blanched; empty: it never was
   MeshBuffer m_open;                   ///< skin and wounds, where there are any
   std::vector<float> m_height;         ///< relief; empty: none
   tissue::Box m_box;                   ///< of the drawn vertices

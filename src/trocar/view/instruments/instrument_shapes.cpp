@@ -115,6 +115,7 @@ Placement placement_of(PartJoint joint, const interactions::ToolShape& shape, in
   if (joint == PartJoint::shaft) return placed(shape.shaft.opening(), shape.shaft.axis(), shape.shaft.tip);
   if (joint == PartJoint::link) return placed_link(shape.link[link], shape.frame.opening());
   const Vec3d axis = shape.frame.axis(), open = shape.frame.opening();
+  if (joint == PartJoint::needle) return placed(open, axis, shape.frame.tip - shape.needle_in * axis);
   const double side = joint == PartJoint::jaw_b ? -1 : 1;
   Vec3d x = side * open, z = axis, origin = shape.pivot;
   if (joint != PartJoint::body) {

@@ -15,7 +15,7 @@
 namespace trocar::view {
 
 struct InstrumentPart {
-  enum class Joint { body, jaw_a, jaw_b, shaft, link, works } joint = Joint::body;
+  enum class Joint { body, jaw_a, jaw_b, shaft, link, works, needle } joint = Joint::body;
   std::string look;
   MeshBuffer mesh;
   int link = 0;  ///< which of an instrument that bends, or of its linkage's parts

@@ -9,7 +9,7 @@ namespace trocar::view {
 
 using PartsOfKind = std::vector<InstrumentPart>(const interactions::ToolModel& tool);
 PartsOfKind grasper_parts, clip_applier_parts, scissors_parts, probe_parts, suction_irrigator_parts, hook_parts,
-    bipolar_parts, dissector_parts, bag_parts;
+    bipolar_parts, dissector_parts, bag_parts, injection_needle_parts;
 
 struct KindShape {
   interactions::ToolKind kind;
@@ -25,6 +25,7 @@ inline constexpr KindShape kKindShapes[] = {
     {interactions::ToolKind::bipolar, bipolar_parts},
     {interactions::ToolKind::dissector, dissector_parts},
     {interactions::ToolKind::bag, bag_parts},
+    {interactions::ToolKind::injection_needle, injection_needle_parts},
 };
 static_assert(std::size(kKindShapes) == std::size(interactions::kToolKinds), "a kind has no drawing");
 

@@ -6,13 +6,15 @@
 #include <trocar/view/objects/bag_drawing.hpp>
 #include <trocar/view/objects/fat_drawing.hpp>
 #include <trocar/view/objects/rigid_drawing.hpp>
+#include <trocar/view/objects/suture_drawing.hpp>
 
 namespace trocar::view {
 
 class ObjectDrawings {
  public:
   ObjectDrawings(const sim::Model& model, render::Backend& backend)
-      : m_all(RigidDrawing(model, backend), FatDrawing(model, backend), BagDrawing(model, backend)) {}
+      : m_all(RigidDrawing(model, backend), FatDrawing(model, backend), BagDrawing(model, backend),
+              SutureDrawing(model, backend)) {}
 
   void update(const sim::State& state) {
     std::apply([&](auto&... kind) { (kind.update(state), ...); }, m_all);
@@ -23,7 +25,7 @@ class ObjectDrawings {
   }
 
  private:
-  std::tuple<RigidDrawing, FatDrawing, BagDrawing> m_all;
+  std::tuple<RigidDrawing, FatDrawing, BagDrawing, SutureDrawing> m_all;
 };
 
 }  // namespace trocar::view

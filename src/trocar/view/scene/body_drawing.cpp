@@ -148,6 +148,7 @@ void BodyDrawing::make_organs(const render::OpennessBaker& baker, render::Backen
   sim::visit_solids(*m_model, [&](auto r) {
     const sim::SolidModel& s = model_of(*m_model, r);
     m_burns.emplace_back(*m_model, r.id(), below_skin(s.fine));
+    m_blanching.emplace_back(r.organ(), s.fine);
     m_details.organs.emplace_back(levels_of(*m_model, s.name));
     m_organs.emplace_back(s, relief_of(int(r.organ()), *m_model), shaded(baker, s.fine.rest, s.fine.rest_normal),
                           backend, m_details.organs.back());
@@ -352,7 +353,8 @@ void BodyDrawing::update(const sim::State& state) {
       rods.push_back(shape.rod(part));
   }
   for (std::size_t i = 0; i < m_organs.size(); ++i)
-    m_organs[i].update(state.solids[i], state.parted[i], rods, m_burns[i].update(state) ? &m_burns[i] : nullptr);
+    m_organs[i].update(state.solids[i], state.parted[i], rods, m_burns[i].update(state) ? &m_burns[i] : nullptr,
+                       m_blanching[i].update(state) ? &m_blanching[i] : nullptr);
   for (std::size_t i = 0; i < m_cuttables.size(); ++i) {
     m_cuttables[i].burn(state, m_cuttable_burns[i]);
     m_cuttables[i].update(state.cuttables[i], rods);
@@ -453,10 +455,12 @@ void BodyDrawing::list_organs(bool with_walls, const FirstParts& first, const Li
   // Before what it lies on, which then need not be shaded below it.
   for (const RawBed& b : m_beds)
     if (b.any()) to.add(item(b.mesh(), look(*m_model, "gallbladder_bed"), first.of(BodyId::organ(b.solid()))));
-  for (std::size_t i = 0; i < m_organs.size(); ++i)
-    to.add(item(m_organs[i].mesh(), look(*m_model, m_model->solids[i].look), first.of(BodyId::organ(i))),
-           m_details.organs[i], m_organs[i].positions(),
-           m_burns[i].any() || m_organs[i].dented() || held(BodyId::organ(i)));
+  for (std::size_t i = 0; i < m_organs.size(); ++i) {
+    DrawItem organ = item(m_organs[i].mesh(), look(*m_model, m_model->solids[i].look), first.of(BodyId::organ(i)));
+    if (m_blanching[i].any()) organ.material.tint = pale_of(organ.material.colour);
+    to.add(organ, m_details.organs[i], m_organs[i].positions(),
+           m_burns[i].any() || m_blanching[i].any() || m_organs[i].dented() || held(BodyId::organ(i)));
+  }
   sim::visit_cuttables(*m_model, [&](sim::CuttableRef organ) {
     CuttableDrawing& shape = m_cuttables[organ.index];
     DrawItem& drawn = to.add(item(shape.mesh(), look(*m_model, model_of(*m_model, organ).look), first.of(organ.id())),

@@ -98,6 +98,7 @@ class BodyDrawing {
   std::vector<OrganDrawing> m_organs;  ///< solids
   std::vector<CuttableDrawing> m_cuttables;
   std::vector<HeatMarks> m_burns, m_cuttable_burns;  ///< (organs)
+  std::vector<Blanching> m_blanching;                ///< (lattices)
   std::vector<FatTags> m_fat;
   std::vector<int> m_fat_on;  ///< its organ
   std::vector<Drape> m_drapes;

@@ -11,7 +11,6 @@
 namespace trocar::view {
 
 using render::DrawItem;
-using render::Frame;
 
 namespace {
 
@@ -48,14 +47,14 @@ struct SceneView::Parts {
         analysis(of, backend) {
     if (model.wet.there) wet.emplace(model);
   }
-  void aim(const sim::State& state, const ViewOptions& options, Frame& frame) const;
-  void list(const sim::State& state, const ViewOptions& options, Frame& frame);
+  void aim(const sim::State& state, const ViewOptions& options, render::Frame& frame) const;
+  void list(const sim::State& state, const ViewOptions& options, render::Frame& frame);
   void list_analysis(const sim::State& state, const ViewOptions& options, bool with_walls, const Listing& to);
-  void list_fluids(const sim::State& state, const ViewOptions& options, Frame& frame);
+  void list_fluids(const sim::State& state, const ViewOptions& options, render::Frame& frame);
 };
 
 /// The camera, its light and its optics.
-void SceneView::Parts::aim(const sim::State& state, const ViewOptions& options, Frame& frame) const {
+void SceneView::Parts::aim(const sim::State& state, const ViewOptions& options, render::Frame& frame) const {
   if (options.camera == ViewOptions::Camera::outside) {
     frame.camera = outside_camera(options.eye, options.target, options.up, options.outside_fov);
     frame.light = room_light();
@@ -82,7 +81,7 @@ void SceneView::Parts::aim(const sim::State& state, const ViewOptions& options, 
   frame.background = {0.018f, 0.019f, 0.021f};
 }
 
-void SceneView::Parts::list(const sim::State& state, const ViewOptions& options, Frame& frame) {
+void SceneView::Parts::list(const sim::State& state, const ViewOptions& options, render::Frame& frame) {
   const bool inside = options.camera != ViewOptions::Camera::outside, measured = options.analysis.on();
   const DetailEye eye(frame.camera, options.picture_height, options.quality, options.eye_index);
   const Listing to{frame, eye};
@@ -128,7 +127,7 @@ void SceneView::Parts::list_analysis(const sim::State& state, const ViewOptions&
       state, options, beside, [this](Measured kind, std::size_t i) { return names.of(kind, i); }, to.frame);
 }
 
-void SceneView::Parts::list_fluids(const sim::State& state, const ViewOptions& options, Frame& frame) {
+void SceneView::Parts::list_fluids(const sim::State& state, const ViewOptions& options, render::Frame& frame) {
   const auto shown = [&](std::uint16_t part) { return style_of(options.styles, part) != PartStyle::hidden; };
   frame.liquid.part = names.first.liquid;
   frame.liquid.look = liquid_look({});
@@ -150,12 +149,12 @@ SceneView::~SceneView() = default;
 
 const std::vector<ScenePart>& SceneView::parts() const { return m_parts->names.list; }
 
-Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
+render::Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   Parts& p = *m_parts;
   p.body.update(state);
   p.metal.update(state);
   p.objects.update(state);
-  Frame frame;
+  render::Frame frame;
   frame.tick = state.tick;
   frame.quality = options.quality;
   frame.eye = options.eye_index;

@@ -1,0 +1,29 @@
+// What needles and threads lie on and press against, found before bodies advance: skins of organs, folds, walls of
+// pouches, tubes, walls of the scene, instruments. And what tissue bears of what they did to it in the last tick.
+#pragma once
+
+#include <trocar/interactions/objects/suture.hpp>
+
+namespace trocar::interactions {
+
+/// Of a body the place of its surface that is nearest to a point.
+struct NearSkin {
+  BodyId body;
+  std::int32_t vertex = -1;  ///< heaviest corner; of a strand the element
+  double w = 0;              ///< within that
+  Vec3d point, normal;       ///< [m]; out of the body, of a fold towards the point
+  Vec3d velocity;            ///< [m/s]
+  double distance = 1e9;     ///< of the point from the surface, negative inside [m]
+
+  bool there() const noexcept { return vertex >= 0; }
+};
+/// Looks at all of the body.
+NearSkin nearest_skin(const TissueBodies& bodies, BodyId body, Vec3d p, double reach) noexcept;
+
+/// @param tick  that the step makes: what is near is looked for anew by turns
+/// @param cavity  whose walls nothing leaves
+void rest_on_tissue(const SutureModels& models, const TissueBodies& bodies, const tissue::Box& cavity,
+                    std::uint64_t tick, double dt, Suture::States& states, SutureWorks& work,
+                    TissueLoads loads) noexcept;
+
+}  // namespace trocar::interactions

@@ -1,0 +1,64 @@
+// A needle's way into an organ: its point catches in the skin and dents it until that gives way at the tissue's
+// puncture force; from then on that place of the skin sits on the needle. It is carried aside with it, and along with
+// it as far as friction bears.
+//
+//   F = k sunk < F_puncture          before; k 1000 N/m, our choice: how far the skin gives before it is pierced is its
+//   own |F along| <= drag * depth        after                                                     drag 0.05 N/mm
+//
+// The needle itself has no other contact: between skin and point tissue takes it along at the skin alone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <trocar/interactions/contact/surface.hpp>
+#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/instrument/tool.hpp>
+
+namespace trocar::interactions {
+
+inline constexpr double kPointStiffness = 1000;  ///< [N/m]
+inline constexpr double kShaftStiffness = 600;   ///< [N/m] of the skin on the needle.                       Our choice
+inline constexpr double kNeedleDrag = 50;        ///< [N/m] that a length in the tissue bears
+inline constexpr double kPointFound = 0.008;     ///< [m] how far a point looks for a skin
+inline constexpr double kTornOut = 0.015;        ///< [m] the skin's point off the needle: it has come out
+
+/// Where a needle is in space.
+struct NeedleLine {
+  Vec3d base, point, axis;  ///< the shaft's end; [m]; unit, towards the point
+  double out = 0;           ///< length beyond the shaft [m]
+};
+NeedleLine needle_of(const ToolModel& tool, const ToolShape& shape) noexcept;
+
+/// A material place of a skin. No padding.
+struct SkinPlace {
+  BodyId body;  ///< none: nowhere
+  std::array<std::int32_t, 3> vertex{-1, -1, -1};
+  std::array<double, 3> weight{0, 0, 0};
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("body", s.body), v("vertex", s.vertex), v("weight", s.weight);
+  }
+};
+static_assert(sizeof(SkinPlace) == 4 * 4 + 3 * 8, "no padding");
+Vec3d place_on(const Surface& surface, const SkinPlace& place) noexcept;
+Vec3d normal_on(const Surface& surface, const SkinPlace& place) noexcept;
+
+/// Where the needle's point is below a skin that it has not pierced; body none: nowhere.
+SkinPlace caught_at(const Surface& surface, BodyId body, const NeedleLine& needle) noexcept;
+/// How far the point is beyond the place of the skin that it has caught, along the needle [m]; 0: it has let go of it.
+double sunk_into(const Surface& surface, const SkinPlace& place, const NeedleLine& needle) noexcept;
+/// Takes the caught skin along with the point. @return the force along the needle [N]
+double press_skin(const Surface& surface, const SkinPlace& place, const NeedleLine& needle, std::int32_t hand,
+                  NetworkLoads& loads) noexcept;
+
+/// Carries the pierced skin. @param anchor  in/out: depth at which it sticks to the needle [m]
+void carry_skin(const Surface& surface, const SkinPlace& place, const NeedleLine& needle, double& anchor,
+                std::int32_t hand, NetworkLoads& loads) noexcept;
+
+/// How deep a place is below the nearest point of the skin [m]; negative above it.
+double depth_below(const Surface& surface, Vec3d place) noexcept;
+
+}  // namespace trocar::interactions

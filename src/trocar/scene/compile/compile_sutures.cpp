@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <trocar/numerics/portable.hpp>
+#include <trocar/scene/compile/compile_hands.hpp>
+#include <trocar/sim/model/model.hpp>
+
+namespace trocar::scene {
+namespace {
+
+using interactions::StitchTissue;
+using interactions::SutureModel;
+using interactions::SutureModels;
+
+constexpr double kWallReach = 0.0025;  // [m] from which on needles and threads know of walls
+
+StitchTissue stitch_of(const Description& d, const std::string& tissue) {
+  StitchTissue t;
+  for (const Tissue& row : d.tissues) {
+    if (row.name != tissue) continue;
+    if (row.puncture > 0) t.puncture = row.puncture;
+    if (row.stitch_damage > 0) t.damage = row.stitch_damage;
+  }
+  return t;
+}
+
+/// The needle between the jaws as they are at the start: across them, so that the shaft's roll drives it.
+void put_in_jaws(const SutureSetting& s, const sim::Model& model, std::size_t hand, SutureModel& m) {
+  const interactions::ToolModel& tool = model.placed(hand);
+  const interactions::ToolShape shape = interactions::shape_of(tool, sim::pose_of(model.start.tools[hand]), 0.1);
+  const Vec3d middle = interactions::from_jaw(shape, {0, 0, 0.6 * tool.jaw_length});
+  const Vec3d axis = interactions::direction_from_jaw(shape, {0, 0, s.backhand ? -1.0 : 1.0});
+  const Vec3d along = interactions::direction_from_jaw(shape, {0, 1, 0});
+  const double arc = s.grasped * m.needle.length;
+  const Vec3d own = m.needle.along(arc);
+  // first so that the plane stands across the shaft, then about its axis so that the wire lies across the jaws
+  const Quatd stands = needle_turn(axis, along);
+  const Vec3d drives = rotate(stands, own);
+  const double angle = portable::atan2(dot(cross(drives, along), axis), dot(drives, along));
+  m.turn = quat_from_axis_angle(axis, angle) * stands;
+  m.place = middle - rotate(m.turn, m.needle.place(arc));
+  m.hand = std::int32_t(hand);
+}
+
+suture::ThreadDescription thread_of(const SutureSetting& s, const suture::ThreadStuff& stuff, const sim::Model& model) {
+  suture::ThreadDescription d;
+  d.stuff = stuff;
+  d.length = s.length;
+  d.tick = core::kTick;
+  d.gravity = model.gravity;
+  const int hands = int(model.hands.size());
+  d.holds = interactions::kFirstHandSlot + hands;
+  d.obstacles = hands * interactions::kRodSlots + interactions::kNeedlePieces;
+  d.passages = interactions::kMostPassages;
+  d.skins = int(std::ceil(s.length / (2 * stuff.diameter))) + 2;
+  return d;
+}
+
+void lay_thread(const SutureSetting& s, SutureModel& m) {
+  const Vec3d swage = m.place + rotate(m.turn, m.needle.place(m.needle.length));
+  const Vec3d away = m.has_needle() ? -rotate(m.turn, m.needle.along(m.needle.length)) : Vec3d{1, 0, 0};
+  if (m.has_needle()) m.path.push_back(swage);
+  for (const Vec3d& p : s.line) m.path.push_back(p);
+  if (s.line.empty()) m.path.push_back((m.has_needle() ? swage : s.place) + 0.01 * away);
+  if (m.path.size() < 2) m.path.insert(m.path.begin(), s.place);
+}
+
+}  // namespace
+
+void compile_sutures(const Description& d, sim::Model& model, std::vector<core::Fault>& faults) {
+  const std::vector<SutureSetting>& settings = settings_of(SutureScene{}, d.objects);
+  SutureModels& all = interactions::part_of<interactions::Suture>(model.objects);
+  if (settings.empty() || all.list.size() != settings.size()) return;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const SutureSetting& s = settings[i];
+    SutureModel& m = all.list[i];
+    if (!s.hand.empty()) {
+      const int hand = model.hand_index(s.hand);
+      if (hand < 0 || !model.placed(std::size_t(hand)).can().grip) {
+        faults.push_back(
+            {s.at, fmt::format("expected the trocar of a hand whose instrument grips, got \"{}\"", s.hand)});
+        continue;
+      }
+      put_in_jaws(s, model, std::size_t(hand), m);
+      model.start.tools[std::size_t(hand)].handle = 1;
+    }
+    const suture::ThreadKind* kind = suture::find_thread(s.size, s.make);
+    if (!kind) continue;
+    m.thread = suture::build(thread_of(s, kind->stuff, model));
+    lay_thread(s, m);
+  }
+  std::vector<const tissue::Skin*> walls;
+  for (const sim::WallModel& w : model.walls) walls.push_back(&w.skin);
+  all.walls = interactions::make_wall_grid(walls, kWallReach);
+  for (const sim::SolidModel& b : model.solids) all.organs.push_back(stitch_of(d, b.tissue));
+  for (const sim::CuttableOrgan& b : model.cuttables) all.organs.push_back(stitch_of(d, b.tissue));
+  for (const sim::StrandAnatomy& b : model.strands) all.strands.push_back(stitch_of(d, b.tissue));
+  for (const sim::MembraneBody& b : model.membranes) all.membranes.push_back(stitch_of(d, b.tissue));
+}
+
+}  // namespace trocar::scene

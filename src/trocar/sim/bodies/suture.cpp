@@ -1,0 +1,62 @@
+#include <trocar/interactions/objects/suture_on_tissue.hpp>
+#include <trocar/interactions/objects/suture_stitch.hpp>
+#include <trocar/sim/bodies/suture.hpp>
+#include <trocar/sim/bodies/views.hpp>
+
+namespace trocar::sim {
+namespace {
+
+using interactions::Suture;
+
+bool has_sutures(const StepContext& c) noexcept { return !c.state.objects.sutures.empty(); }
+
+interactions::TissueBodies bodies_of(const StepContext& c) noexcept {
+  return {c.model.strand_bodies, c.state.strands, {c.work.surfaces.data(), size_t(c.model.organs())}, c.work.sheets};
+}
+
+/// The body's numbers of nodes may have grown by cuts: surfaces are seen anew.
+void see_again(StepContext& c) noexcept {
+  for (int i = 0; i < c.model.organs(); ++i) c.work.surfaces[size_t(i)].nodes = nodes_of(c.model, c.state, i);
+  for (size_t i = 0; i < c.model.membranes.size(); ++i)
+    c.work.sheets[i].surface.nodes = view_of(c.model.membranes[i].sheet.network, c.state.membranes[i].network);
+}
+
+}  // namespace
+
+void rest_sutures(StepContext& c) noexcept {
+  if (!has_sutures(c)) return;
+  interactions::rest_on_tissue(interactions::part_of<Suture>(c.model.objects), bodies_of(c), c.model.cavity,
+                               c.state.tick, kTick, interactions::part_of<Suture>(c.state.objects),
+                               interactions::part_of<Suture>(c.work.objects),
+                               {c.work.strand_loads, c.work.organ_loads, c.work.membrane_loads});
+}
+
+void sew(StepContext& c) noexcept {
+  if (!has_sutures(c)) return;
+  see_again(c);
+  const interactions::SewnReport r = interactions::sew(
+      interactions::part_of<Suture>(c.model.objects), bodies_of(c), c.model.gravity, kTick, c.model.cavity,
+      interactions::part_of<Suture>(c.state.objects), interactions::part_of<Suture>(c.work.objects));
+  if (r.overflowed) c.report.flags |= StepReport::kTooManyLoads;
+  if (r.torn.exists()) tell(c, Event::torn, 0, r.torn);
+  if (!r.bad.exists() || c.report.first_bad_body.exists()) return;
+  c.report.flags |= tissue::StepReport::kNonFinite;
+  c.report.first_bad_body = r.bad;
+  c.report.first_bad_index = 0;
+}
+
+bool cut_threads(StepContext& c, std::size_t hand) noexcept {
+  return has_sutures(c) &&
+         interactions::cut_threads(interactions::part_of<Suture>(c.model.objects), c.model.tool(c.state, hand),
+                                   c.work.shapes[hand], interactions::part_of<Suture>(c.state.objects)) > 0;
+}
+
+void slip_in_jaws(StepContext& c, std::size_t hand) noexcept {
+  if (!has_sutures(c)) return;
+  interactions::slip_in_jaws(interactions::part_of<Suture>(c.model.objects),
+                             interactions::part_of<Suture>(c.state.objects),
+                             interactions::part_of<Suture>(c.work.objects), int(hand), c.model.tool(c.state, hand),
+                             c.work.shapes[hand], c.state.tools[hand]);
+}
+
+}  // namespace trocar::sim

@@ -1,0 +1,318 @@
+#include <algorithm>
+
+#include <trocar/fluids/mix.hpp>
+#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/numerics/portable.hpp>
+#include <trocar/sim/bodies/bonds.hpp>
+#include <trocar/sim/bodies/static_organ.hpp>
+#include <trocar/sim/bodies/vessel_wounds.hpp>
+#include <trocar/sim/model/bodies.hpp>
+#include <trocar/sim/stages/injecting.hpp>
+#include <trocar/sim/stages/stage.hpp>
+
+namespace trocar::sim {
+namespace {
+
+using interactions::NeedleLine;
+
+constexpr double kPlungerRamp = 0.3;    // [s] in which a thumb comes to the flow that it has in mind.     Our choice
+constexpr std::uint64_t kShareTicks = 10;    // ticks between two looks at what has flowed
+constexpr std::uint64_t kAbsorbTicks = 100;  // ... at what vessels take up
+constexpr double kAbsorbTime = 600;     // [s] tau of that.                                                Our choice
+constexpr double kSamePlace = 0.003;    // [m] a plunger that was drawn there was drawn here
+constexpr double kTrackCloses = 8;      // [s] tau of a needle's way that closes.                          Our choice
+constexpr double kTrackOver = 60;       // [s]
+constexpr double kTrackLeaks = 1e-12;   // [m^3/Pa s] when it has just been left: at 25 kPa 0.2 mL get out.  Our choice
+constexpr double kTrackWide = 0.004;    // [m] what is around it is what leaks
+constexpr double kTrackDeep = 0.003;    // [m] where its pressure is asked for
+
+NeedleLine line_of(const StepContext& c, size_t hand) noexcept {
+  return interactions::needle_of(c.model.tool(c.state, hand), c.work.shapes[hand]);
+}
+
+bool takes_up(const StepContext& c, size_t organ) noexcept { return c.model.injection.organs[organ].infusion.there(); }
+
+void let_into_open(StepContext& c, const NeedleOutlet& outlet) noexcept {
+  if (c.work.needle_outlet_count < std::int32_t(c.work.needle_outlets.size()))
+    c.work.needle_outlets[size_t(c.work.needle_outlet_count++)] = outlet;
+}
+
+/// Out of the skin where a needle is or was in.
+void leak_at(StepContext& c, const interactions::SkinPlace& at, std::int64_t picolitres) noexcept {
+  if (picolitres <= 0) return;
+  c.state.injection.account.leaked += picolitres;
+  const size_t organ = at.body.index();
+  NeedleOutlet out;
+  out.place = interactions::place_on(c.work.surfaces[organ], at);
+  out.direction = interactions::normal_on(c.work.surfaces[organ], at);
+  out.picolitres = picolitres;
+  size_t most = 0;
+  for (size_t k = 1; k < 3; ++k)
+    if (at.weight[k] > at.weight[most]) most = k;
+  if (c.model.wet.there) out.film = c.model.wet.film[organ] + at.vertex[most];
+  let_into_open(c, out);
+}
+
+/// What has flowed since the last time finds its place; what finds none comes out beside the needle.
+void share_out_pending(StepContext& c, NeedleHand& n, bool drugged) noexcept {
+  if (n.pending == 0 || !n.in()) return;
+  const size_t organ = n.entry.body.index();
+  std::int64_t in = 0;
+  if (takes_up(c, organ)) {
+    visit_organ(c.model, organ, [&c](auto body) { hand_over(c, body); });
+    const double spread = tissue::spread_of(fluids::kM3PerPicolitre * double(n.here));
+    in = tissue::infuse(c.model.injection.organs[organ].infusion, c.work.nodes[organ], n.at, n.pending, spread, drugged,
+                        std::uint32_t(c.state.tick + 1), c.state.injection.organs[organ], c.work.infusion[organ]);
+    loosen_bonds(c, n.at, fluids::kM3PerPicolitre * double(in), spread);
+  }
+  leak_at(c, n.entry, n.pending - in);
+  n.pending = 0;
+}
+
+void leave_track(StepContext& c, const NeedleHand& n) noexcept {
+  InjectionState& s = c.state.injection;
+  if (s.track_count == kMaxTracks) {
+    std::move(s.tracks.begin() + 1, s.tracks.end(), s.tracks.begin());
+    --s.track_count;
+  }
+  s.tracks[size_t(s.track_count++)] = {n.entry, c.state.tick, 0, 0};
+}
+
+void draw_out(StepContext& c, NeedleHand& n, bool drugged) noexcept {
+  share_out_pending(c, n, drugged);
+  leave_track(c, n);
+  n.entry = {};
+  n.anchor = n.depth = n.drawn_for = 0;
+  n.here = n.blood = 0;
+  n.vessel = -1;
+}
+
+void go_in(StepContext& c, size_t hand, NeedleHand& n) noexcept {
+  n.entry = n.touch;
+  n.touch = {};
+  n.anchor = 0;
+  n.press = 0;
+  n.here = n.blood = 0;
+  n.drawn_for = 0;
+  ++n.punctures;
+  tell(c, Event::pierced, int(hand), n.entry.body);
+}
+
+/// The point at a skin that it has not pierced.
+void dent_skins(StepContext& c, size_t hand, const NeedleLine& line, NeedleHand& n) noexcept {
+  n.press = 0;
+  const auto surface_of = [&c](const interactions::SkinPlace& place) -> const interactions::Surface& {
+    return c.work.surfaces[place.body.index()];
+  };
+  if (n.touch.body.exists() && !(sunk_into(surface_of(n.touch), n.touch, line) > 0)) n.touch = {};
+  if (!(line.out > 0)) n.touch = {};
+  for (size_t i = 0; i < size_t(c.model.organs()) && line.out > 0 && !n.touch.body.exists(); ++i)
+    n.touch = interactions::caught_at(c.work.surfaces[i], BodyId::organ(i), line);
+  if (!n.touch.body.exists()) return;
+  const size_t organ = n.touch.body.index();
+  n.press = interactions::press_skin(surface_of(n.touch), n.touch, line, std::int32_t(hand), c.work.organ_loads[organ]);
+  const double gives = c.model.injection.organs[organ].puncture;
+  if (gives > 0 && n.press >= gives) go_in(c, hand, n);
+}
+
+/// Is the pierced skin's point still somewhere on the needle?
+bool still_in(const StepContext& c, const NeedleHand& n, const NeedleLine& line) noexcept {
+  const Vec3d entry = interactions::place_on(c.work.surfaces[n.entry.body.index()], n.entry);
+  const double deep = dot(line.point - entry, line.axis);
+  return deep > 0 && length(line.point - deep * line.axis - entry) < interactions::kTornOut;
+}
+
+void pierce_with(StepContext& c, size_t hand) noexcept {
+  const interactions::ToolModel& tool = c.model.tool(c.state, hand);
+  NeedleHand& n = c.state.injection.hands[hand];
+  const NeedleLine line = line_of(c, hand);
+  n.at = line.point;
+  if (n.in() && (!tool.can().inject || n.changes != c.state.tools[hand].changes || !still_in(c, n, line)))
+    draw_out(c, n, tool.needle.drugged());
+  n.changes = c.state.tools[hand].changes;
+  if (!tool.can().inject) {
+    n.touch = {};
+    return;
+  }
+  if (!n.in()) return dent_skins(c, hand, line, n);
+  const size_t organ = n.entry.body.index();
+  interactions::carry_skin(c.work.surfaces[organ], n.entry, line, n.anchor, std::int32_t(hand),
+                           c.work.organ_loads[organ]);
+  n.depth = interactions::depth_below(c.work.surfaces[organ], n.at);
+}
+
+// ---- plungers
+
+/// The vessel whose lumen a place lies in; -1: none.
+std::int32_t vessel_around(StepContext& c, Vec3d place) noexcept {
+  for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
+    const std::vector<interactions::VesselPoint>& path = path_of(c, v).points;
+    const std::vector<Vec3d>& x = points_of(c, v);
+    for (size_t i = 1; i < x.size(); ++i) {
+      const double w = geometry::closest_on_segment(place, x[i - 1], x[i]);
+      const double radius = path[i - 1].radius + w * (path[i].radius - path[i - 1].radius);
+      if (geometry::distance2(place, x[i - 1] + w * (x[i] - x[i - 1])) < radius * radius) return std::int32_t(v);
+    }
+  }
+  return -1;
+}
+
+interactions::AtTip at_tip(const StepContext& c, const NeedleHand& n) noexcept {
+  interactions::AtTip at;
+  if (!n.in()) return at;
+  if (n.vessel >= 0) {
+    at.pressure = std::max(0.0, c.work.walls[size_t(n.vessel)].pressure);
+    return at;
+  }
+  const size_t organ = n.entry.body.index();
+  if (!takes_up(c, organ)) return at;
+  at.opening = c.model.injection.organs[organ].infusion.opening;
+  at.pressure = tissue::pressure_at(c.work.nodes[organ], n.at, c.state.injection.organs[organ]);
+  return at;
+}
+
+/// Picolitres that have left the needle go where its point is.
+void book(StepContext& c, size_t hand, std::int64_t picolitres, const interactions::NeedleModel& needle,
+          NeedleHand& n) noexcept {
+  InjectionState& s = c.state.injection;
+  n.left -= picolitres;
+  s.account.injected += picolitres;
+  if (needle.drugged()) s.account.drugged += picolitres;
+  if (n.vessel >= 0) {
+    s.account.vessel += picolitres;
+  } else if (n.in()) {
+    n.pending += picolitres;
+    n.here += picolitres;
+    s.given[n.entry.body.index()] += picolitres;
+  } else if (picolitres > 0) {
+    s.account.spilled += picolitres;
+    NeedleOutlet out;
+    out.place = n.at;
+    out.direction = line_of(c, hand).axis;
+    out.area = 0.25 * portable::pi * needle.bore * needle.bore;
+    out.picolitres = picolitres;
+    let_into_open(c, out);
+  }
+}
+
+void push(StepContext& c, size_t hand, const interactions::NeedleModel& needle, NeedleHand& n) noexcept {
+  n.rate = std::min(needle.flow, n.rate + needle.flow * kTick / kPlungerRamp);
+  if (n.left == 0) return;
+  const interactions::PlungerPush p = interactions::push_plunger(needle, at_tip(c, n), n.rate);
+  n.flow = p.flow;
+  n.tip_pressure = p.tip;
+  n.plunger = p.force;
+  book(c, hand, std::min(n.left, fluids::whole_picolitres(p.flow, kTick, n.carry)), needle, n);
+  if (n.in() && p.flow > 0 && !n.pushing) tell(c, Event::injected, int(hand), n.entry.body);
+  n.pushing = p.flow > 0 ? 1 : 0;
+}
+
+void draw(StepContext& c, const interactions::NeedleModel& needle, NeedleHand& n) noexcept {
+  n.plunger = -interactions::kVacuum * needle.area();
+  if (!n.in()) return;
+  if (length(n.at - n.checked) > kSamePlace) {
+    n.drawn_for = 0;
+    n.checked = n.at;
+  }
+  n.drawn_for += kTick;
+  if (n.vessel >= 0)
+    n.blood += fluids::whole_picolitres(interactions::drawn_flow(needle, at_tip(c, n).pressure), kTick, n.carry_drawn);
+}
+
+void work_plunger(StepContext& c, size_t hand) noexcept {
+  const interactions::ToolModel& tool = c.model.tool(c.state, hand);
+  NeedleHand& n = c.state.injection.hands[hand];
+  n.flow = n.tip_pressure = n.plunger = 0;
+  if (!tool.can().inject) return;
+  const bool in_hand = c.input.tools[hand].instrument == c.state.tools[hand].instrument;
+  const bool pushes = in_hand && (c.input.pedals & irrigates(int(hand))) != 0;
+  const bool draws = in_hand && !pushes && (c.input.pedals & sucks(int(hand))) != 0;
+  const std::int32_t was = n.vessel;
+  if (!n.in())
+    n.vessel = -1;
+  else if (c.model.vessels.there() && (c.state.tick % kShareTicks == 0 || n.vessel >= 0))
+    n.vessel = vessel_around(c, n.at);
+  if (n.vessel >= 0 && n.vessel != was) n.pushing = 0;  // to be told anew
+  if (!pushes) n.rate = 0, n.pushing = 0;
+  if (pushes) push(c, hand, tool.needle, n);
+  if (draws) draw(c, tool.needle, n);
+  c.state.tools[hand].pinch = n.plunger < 0 ? -n.plunger : n.plunger;  // what the hand feels on its handle
+  if (c.state.tick % kShareTicks == 0) share_out_pending(c, n, tool.needle.drugged());
+}
+
+/// What runs back out of the ways that needles have left.
+void leak_tracks(StepContext& c) noexcept {
+  InjectionState& s = c.state.injection;
+  std::int32_t kept = 0;
+  for (std::int32_t i = 0; i < s.track_count; ++i) {
+    NeedleTrack track = s.tracks[size_t(i)];
+    const double age = kTick * double(c.state.tick - track.tick);
+    const size_t organ = track.at.body.index();
+    if (age > kTrackOver || !takes_up(c, organ)) continue;
+    const interactions::Surface& surface = c.work.surfaces[organ];
+    const Vec3d inside =
+        interactions::place_on(surface, track.at) - kTrackDeep * interactions::normal_on(surface, track.at);
+    const double pressure = tissue::pressure_at(c.work.nodes[organ], inside, s.organs[organ]);
+    const double flow = kTrackLeaks * portable::exp(-age / kTrackCloses) * pressure;
+    const std::int64_t wants = fluids::whole_picolitres(flow, double(kShareTicks) * kTick, track.carry);
+    const std::int64_t out = tissue::let_out(c.model.injection.organs[organ].infusion, c.work.nodes[organ], inside,
+                                             wants, kTrackWide, s.organs[organ], c.work.infusion[organ]);
+    leak_at(c, track.at, out);
+    track.leaked += out;
+    s.tracks[size_t(kept++)] = track;
+  }
+  s.track_count = kept;
+}
+
+void absorb_all(StepContext& c) noexcept {
+  for (tissue::InfusionState& organ : c.state.injection.organs)
+    c.state.injection.account.absorbed += tissue::absorb(double(kAbsorbTicks) * kTick / kAbsorbTime, organ);
+}
+
+}  // namespace
+
+void pierce_tissue(StepContext& c) noexcept {
+  if (!c.model.injection.there()) return;
+  c.work.needle_outlet_count = 0;
+  for (size_t t = 0; t < c.model.hands.size(); ++t) pierce_with(c, t);
+}
+
+void swell_tissue(StepContext& c) noexcept {
+  if (!c.model.injection.there()) return;
+  visit_solids(c.model, [&c](SolidRef r) {
+    const PiercedOrgan& organ = c.model.injection.organs[r.organ()];
+    c.work.infusion[r.organ()].pushes = 0;
+    if (organ.infusion.there())
+      tissue::swell(organ.infusion, model_of(c.model, r).network, c.state.solids[r.index].nodes, kTick,
+                    c.state.injection.organs[r.organ()], c.work.infusion[r.organ()]);
+  });
+}
+
+void inject(StepContext& c) noexcept {
+  if (!c.model.injection.there()) return;
+  for (size_t t = 0; t < c.model.hands.size(); ++t) work_plunger(c, t);
+  if (c.state.tick % kShareTicks == 0) leak_tracks(c);
+  if (c.state.tick % kAbsorbTicks == 0) absorb_all(c);
+}
+
+double blanched_at(const State& s, std::size_t organ, const tissue::Skin& skin, int vertex) noexcept {
+  if (!s.injection.there() || s.injection.organs[organ].since.empty()) return 0;
+  double sum = 0;
+  skin.each_carrier(vertex, [&](int, int row, float weight) {
+    if (weight > 0) sum += double(weight) * tissue::blanched(s.injection.organs[organ], size_t(row), s.tick);
+  });
+  return sum;
+}
+
+double blanched_around(const Model& model, const State& s, const interactions::VesselPath& path) noexcept {
+  double sum = 0;
+  for (const interactions::VesselPoint& p : path.points) {
+    if (p.hold.kind != interactions::VesselHold::organ || size_t(p.hold.index) >= model.solids.size()) continue;
+    const tissue::Skin& skin = model.solids[size_t(p.hold.index)].skin;
+    for (size_t k = 0; k < 3; ++k)
+      sum += p.hold.share[k] * blanched_at(s, size_t(p.hold.index), skin, p.hold.vertex[k]);
+  }
+  return sum / double(path.points.size());
+}
+
+}  // namespace trocar::sim

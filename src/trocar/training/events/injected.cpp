@@ -1,0 +1,43 @@
+// A plunger that begins to press while the point is in an organ, and again when the point comes into a vessel.
+#include <trocar/training/events/registry.hpp>
+#include <trocar/training/facts/needs.hpp>
+#include <trocar/training/observe/hands.hpp>
+
+namespace trocar::training {
+namespace {
+
+class Injected final : public Noticer {
+ public:
+  Injected(const sim::Model&, const Arguments&) {}
+  void tick(const Moment& moment, const sim::StepReport& report, Happenings& out) override {
+    for (int i = 0; i < report.event_count; ++i) {
+      const sim::Event& e = report.events[i];
+      if (e.kind != sim::Event::injected) continue;
+      const sim::NeedleHand& n = moment.state.injection.hands[size_t(e.tool)];
+      out.add({e.tool, e.body(), -1, name_of_body(moment.model, e.body()),
+               tip_of(moment.model, moment.state, size_t(e.tool)), n.at});
+    }
+  }
+};
+
+const sim::NeedleHand& needle_at(const Moment& moment, const Happening& h) {
+  return moment.state.injection.hands[size_t(h.hand)];
+}
+
+}  // namespace
+
+const EventKind kInjected{
+    "injected",
+    {},
+    {{"depth_mm", "of the point below the nearest skin",
+      [](const Moment& m, const Happening& h) -> Value { return needle_at(m, h).depth; }, -30, 60},
+     {"drawn_s", "how long the plunger had been drawn at that place before",
+      [](const Moment& m, const Happening& h) -> Value { return needle_at(m, h).drawn_for; }, 0, 3600},
+     {"in_vessel", "the point is in a vessel",
+      [](const Moment& m, const Happening& h) -> Value { return needle_at(m, h).vessel >= 0; }, 0, 1, true}},
+    "A plunger began to press with its needle's point in an organ.",
+    needs_needle,
+    &noticing<Injected>,
+    true};
+
+}  // namespace trocar::training

@@ -1,0 +1,137 @@
+// What needles do and have done: facts of points in organs, of syringes, of what was injected and what it blanches.
+#include <algorithm>
+
+#include <trocar/sim/model/bodies.hpp>
+#include <trocar/sim/stages/injecting.hpp>
+#include <trocar/training/facts/needs.hpp>
+#include <trocar/training/facts/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+constexpr double kPaleEnough = 0.5;  // blanched by so much counts
+
+const sim::NeedleHand& needle_of_hand(const Moment& moment, const Arguments& a) {
+  return moment.state.injection.hands[size_t(a[0].index)];
+}
+
+Value point_depth(const Moment& moment, const Arguments& a) {
+  const sim::NeedleHand& n = needle_of_hand(moment, a);
+  return n.in() ? Value(n.depth) : kUnknown;
+}
+Value point_in(const Moment& moment, const Arguments& a) {
+  const sim::NeedleHand& n = needle_of_hand(moment, a);
+  return n.in() && (!a[1].given || n.entry.body == a[1].body());
+}
+Value plunger_force(const Moment& moment, const Arguments& a) { return needle_of_hand(moment, a).plunger; }
+Value syringe_left(const Moment& moment, const Arguments& a) {
+  return fluids::kM3PerPicolitre * double(needle_of_hand(moment, a).left);
+}
+Value plunger_drawn(const Moment& moment, const Arguments& a) {
+  const sim::NeedleHand& n = needle_of_hand(moment, a);
+  return n.in() ? Value(n.drawn_for) : kUnknown;
+}
+Value blood_drawn(const Moment& moment, const Arguments& a) {
+  return fluids::kM3PerPicolitre * double(needle_of_hand(moment, a).blood);
+}
+
+Value injected_into(const Moment& moment, const Arguments& a) {
+  const BodyId body = a[0].body();
+  if (!body.is(BodyKind::organ)) return 0.0;
+  return fluids::kM3PerPicolitre * double(moment.state.injection.given[body.index()]);
+}
+Value injected_in_vessels(const Moment& moment, const Arguments&) {
+  return fluids::kM3PerPicolitre * double(moment.state.injection.account.vessel);
+}
+Value spilled_by_needles(const Moment& moment, const Arguments&) {
+  const sim::InjectionAccount& account = moment.state.injection.account;
+  return fluids::kM3PerPicolitre * double(account.leaked + account.spilled);
+}
+Value units_injected(const Moment& moment, const Arguments&) {
+  double most = 0;  // a scene's syringes hold the same drug
+  for (const sim::HandModel& hand : moment.model.hands)
+    for (const interactions::ToolModel& tool : hand.rack) most = std::max(most, tool.needle.units);
+  return most * 1e6 * fluids::kM3PerPicolitre * double(moment.state.injection.account.drugged);
+}
+
+/// Twice a second: a sum over all of a skin.
+class BlanchedSkin final : public Observer {
+ public:
+  BlanchedSkin(const sim::Model&, const Arguments& a) : m_body(a[0].body()) {}
+  void sample(const Moment& moment, double) override {
+    constexpr int kSkinTurns = 25;
+    if (m_turn++ % kSkinTurns == 0) m_area = area(moment);
+  }
+  Value value(const Moment&) const override { return m_turn > 0 ? Value(m_area) : kUnknown; }
+
+ private:
+  double area(const Moment& moment) const {
+    const size_t organ = m_body.index();
+    if (!m_body.is(BodyKind::organ) || organ >= moment.model.solids.size()) return 0;
+    if (moment.state.injection.account.drugged == 0) return 0;
+    const tissue::Skin& skin = moment.model.solids[organ].skin;
+    const tissue::NodeView nodes = sim::nodes_of(moment.model, moment.state, int(organ));
+    double sum = 0;
+    for (const std::array<int, 3>& t : skin.triangles) {
+      double pale = 0;
+      for (const int v : t) pale += sim::blanched_at(moment.state, organ, skin, v) / 3;
+      if (pale < kPaleEnough) continue;
+      const Vec3d a = tissue::skin_point(nodes, skin, t[0]);
+      sum += 0.5 * length(cross(tissue::skin_point(nodes, skin, t[1]) - a, tissue::skin_point(nodes, skin, t[2]) - a));
+    }
+    return sum;
+  }
+
+  BodyId m_body;
+  int m_turn = 0;
+  double m_area = 0;
+};
+
+std::string takes_nothing_up(const sim::Model& model, const Arguments& a) {
+  const BodyId body = a[0].body();
+  const bool takes = body.is(BodyKind::organ) && body.index() < model.injection.organs.size() &&
+                     model.injection.organs[body.index()].infusion.there();
+  return takes ? "" : "expected an organ that takes up what is injected, got another body";
+}
+
+const Parameter kWhoseNeedle{"hand", ArgumentKind::hand, "whose needle"};
+const Parameter kInfusedOrgan{"of", ArgumentKind::body, "which organ"};
+
+}  // namespace
+
+const Fact kNeedleDepth{"needle.depth_mm", {kWhoseNeedle}, -30, 60,
+                        "How deep a needle's point is below the nearest skin. Unknown while it is in no organ.",
+                        needs_needle, &stateless<point_depth>};
+const Fact kNeedleIn{"needle.in",
+                     {kWhoseNeedle, {"of", ArgumentKind::body, "which organ; any", false}},
+                     0,
+                     1,
+                     "Is the needle's point in an organ?",
+                     needs_needle,
+                     &stateless<point_in>,
+                     true};
+const Fact kNeedlePlunger{"needle.plunger_N", {kWhoseNeedle}, -200, 200,
+                          "The force on the plunger: pressing above 0, drawing below.", needs_needle,
+                          &stateless<plunger_force>};
+const Fact kNeedleLeft{"needle.left_mL", {kWhoseNeedle}, 0, 100, "What is left in the syringe.", needs_needle,
+                       &stateless<syringe_left>};
+const Fact kNeedleDrawn{"needle.drawn_s", {kWhoseNeedle}, 0, 3600,
+                        "How long the plunger has been drawn where the point is now, within 3 mm. Unknown while it is "
+                        "in no organ.",
+                        needs_needle, &stateless<plunger_drawn>};
+const Fact kNeedleBlood{"needle.blood_mL", {kWhoseNeedle}, 0, 100, "Blood drawn since the point went in.", needs_needle,
+                        &stateless<blood_drawn>};
+const Fact kInjectedVolume{"injected.volume_mL", {kInfusedOrgan}, 0, 1e3, "What has been injected into an organ.",
+                           needs_needle, &stateless<injected_into>, false, &takes_nothing_up};
+const Fact kInjectedVessels{"injected.in_vessels_mL", {}, 0, 1e3, "What has been injected straight into vessels.",
+                            needs_needle, &stateless<injected_in_vessels>};
+const Fact kInjectedSpilled{"injected.spilled_mL", {}, 0, 1e3,
+                            "What needles have let into the open: spilled, or run back along their ways.", needs_needle,
+                            &stateless<spilled_by_needles>};
+const Fact kInjectedUnits{"injected.drug_IU", {}, 0, 1e5, "The drug that has left needles, wherever it went.",
+                          needs_needle, &stateless<units_injected>};
+const Fact kInjectedBlanched{"injected.blanched_mm2", {kInfusedOrgan}, 0, 1e6,
+                             "The area of an organ's skin that has blanched, by half at least.", needs_needle,
+                             &remembering<BlanchedSkin>, false, &takes_nothing_up};
+
+}  // namespace trocar::training

@@ -1,0 +1,117 @@
+// How needle and thread lie in tissue.
+#include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/stitches.hpp>
+
+namespace trocar::training {
+namespace {
+
+Value to_mark(const Moment& moment, const Arguments& a, bool entry) {
+  const double off = bite_to_mark(moment.model, moment.state, a[0].index, entry);
+  return off >= 0 ? Value(off) : kUnknown;
+}
+Value entry_to_mark(const Moment& moment, const Arguments& a) { return to_mark(moment, a, true); }
+Value exit_to_mark(const Moment& moment, const Arguments& a) { return to_mark(moment, a, false); }
+Value passages(const Moment& moment, const Arguments& a) { return double(passages_through(moment.state, a[0].body())); }
+Value peak(const Moment& moment, const Arguments&) { return suture_of(moment.state).peak; }
+Value strain(const Moment& moment, const Arguments&) { return suture_of(moment.state).strain; }
+Value torn(const Moment& moment, const Arguments&) { return double(suture_of(moment.state).torn); }
+Value broken(const Moment& moment, const Arguments&) { return suture_of(moment.state).broken != 0; }
+Value harmed(const Moment& moment, const Arguments&) {
+  const interactions::SutureState& s = suture_of(moment.state);
+  for (int i = 0; i < s.bite_count; ++i)
+    if (s.bites[size_t(i)].harmed) return true;
+  return false;
+}
+Value holds_needle(const Moment& moment, const Arguments& a) {
+  return held_of_suture(moment.model, moment.state, size_t(a[0].index)) == 1;
+}
+Value holds_thread(const Moment& moment, const Arguments& a) {
+  return held_of_suture(moment.model, moment.state, size_t(a[0].index)) == 2;
+}
+Value in_view(const Moment& moment, const Arguments&) { return needle_in_picture(moment.model, moment.state); }
+/// Of the thread that is through tissue, from the swage to the nearest hole.
+Value drawn_through(const Moment& moment, const Arguments&) {
+  const interactions::SutureState& s = suture_of(moment.state);
+  double least = -1;
+  for (int i = 0; i < s.hole_count; ++i) {
+    const interactions::SutureHole& hole = s.holes[size_t(i)];
+    if (hole.slot >= 0 && (least < 0 || double(hole.arc) < least)) least = double(hole.arc);
+  }
+  return least >= 0 ? Value(least) : Value(0.0);
+}
+
+}  // namespace
+
+const Fact kSutureEntry{
+    "suture.entry_to_mark_mm",
+    {{"of", ArgumentKind::mark, "a mark on an organ or a fold"}},
+    0,
+    1000,
+    "From where the needle went into that body to the mark, as the body was drawn; of several bites "
+    "the nearest. Unknown before there is one.",
+    needs_needle,
+    &stateless<entry_to_mark>};
+const Fact kSutureExit{"suture.exit_to_mark_mm",
+                       {{"of", ArgumentKind::mark, "a mark on an organ or a fold"}},
+                       0,
+                       1000,
+                       "The same of where it came out.",
+                       needs_needle,
+                       &stateless<exit_to_mark>};
+const Fact kSuturePassages{"suture.passages",
+                           {{"through", ArgumentKind::body, "which body"}},
+                           0,
+                           32,
+                           "How many ways through it needle or thread is in, from entry to exit.",
+                           needs_suture,
+                           &stateless<passages>};
+const Fact kSutureDrawn{"suture.drawn_through_mm",
+                        {},
+                        0,
+                        1000,
+                        "Length of thread from the needle to the nearest tissue that it goes through; 0 where it goes "
+                        "through none.",
+                        needs_thread,
+                        &stateless<drawn_through>};
+const Fact kSuturePeak{"suture.peak_N",
+                       {},
+                       0,
+                       1000,
+                       "The most that needle and thread have done so far to tissue at one place.",
+                       needs_suture,
+                       &stateless<peak>};
+const Fact kSutureTension{"suture.tension_N", {}, 0, 1000, "The thread's greatest tension now.", needs_thread,
+                          &stateless<strain>};
+const Fact kSutureTorn{"suture.torn_out", {}, 0, 32, "How many stitches were torn out of tissue so far.", needs_suture,
+                       &stateless<torn>};
+const Fact kSutureBroken{"suture.broken",    {},  0, 1, "The thread was pulled apart.", needs_thread,
+                         &stateless<broken>, true};
+const Fact kSutureHarmed{
+    "suture.harmed",    {},  0, 1, "A stitch was pulled at with more than its tissue bears unharmed.", needs_suture,
+    &stateless<harmed>, true};
+const Fact kSutureNeedleHeld{"suture.needle_held",
+                             {{"hand", ArgumentKind::hand, "whose jaws"}},
+                             0,
+                             1,
+                             "They hold the needle.",
+                             needs_needle,
+                             &stateless<holds_needle>,
+                             true};
+const Fact kSutureThreadHeld{"suture.thread_held",
+                             {{"hand", ArgumentKind::hand, "whose jaws"}},
+                             0,
+                             1,
+                             "They hold the thread.",
+                             needs_thread,
+                             &stateless<holds_thread>,
+                             true};
+const Fact kSutureNeedleInView{"suture.needle_in_picture",
+                               {},
+                               0,
+                               1,
+                               "The needle's tip or its middle is where the endoscope points.",
+                               needs_needle,
+                               &stateless<in_view>,
+                               true};
+
+}  // namespace trocar::training

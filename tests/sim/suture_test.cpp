@@ -1,0 +1,120 @@
+// Needle and thread among tissue and instruments: the box trainer's pad with its slit.
+#include <gtest/gtest.h>
+
+#include <trocar/sim/recording/keyframe.hpp>
+
+#include "needle_driver.hpp"
+#include "shipped.hpp"
+
+namespace trocar {
+namespace {
+
+const sim::Model& box() { return shipped("box_suture"); }
+int right_hand() { return box().hand_index("right"); }
+const Vec3d kIn{0, 0.077, -0.070}, kOut{0, 0.063, -0.070};
+
+/// Driven through both lips once for all tests that look at it.
+const NeedleDriver& driven() {
+  static const NeedleDriver done = [] {
+    NeedleDriver d(box(), right_hand());
+    d.rest(0.2);
+    d.drive(kIn, kOut, 2.5, 3.2);
+    return d;
+  }();
+  return done;
+}
+
+TEST(Suture, HeldFromTheStartStaysInTheJaws) {
+  NeedleDriver d(box(), right_hand());
+  const Vec3d before = d.suture().needle.x;
+  d.rest(0.3);
+  ASSERT_GT(d.state.tools[size_t(right_hand())].holds, 0);
+  EXPECT_TRUE(d.state.tools[size_t(right_hand())].hold[0].body.is(BodyKind::suture));
+  EXPECT_LT(length(d.suture().needle.x - before), 0.0005);
+}
+
+TEST(Suture, LetGoFallsWithItsThread) {
+  NeedleDriver d(box(), right_hand());
+  d.input.tools[right_hand()].handle = 0;
+  d.rest(0.8);
+  EXPECT_EQ(d.state.tools[size_t(right_hand())].holds, 0);
+  EXPECT_LT(d.suture().needle.x.z, -0.066);  // on the pad or on the plate
+  EXPECT_LT(length(d.suture().needle.v), 0.05);
+}
+
+TEST(Suture, GoesThroughBothLipsOfASlitByAnEntryAndAnExitEach) {
+  const interactions::SutureState& s = driven().suture();
+  ASSERT_EQ(s.bite_count, 2);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(s.bites[size_t(i)].stage, interactions::SutureBite::through);
+    EXPECT_EQ(s.bites[size_t(i)].body, BodyId::organ(0));
+  }
+  EXPECT_FALSE(s.inside.exists());
+}
+
+TEST(Suture, PiercesNoSoonerThanAtItsTissuesForceAndSoonAfterThat) {
+  EXPECT_GT(driven().suture().peak, 0.85);
+  EXPECT_LT(driven().suture().peak, 1.1);
+}
+
+TEST(Suture, OutOfThePadTheTipStandsBeyondTheNearMark) {
+  const Vec3d tip = driven().tip();
+  EXPECT_GT(tip.z, -0.0705);
+  EXPECT_LT(tip.y, 0.064);
+}
+
+TEST(Suture, LeavesNoHoleWithoutForcesThatAddUpToThoseOfTheJaws) {
+  NeedleDriver d = driven();
+  d.rest(0.3);
+  Vec3d on_tissue, by_jaws;
+  for (int i = 0; i < d.suture().hole_count; ++i) {
+    const auto& f = d.suture().holes[size_t(i)].force;
+    on_tissue += Vec3d{double(f[0]), double(f[1]), double(f[2])};
+  }
+  const interactions::ToolState& tool = d.state.tools[size_t(right_hand())];
+  for (int i = 0; i < tool.holds; ++i)
+    by_jaws += Vec3d{double(tool.hold[i].force[0]), double(tool.hold[i].force[1]), double(tool.hold[i].force[2])};
+  EXPECT_GT(length(on_tissue), 0.02);
+  EXPECT_LT(length(by_jaws - on_tissue), 0.05 + 0.1 * length(on_tissue));
+}
+
+TEST(Suture, TurnsInJawsWhereItsTipIsPushedAside) {
+  NeedleDriver d(box(), right_hand());
+  d.rest(0.1);
+  const interactions::ToolShape before = sim::shape_of(box(), d.state, size_t(right_hand()));
+  const Vec3d was = to_jaw(before, d.tip());
+  // over the pad, and down on it
+  const Vec3d x = d.suture().needle.x;
+  const Quatd q = d.suture().needle.q;
+  for (int i = 0; i < 900; ++i) {
+    d.lead(x + std::min(1.0, i / 400.0) * Vec3d{-0.02, 0, 0} + std::max(0.0, (i - 400) / 500.0) * Vec3d{0, 0, -0.022},
+           q);
+    d.step();
+  }
+  const interactions::ToolShape after = sim::shape_of(box(), d.state, size_t(right_hand()));
+  EXPECT_GT(length(to_jaw(after, d.tip()) - was), 0.002);
+  EXPECT_GT(d.state.tools[size_t(right_hand())].holds, 0);
+}
+
+TEST(Suture, KeyframesHoldNeedleAndThread) {
+  const NeedleDriver& d = driven();
+  const std::vector<std::uint8_t> bytes = sim::display_bytes(box(), d.state);
+  sim::State read = sim::initial_state(box());
+  ASSERT_TRUE(sim::restore_display(box(), bytes, read));
+  const interactions::SutureState &a = d.suture(), &b = read.objects.sutures.front();
+  EXPECT_EQ(a.needle.x, b.needle.x);
+  ASSERT_EQ(a.thread.x.size(), b.thread.x.size());
+  for (size_t i = 0; i < a.thread.x.size(); ++i) EXPECT_LT(length(a.thread.x[i] - b.thread.x[i]), 2e-5);
+}
+
+TEST(Suture, IsTheSameWhateverWorkWasBeforeATick) {
+  NeedleDriver a = driven(), b = driven();
+  for (int i = 0; i < 50; ++i) {
+    sim::poison(b.work);
+    a.step(), b.step();
+    ASSERT_EQ(sim::hash_of(a.state), sim::hash_of(b.state)) << sim::first_difference(a.state, b.state);
+  }
+}
+
+}  // namespace
+}  // namespace trocar
