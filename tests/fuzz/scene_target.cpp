@@ -56,7 +56,7 @@ std::vector<Seed> files_of(const char* folder) {
 Seed shipped_scene() {
   const std::filesystem::path scenes = kScenes;
   scene::MemoryFiles files{{kMainFile, disk_text(scenes / "gynaecology" / "scene.json")}};
-  for (const char* folder : {"organs", "instruments"})
+  for (const char* folder : {"organs", "instruments", "mechanisms"})
     for (const auto& entry : std::filesystem::directory_iterator(scenes / folder))
       files["../" + (std::filesystem::path(folder) / entry.path().filename()).generic_string()] =
           disk_text(entry.path());

@@ -131,7 +131,9 @@ TEST(ShippedMechanisms, JawsOpenAsFarAsTheirInstrumentsAndMoveOneWay) {
     const JsonDocument file =
         load_json(TROCAR_SOURCE_DIR "/scenes/instruments/" + std::string(j.instrument) + ".json", faults);
     const JsonMember* said = file.root.find("opening_deg");  // those that name a mechanism take it from there
-    if (said) EXPECT_EQ(said->value.number, j.opening) << j.instrument;
+    if (said) {
+      EXPECT_EQ(said->value.number, j.opening) << j.instrument;
+    }
     EXPECT_TRUE(said || file.root.find("mechanism")) << j.instrument;
   }
 }
