@@ -17,7 +17,8 @@
 namespace trocar::modeller {
 namespace {
 
-const fs::path kData = fs::absolute(fs::path(TROCAR_SOURCE_DIR) / "tests/modeller/data");
+/// Asked for in a test, not before: where a test program runs is settled by its main().
+fs::path data(const char* name) { return fs::absolute(fs::path(TROCAR_SOURCE_DIR) / "tests/modeller/data" / name); }
 
 Document empty(const Workplace& place) { return begun(place / "scene.json", false, "mine"); }
 
@@ -84,7 +85,7 @@ TEST(FromFile, WithoutTheProgramForItACadFileSaysWhatToDo) {
   std::string said;
   try {
     apply(document, "from_file",
-          fmt::format(R"({{"file": "{}", "name": "egg", "tissue": "uterus"}})", (kData / "egg.step").string()));
+          fmt::format(R"({{"file": "{}", "name": "egg", "tissue": "uterus"}})", data("egg.step").string()));
   } catch (const core::EnvironmentLacks& lacks) {
     said = lacks.what();
   }
@@ -97,8 +98,8 @@ TEST_F(FromCad, AnEllipsoidInStepIsTheNurbsThatTheFileHasWithTheVolumeOfOne) {
   Document document = empty(place);
   const std::string said = modeller::apply(
       *find_operation("from_file"),
-      json(fmt::format(R"({{"file": "{}", "name": "egg", "tissue": "uterus"}})", (kData / "egg.step").string())),
-      "step", document);
+      json(fmt::format(R"({{"file": "{}", "name": "egg", "tissue": "uterus"}})", data("egg.step").string())), "step",
+      document);
   EXPECT_NE(said.find("exactly"), std::string::npos) << said;
   std::vector<core::Fault> faults;
   const auto described = document.description(faults);
@@ -119,7 +120,7 @@ TEST_F(FromCad, AnEllipsoidInStepIsTheNurbsThatTheFileHasWithTheVolumeOfOne) {
 
 TEST_F(FromCad, ATorusInIgesIsARingOfItsVolume) {
   const Workplace place;
-  const std::vector<CadPart> parts = read_cad_file(kData / "ring.igs", 5e-5);
+  const std::vector<CadPart> parts = read_cad_file(data("ring.igs"), 5e-5);
   ASSERT_EQ(parts.size(), 1u);
   EXPECT_TRUE(parts[0].nurbs);
   EXPECT_NEAR(std::fabs(geometry::volume(parts[0].mesh)) / (2 * M_PI * M_PI * 0.03 * 0.008 * 0.008), 1, 0.01);
@@ -128,7 +129,7 @@ TEST_F(FromCad, ATorusInIgesIsARingOfItsVolume) {
 TEST_F(FromCad, OfTwoPartsOneIsChosenAndABoredBlockIsABodyOfItsTriangles) {
   const Workplace place;
   Document document = empty(place);
-  const std::string file = (kData / "two.step").string();
+  const std::string file = data("two.step").string();
   EXPECT_NE(fault_of(document, "from_file", fmt::format(R"({{"file": "{}", "name": "a", "tissue": "uterus"}})", file))
                 .find("2, one closed NURBS"),
             std::string::npos);
@@ -150,7 +151,8 @@ TEST_F(FromCad, DamagedFilesAreRefusedWithAReason) {
   const Workplace place;
   std::mt19937 random(7);
   for (const char* name : {"egg.step", "ring.igs"}) {
-    const std::string whole = read(kData / name);
+    const std::string whole = read(data(name));
+    ASSERT_FALSE(whole.empty()) << name;
     for (int i = 0; i < 12; ++i) {
       std::string bytes = whole.substr(0, i % 3 == 0 ? random() % whole.size() : whole.size());
       for (int k = 0; k < 1 + i * 3 && !bytes.empty(); ++k) bytes[random() % bytes.size()] = char(32 + random() % 95);

@@ -288,5 +288,21 @@ TEST(InstrumentMechanism, AFileThatNamesWhatIsNotThereOrContradictsItIsToldInOne
   EXPECT_NE(joined.find("missing.json"), std::string::npos) << joined;
 }
 
+TEST(InstrumentMechanism, CalledByItsNameIsTheTreesOwnOrALibrarysAndElseTold) {
+  const Folder folder;
+  const auto tool = [&](const std::string& mechanism) {
+    return folder.write("tool.json",
+                        R"({"format": 1, "name": "a", "kind": "grasper", "mechanism": ")" + mechanism + "\"}");
+  };
+  EXPECT_TRUE(check_file(tool("cam_grasper")).empty()) << "the program's";
+  folder.write("mechanisms/mine.json", text_of(TROCAR_SOURCE_DIR "/scenes/mechanisms/claw_grasper.json"));
+  EXPECT_TRUE(check_file(tool("mine")).empty());
+  folder.write("mechanisms/cam_grasper.json", "{}");
+  EXPECT_FALSE(check_file(tool("cam_grasper")).empty()) << "the tree's own comes first";
+  const std::vector<core::Fault> faults = check_file(tool("mane"));
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NE(faults[0].message.find("mine"), std::string::npos) << faults[0].message;
+}
+
 }  // namespace
 }  // namespace trocar::scene

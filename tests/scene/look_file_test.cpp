@@ -124,8 +124,6 @@ TEST(LookFile, ASceneTakesItsOwnTreesLookBeforeTheProgramsOfThatName) {
     const std::string said = std::string("../") + file;
     scene.replace(scene.find(said), said.size(), file);
   }
-  for (const char* file : {"mechanisms/cam_grasper.json", "mechanisms/cam_scissors.json"})  // of the instruments
-    folder.write(file, text_of(std::string(TROCAR_SOURCE_DIR "/scenes/") + file));
   const Description d = read_scene(folder.write("scene.json", scene));
   const auto& looks = d.looks->looks;
   const auto colour = [&](const std::string& name) {

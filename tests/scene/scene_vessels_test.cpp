@@ -17,6 +17,7 @@
 #include <trocar/sim/stages/circulation.hpp>
 
 #include "../sim/small_scene.hpp"
+#include "files.hpp"
 
 namespace trocar::scene {
 namespace {
@@ -276,8 +277,8 @@ TEST(SceneVessels, AnUnknownCarrierASecondHeartAndANameTwiceAreToldWithTheirPlac
 }
 
 TEST(SceneVessels, AScenesVesselsAreWrittenAndReadBack) {
-  const MemoryFiles files{{"w.json", write_scene(described())}};
-  const Description back = read_scene("w.json", &files);
+  const Folder folder;
+  const Description back = read_scene(folder.write("w.json", write_scene(described())));
   ASSERT_EQ(back.vessels.size(), 2u);
   ASSERT_TRUE(back.fluids.has_value());
   EXPECT_EQ(back.fluids->pool_middle, described().fluids->pool_middle);

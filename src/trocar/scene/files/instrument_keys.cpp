@@ -1,9 +1,15 @@
 // Keys of instrument files.
+#include <filesystem>
+#include <map>
+
 #include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
 #include <trocar/scene/mechanisms/mechanism_file.hpp>
 
 namespace trocar::scene {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 const Table<ElectrodeSetting>& electrode() {
@@ -42,7 +48,7 @@ const Table<NeedleSetting>& needle() {
   return table;
 }
 
-/// The name of a file of a mechanism, which is read with it.
+/// A mechanism, which is read with what names it. By its name a copy of a scene finds it wherever that lies.
 template <class T, class Member>
 Row<T> mechanism_row(const char* name, Member member, const std::string& meaning) {
   const auto file = [member](auto& t) -> auto& { return std::invoke(member, t).file; };
@@ -67,7 +73,8 @@ const Table<WristSetting>& wrist() {
        R::number("pitch_deg", units::deg, &W::pitch, 0, 120, "as far as the first turns either way, default {:.0f}"),
        R::number("yaw_deg", units::deg, &W::yaw, 0, 120, "the second, default {:.0f}"),
        mechanism_row<W>("mechanism", &W::mechanism,
-                        "a file of a mechanism, relative to this one: what follows on its link 'shaft' up to its frame "
+                        "a mechanism, by its name in a library or its file from this one on: what follows on its link "
+                        "'shaft' up to its frame "
                         "'tip'. With more than two joints the hand leads the tip, and the chain follows")},
       [](const JsonObject& o, W& w, Context&) {
         w.there = true;
@@ -113,7 +120,8 @@ std::vector<Row<Instrument>> instrument_rows() {
       }),
       R::object("needle", needle, &I::needle, "of an injection needle").only([](const I& i) { return i.can().inject; }),
       mechanism_row<I>("mechanism", &I::linkage,
-                       "a file of a mechanism, relative to this one: jaws go as its linkage says, and open as far; "
+                       "a mechanism, by its name in a library or its file from this one on: jaws go as its linkage "
+                       "says, and open as far; "
                        "default: as the handle"),
       R::text("handle", &I::handle, "the mechanism's actuator that is the handle, default {}").only([](const I& i) {
         return !i.linkage.file.empty();
@@ -148,14 +156,46 @@ void check_instrument(const JsonObject& o, Instrument& i, Context&) {
 
 }  // namespace
 
-void Reading::mechanism_of(const JsonObject& o, const char* key, const std::filesystem::path& folder,
-                           NamedMechanism& mechanism) {
+namespace {
+
+/// The mechanisms that can be called by their names: file by name, of two with one name the first folder's.
+std::map<std::string, fs::path> shelf(const std::optional<Library>& library, const MemoryFiles* memory) {
+  std::map<std::string, fs::path> out;
+  const auto take = [&](const fs::path& path) {
+    if (path.extension() == ".json" && path.parent_path().filename() == "mechanisms")
+      out.emplace(path.stem().string(), path);
+  };
+  if (memory)
+    for (const auto& [path, text] : *memory) take(path);
+  std::error_code error;
+  if (library)
+    for (const fs::path& folder : library->folders("mechanisms"))
+      for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) take(entry.path());
+  return out;
+}
+
+}  // namespace
+
+std::optional<fs::path> Reading::called(const JsonObject& o, const char* key) {
+  const std::map<std::string, fs::path> known = shelf(m_library, m_memory);
+  const auto found = known.find(o.text(key));
+  if (found != known.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [name, path] : known) names.push_back(name);
+  o.fault(key, unknown_name("mechanism", o.text(key), names));
+  return {};
+}
+
+void Reading::mechanism_of(const JsonObject& o, const char* key, const fs::path& folder, NamedMechanism& mechanism) {
   mechanism.at = o.at(key);
-  const std::optional<std::string> text = bytes_of(o, folder, key);
+  const bool by_name = !mechanism.file.empty() && mechanism.file.find_first_of("/.") == std::string::npos;
+  const std::optional<fs::path> path =
+      by_name ? called(o, key) : std::optional((folder / mechanism.file).lexically_normal());
+  if (!path) return;
+  const std::optional<std::string> text = by_name ? bytes_at(o, *path, key) : bytes_of(o, folder, key);
   if (!text) return;
   const std::size_t before = m_faults.size();
-  kinematics::MechanismDescription read =
-      parse_mechanism(*text, (folder / mechanism.file).lexically_normal().generic_string(), m_faults);
+  kinematics::MechanismDescription read = parse_mechanism(*text, path->generic_string(), m_faults);
   if (m_faults.size() == before)
     mechanism.description = std::make_shared<const kinematics::MechanismDescription>(std::move(read));
 }

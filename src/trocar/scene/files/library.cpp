@@ -70,14 +70,14 @@ bool Library::holds(const fs::path& file) const {
                      [&](const fs::path& folder) { return !folder.empty() && lies_in(whole, folder); });
 }
 
-std::vector<fs::path> Library::looks() const {
+std::vector<fs::path> Library::folders(const char* name) const {
   std::vector<fs::path> folders;
   std::error_code error;
   std::vector<fs::path> trees = m_folders;
   if (const std::optional<fs::path> own = programs_scenes_folder()) trees.push_back(resolved(*own));
   for (const fs::path& tree : trees) {
-    const bool again = std::find(folders.begin(), folders.end(), tree / "looks") != folders.end();
-    if (!again && fs::is_directory(tree / "looks", error)) folders.push_back(tree / "looks");
+    const bool again = std::find(folders.begin(), folders.end(), tree / name) != folders.end();
+    if (!again && fs::is_directory(tree / name, error)) folders.push_back(tree / name);
   }
   return folders;
 }

@@ -22,9 +22,9 @@ class Library {
 
   /// Does the file lie in one of these folders, links followed?
   bool holds(const std::filesystem::path& file) const;
-  /// The folders `looks` in them, the tree's first; last the program's own, also where $TROCAR_SCENES names others:
-  /// instruments are of its steel.
-  std::vector<std::filesystem::path> looks() const;
+  /// The folders of this name in them (looks, mechanisms), the tree's first; last the program's own, also where
+  /// $TROCAR_SCENES names others: instruments are of its steel and its make.
+  std::vector<std::filesystem::path> folders(const char* name) const;
   /// "expected a file in TREE (its tree) or a library (TROCAR_LIBRARY), got "NAME""
   std::string refusal(const std::string& name) const;
 

@@ -72,7 +72,7 @@ void check_unique(const char* what, const std::vector<NamedPlace>& things, std::
 
 void Reading::looks(const std::filesystem::path& first) {
   const std::vector<std::filesystem::path> beside{first.parent_path() / "looks"};
-  const LookShelf shelf(m_library ? m_library->looks() : beside, m_faults, m_memory);
+  const LookShelf shelf(m_library ? m_library->folders("looks") : beside, m_faults, m_memory);
   description.looks = shelf.book();
   if (!MemoryFiles::disk_too(m_memory) && shelf.empty()) return;  // a scene that is nothing but a text
   const std::vector<std::string> known = shelf.names();

@@ -56,7 +56,7 @@ class Reading {
   /// The closed surface from the file that `o` names; nothing, and a fault, where there is none.
   std::optional<SurfaceSource> surface_of(const JsonObject& o, SurfaceSource source,
                                           const std::filesystem::path& folder);
-  /// The mechanism that o names by a key, if it does.
+  /// The mechanism that o names by a key, if it does: by its name in a library, or by its file.
   void mechanism_of(const JsonObject& o, const char* key, const std::filesystem::path& folder,
                     NamedMechanism& mechanism);
   /// To be checked when everything is known: a sheet or membrane that ends on a strand at `to`; a tool's reach.
@@ -105,6 +105,10 @@ class Reading {
   /// The bytes of a file that o names by a key; none, and a fault, where it cannot be read.
   std::optional<std::string> bytes_of(const JsonObject& o, const std::filesystem::path& folder,
                                       const char* key = "file");
+  /// The file of the mechanism that a key calls by its name; none, and a fault, where no library has it.
+  std::optional<std::filesystem::path> called(const JsonObject& o, const char* key);
+  /// Those of `path`, which that key's value leads to.
+  std::optional<std::string> bytes_at(const JsonObject& o, const std::filesystem::path& path, const char* key);
 
   /// Those of a file that another one in `folder` names. @throws core::BadInput
   std::string bytes_beside(const std::filesystem::path& folder, const std::string& name);

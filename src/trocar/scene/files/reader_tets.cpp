@@ -50,14 +50,17 @@ std::optional<std::string> Reading::bytes_of(const JsonObject& o, const fs::path
     o.fault(key, m_library->refusal(named.generic_string()));
     return {};
   }
+  return bytes_at(o, (folder / named).lexically_normal(), key);
+}
+
+std::optional<std::string> Reading::bytes_at(const JsonObject& o, const fs::path& path, const char* key) {
   if (++m_files > kMaxFiles) {
     o.fault(key, fmt::format("expected at most {} files, got more", kMaxFiles));
     return {};
   }
-  const fs::path path = (folder / named).lexically_normal();
   if (const std::string* bytes = m_memory ? m_memory->text_of(path) : nullptr) return *bytes;
   if (!MemoryFiles::disk_too(m_memory)) {
-    o.fault(key, fmt::format("expected the name of a file, got \"{}\"", named.generic_string()));
+    o.fault(key, fmt::format("expected the name of a file, got \"{}\"", o.text(key)));
     return {};
   }
   try {
