@@ -75,7 +75,7 @@ class SutureAbuse {
     const interactions::SutureModel& m = m_model.objects.sutures.list[i];
     const int place = m.grips > 0 && any_of(2) == 0 ? any_of(m.grips) : any_of(m.places());
     const Vec3d p = interactions::suture_place(m, m_state.objects.sutures[i], place);
-    return p + any(0.1, 0.6) * m_model.tool(m_state, h).jaw_length * normalised(p - m_model.hands[h].port);
+    return p + any(0.001, 0.005) * normalised(p - m_model.hands[h].port);
   }
   /// On or below some organ's skin.
   Vec3d some_skin() {
