@@ -109,7 +109,8 @@ class SutureAbuse {
       }
       default:
         if (any_of(3) == 0) m_input.tools[h].instrument = std::int32_t(m_random.next() % m_model.hands[h].rack.size());
-        hand.deed = take, hand.left = 500 + any_of(500);
+        hand.deed = take, hand.left = 700 + any_of(500);
+        hand.speed = any(0.08, 0.2);
         hand.way = some_place(h);
     }
   }
