@@ -22,14 +22,6 @@ fs::path data(const char* name) { return fs::absolute(fs::path(TROCAR_SOURCE_DIR
 
 Document empty(const Workplace& place) { return begun(place / "scene.json", false, "mine"); }
 
-double built_mL(const Document& document, const std::string& name) {
-  const Built built = build(document);
-  EXPECT_TRUE(built.good()) << (built.faults.empty() ? "" : core::to_string(built.faults.front()));
-  for (const ReadOut& r : read_outs(built, 0))
-    if (r.name == name) return r.volume_mL;
-  return 0;
-}
-
 /// A block of 30 mm.
 geometry::TriMesh block() {
   geometry::TriMesh out;

@@ -29,35 +29,27 @@ Document with_ball(const Workplace& place, const std::string& half = "[15, 25, 1
   return document;
 }
 
-double volume_of(const Document& document, const std::string& name) {
-  const Built built = build(document);
-  EXPECT_TRUE(built.good()) << (built.faults.empty() ? "" : core::to_string(built.faults.front()));
-  for (const ReadOut& r : read_outs(built, 0))
-    if (r.name == name) return r.volume_mL;
-  return 0;
-}
-
 TEST(Operations, AnEllipsoidHasTheVolumeOfOne) {
   const Workplace place;
   for (const auto& [half, a] : {std::pair{"[15, 25, 12]", 15.0 * 25 * 12}, std::pair{"[20, 20, 20]", 20.0 * 20 * 20},
                                 std::pair{"[30, 12, 12]", 30.0 * 12 * 12}}) {
     const double wanted = 4.0 / 3 * M_PI * a * 1e-3;
-    EXPECT_NEAR(volume_of(with_ball(place, half), "ball") / wanted, 1, 0.03) << half;
+    EXPECT_NEAR(built_mL(with_ball(place, half), "ball") / wanted, 1, 0.03) << half;
   }
 }
 
 TEST(Operations, MovingTurningAndMirroringKeepTheVolumeAndScalingCubesIt) {
   const Workplace place;
   Document document = with_ball(place);
-  const double v = volume_of(document, "ball");
+  const double v = built_mL(document, "ball");
   apply(document, "move", R"({"of": ["ball"], "by_mm": [3, -2, 5]})");
-  EXPECT_NEAR(volume_of(document, "ball") / v, 1, 1e-6);
+  EXPECT_NEAR(built_mL(document, "ball") / v, 1, 1e-6);
   apply(document, "rotate", R"({"of": ["ball"], "axis": [0.5, 1, -0.5], "by_deg": 33})");
-  EXPECT_NEAR(volume_of(document, "ball") / v, 1, 0.01);
+  EXPECT_NEAR(built_mL(document, "ball") / v, 1, 0.01);
   apply(document, "mirror", R"({"of": ["ball"]})");
-  EXPECT_NEAR(volume_of(document, "ball") / v, 1, 0.01);
+  EXPECT_NEAR(built_mL(document, "ball") / v, 1, 0.01);
   apply(document, "scale", R"({"of": ["ball"], "by": 1.2})");
-  EXPECT_NEAR(volume_of(document, "ball") / v, 1.728, 0.02);
+  EXPECT_NEAR(built_mL(document, "ball") / v, 1.728, 0.02);
 }
 
 TEST(Operations, FourQuarterTurnsAndTwoMirrorsGiveThePlacesBack) {
@@ -99,14 +91,14 @@ TEST(Operations, SoftSelectionFadesOutAndTheOtherSideFollowsMirrored) {
 TEST(Operations, ASectionPutBetweenTwoOthersLiesBetweenThem) {
   const Workplace place;
   Document document = with_ball(place);
-  const double v = volume_of(document, "ball");
+  const double v = built_mL(document, "ball");
   apply(document, "insert_point", R"({"of": "ball", "key": "sections", "before": 2})");
   const std::vector<PlacedPoint> points = points_in(value_of(document, thing_named(document, "ball")), "/sections");
   ASSERT_EQ(points.size(), 6u);
   EXPECT_LT(length(points[2].at - (points[1].at + points[3].at) / 2.0), 1e-3);
-  EXPECT_NEAR(volume_of(document, "ball") / v, 1, 0.05);
+  EXPECT_NEAR(built_mL(document, "ball") / v, 1, 0.05);
   apply(document, "remove_point", R"({"of": "ball", "key": "sections", "item": 2})");
-  EXPECT_NEAR(volume_of(document, "ball") / v, 1, 1e-9);
+  EXPECT_NEAR(built_mL(document, "ball") / v, 1, 1e-9);
 }
 
 /// The NURBS of a solid as the document describes it now.
@@ -130,9 +122,9 @@ double farthest_apart(const geometry::nurbs::Surface& a, const geometry::nurbs::
 TEST(Splines, ALoftBecomesANurbsOfTheSameShapeAndKeepsItUnderKnotsAndHigherDegrees) {
   const Workplace place;
   Document document = with_ball(place);
-  const double v = volume_of(document, "ball");
+  const double v = built_mL(document, "ball");
   apply(document, "to_spline", R"({"of": "ball"})");
-  EXPECT_NEAR(volume_of(document, "ball") / v, 1, 1e-3);
+  EXPECT_NEAR(built_mL(document, "ball") / v, 1, 1e-3);
   const geometry::nurbs::Surface first = spline_of(document, "ball");
   apply(document, "insert_knot", R"({"of": "ball", "way": "along", "at": 0.41})");
   apply(document, "insert_knot", R"({"of": "ball", "way": "around", "at": 0.13})");
@@ -160,7 +152,7 @@ TEST(Splines, AMeshFromAFileBecomesASplineBodyAndItsResidualIsTold) {
       json(R"({"file": "mesh.stl", "name": "fitted", "tissue": "uterus", "cell_mm": 5, "around": 12, "along": 14})"),
       "step", document);
   EXPECT_NE(said.find("mm rms"), std::string::npos) << said;
-  EXPECT_NEAR(volume_of(document, "fitted") / volume_of(document, "ball"), 1, 0.02) << said;
+  EXPECT_NEAR(built_mL(document, "fitted") / built_mL(document, "ball"), 1, 0.02) << said;
   EXPECT_NE(fault_of(document, "fit_spline",
                      R"({"file": "mesh.stl", "name": "other", "tissue": "uterus", "cell_mm": 5, "around": 4, "along": 5,
                          "most_mm": 0.001})")

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/modeller/drive/built.hpp>
 #include <trocar/modeller/operations/operation.hpp>
 #include <trocar/scene/json/json.hpp>
 
@@ -60,6 +61,15 @@ inline std::string fault_of(Document& document, const std::string& name, const s
     return bad.what();
   }
   return "";
+}
+
+/// Volume of a body that a document builds [mL].
+inline double built_mL(const Document& document, const std::string& name) {
+  const Built built = build(document);
+  EXPECT_TRUE(built.good()) << (built.faults.empty() ? "" : core::to_string(built.faults.front()));
+  for (const ReadOut& r : read_outs(built, 0))
+    if (r.name == name) return r.volume_mL;
+  return 0;
 }
 
 }  // namespace trocar::modeller
