@@ -210,20 +210,21 @@ class Resting {
     const Vec3d p = m_state.thread.x[size_t(n)];
     const NearSkin on = look(i, p, anew);
     suture::SkinContact& c = m_work.skins[size_t(n)];
-    if (on.there() && on.distance - radius < kSkinAhead && on.distance > -kDeepestRest &&
-        !goes_through(m_model, m_state, on.body, s, false)) {
-      c = {n, on.point + m_dt * on.velocity, on.normal, on.velocity, kBodyStiffness, -1};
-      if (on.distance < radius) push_tissue(m_bodies, on, radius - on.distance, m_loads);
-      return;
-    }
+    const bool on_skin = on.there() && on.distance - radius < kSkinAhead && on.distance > -kDeepestRest &&
+                         !goes_through(m_model, m_state, on.body, s, false);
+    // in a corner between both, what it is deeper in
     const WallPlaces walls = walls_near(m_models.walls, p);
     const WallPlace* nearest = nullptr;
     for (int k = 0; k < walls.count; ++k)
       if (!nearest || walls.list[size_t(k)].distance < nearest->distance) nearest = &walls.list[size_t(k)];
-    if (nearest && nearest->distance - radius < kSkinAhead)
+    if (nearest && nearest->distance - radius < kSkinAhead && !(on_skin && on.distance < nearest->distance)) {
       c = {n, nearest->point, nearest->normal, {0, 0, 0}, kHardStiffness, -1};
-    else
+    } else if (on_skin) {
+      c = {n, on.point + m_dt * on.velocity, on.normal, on.velocity, kBodyStiffness, -1};
+      if (on.distance < radius) push_tissue(m_bodies, on, radius - on.distance, m_loads);
+    } else {
       keep_in_cavity(n, p, c);
+    }
   }
   void keep_in_cavity(int n, Vec3d p, suture::SkinContact& c) const noexcept {
     for (int k = 0; k < 3; ++k) {
