@@ -15,6 +15,7 @@ constexpr double kDeepestRest = 0.0025;   // [m] deeper is another side of the b
 constexpr std::uint64_t kLooksAnew = 16;  // ticks in which each bead and node looks for its skin anew
 constexpr double kCalms = 0.5;            // of what tissue resists, as damping beside a needle
 constexpr double kSameSide = 0.3;         // cosine between normals of one and the same patch of skin
+constexpr double kBeforeSwage = 0.85;     // of the needle's length: up to there its own thread meets it
 constexpr double kHardStiffness = 2000;   // [N/m] of walls and instruments at a bead
 constexpr double kSteelFriction = 0.15, kWallFriction = 0.3, kTissueFriction = 0.1;  // of needles
 
@@ -306,7 +307,7 @@ class Resting {
     const int first = int(m_work.obstacles.size()) - kNeedlePieces;
     for (int k = 0; k < kNeedlePieces && first >= 0; ++k) {
       const auto at = [&](int i) {
-        return suture::needle_point(m, m_state.needle, 0.95 * m.length * i / kNeedlePieces);
+        return suture::needle_point(m, m_state.needle, kBeforeSwage * m.length * i / kNeedlePieces);
       };
       m_work.obstacles[size_t(first + k)] = {true, at(k), at(k + 1), 0.5 * m.wire, -1};
     }
