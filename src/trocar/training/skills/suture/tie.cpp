@@ -52,8 +52,8 @@ class Wrap final : public Skill {
     op.want(op.arm(m_hand).tip);
     const Vec3d q = held_thread(op, m_hand);
     if (m_phase == kStand) {
-      const bool shut = op.arms().grip(m_around, 1, 0.5);
-      if (op.arms().move(m_around, m_stand, pace::kTravel) && shut) {
+      if (!op.arms().grip(m_around, 1, 0.5)) return Progress::working;  // open, they would take thread along
+      if (op.arms().move(m_around, m_stand, pace::kTravel)) {
         m_axis = normalised(op.arm(m_around).tip - op.arm(m_around).port);
         m_centre = op.arm(m_around).tip + m_ahead * m_axis;
         const Vec3d off = q - m_centre;
