@@ -15,6 +15,7 @@ constexpr double kDeepestRest = 0.0025;   // [m] deeper is another side of the b
 constexpr std::uint64_t kLooksAnew = 16;  // ticks in which each bead and node looks for its skin anew
 constexpr double kCalms = 0.5;            // of what tissue resists, as damping beside a needle
 constexpr double kSameSide = 0.3;         // cosine between normals of one and the same patch of skin
+constexpr double kBeforeSwage = 0.85;     // of the needle's length: up to there its own thread meets it
 constexpr double kHardStiffness = 2000;   // [N/m] of walls and instruments at a bead
 constexpr double kSteelFriction = 0.15, kWallFriction = 0.3, kTissueFriction = 0.1;  // of needles
 
@@ -210,20 +211,21 @@ class Resting {
     const Vec3d p = m_state.thread.x[size_t(n)];
     const NearSkin on = look(i, p, anew);
     suture::SkinContact& c = m_work.skins[size_t(n)];
-    if (on.there() && on.distance - radius < kSkinAhead && on.distance > -kDeepestRest &&
-        !goes_through(m_model, m_state, on.body, s, false)) {
-      c = {n, on.point + m_dt * on.velocity, on.normal, on.velocity, kBodyStiffness, -1};
-      if (on.distance < radius) push_tissue(m_bodies, on, radius - on.distance, m_loads);
-      return;
-    }
+    const bool on_skin = on.there() && on.distance - radius < kSkinAhead && on.distance > -kDeepestRest &&
+                         !goes_through(m_model, m_state, on.body, s, false);
+    // in a corner between both, what it is deeper in
     const WallPlaces walls = walls_near(m_models.walls, p);
     const WallPlace* nearest = nullptr;
     for (int k = 0; k < walls.count; ++k)
       if (!nearest || walls.list[size_t(k)].distance < nearest->distance) nearest = &walls.list[size_t(k)];
-    if (nearest && nearest->distance - radius < kSkinAhead)
+    if (nearest && nearest->distance - radius < kSkinAhead && !(on_skin && on.distance < nearest->distance)) {
       c = {n, nearest->point, nearest->normal, {0, 0, 0}, kHardStiffness, -1};
-    else
+    } else if (on_skin) {
+      c = {n, on.point + m_dt * on.velocity, on.normal, on.velocity, kBodyStiffness, -1};
+      if (on.distance < radius) push_tissue(m_bodies, on, radius - on.distance, m_loads);
+    } else {
       keep_in_cavity(n, p, c);
+    }
   }
   void keep_in_cavity(int n, Vec3d p, suture::SkinContact& c) const noexcept {
     for (int k = 0; k < 3; ++k) {
@@ -305,7 +307,7 @@ class Resting {
     const int first = int(m_work.obstacles.size()) - kNeedlePieces;
     for (int k = 0; k < kNeedlePieces && first >= 0; ++k) {
       const auto at = [&](int i) {
-        return suture::needle_point(m, m_state.needle, 0.95 * m.length * i / kNeedlePieces);
+        return suture::needle_point(m, m_state.needle, kBeforeSwage * m.length * i / kNeedlePieces);
       };
       m_work.obstacles[size_t(first + k)] = {true, at(k), at(k + 1), 0.5 * m.wire, -1};
     }

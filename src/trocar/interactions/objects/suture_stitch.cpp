@@ -22,6 +22,8 @@ constexpr double kNeedleTorque =
     0.003;                         // [N m] that fully pinched jaws bear of a needle's turning between their faces. [d]
 constexpr double kFullPinch = 25;  // [N] of a needle holder
 constexpr int kPartsAfter = 20;    // ticks beyond what a thread bears until it parts.            Ours
+constexpr double kBendsWith = 0.05;                  // [N] of a thread that leaves its swage aslant
+constexpr int kAtSwage = 4;                          // elements
 constexpr double kTautAbove = 0.002;                 // [N]
 constexpr double kTailWay = 1e-4, kMostTail = 2000;  // [m], [N/m] secant of the thread's pull at the swage
 
@@ -346,8 +348,20 @@ class Sewing {
     }
   }
 
+  /// Of the thread on the swage. Where a solve was not taken in full, the spring that ties it there is strained by what
+  /// is left of its way: no more than the thread bears beside it pulls. The mean of two ticks, as both step in turn.
+  Vec3d tail_pull(Vec3d force) const noexcept {
+    double bears = kBendsWith;
+    for (int e = 0; e < kAtSwage && e + 1 < m_model.thread.nodes; ++e)
+      bears = std::max(bears, kBendsWith + suture::tension(m_model.thread, m_state.thread, e));
+    bears = std::min(bears, m_model.thread.stuff.break_force);
+    const double size = length(force);
+    if (size > bears) force *= bears / size;
+    return 0.5 * (m_state.tail_force + force);
+  }
+
   void take_reactions() noexcept {
-    m_state.tail_force = m_model.has_needle() ? m_work.hold_reactions[kSwageSlot].force : Vec3d{};
+    m_state.tail_force = m_model.has_needle() ? tail_pull(m_work.hold_reactions[kSwageSlot].force) : Vec3d{};
     for (size_t hand = 0; hand < m_all.pinches.size(); ++hand) {
       SuturePinch& p = m_all.pinches[hand];
       const size_t slot = size_t(kFirstHandSlot) + hand;
@@ -359,8 +373,15 @@ class Sewing {
       if (h.slot < 0) continue;
       const suture::PassageState& passage = m_state.thread.passages[size_t(h.slot)];
       const Vec3d force = m_work.passage_reactions[size_t(h.slot)].force;
+      const bool at_swage = !passage.active && m_model.has_needle() && double(h.arc) < kAtSwage * m_model.thread.spacing;
       h.arc = float(passage.s);
       h.force = array_of(force);
+      if (at_swage) {  // it has slid back to the needle, whose it is again
+        h.slot = -1;
+        h.force = {};
+        h.arc = float(m_model.needle.length);
+        continue;
+      }
       if (!passage.active || passage.s >= m_model.thread.length - m_model.thread.spacing) {
         drop(i--);
         continue;

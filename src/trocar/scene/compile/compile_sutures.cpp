@@ -6,6 +6,7 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile_hands.hpp>
 #include <trocar/sim/model/model.hpp>
+#include <trocar/suture/thread/paths.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -14,6 +15,7 @@ using interactions::StitchTissue;
 using interactions::SutureModel;
 using interactions::SutureModels;
 
+constexpr int kCornersCut = 5;         // times over
 constexpr double kWallReach = 0.0025;  // [m] from which on needles and threads know of walls
 
 StitchTissue stitch_of(const Description& d, const std::string& tissue) {
@@ -65,6 +67,8 @@ void lay_thread(const SutureSetting& s, SutureModel& m) {
   for (const Vec3d& p : s.line) m.path.push_back(p);
   if (s.line.empty()) m.path.push_back((m.has_needle() ? swage : s.place) + 0.01 * away);
   if (m.path.size() < 2) m.path.insert(m.path.begin(), s.place);
+  // a corner would spring back, and the thread would be thrown about in the first ticks
+  m.path = suture::smoothed(std::move(m.path), kCornersCut);
 }
 
 }  // namespace

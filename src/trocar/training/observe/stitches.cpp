@@ -100,13 +100,17 @@ suture::KnotReading knot_of(const sim::Model& model, const sim::State& state) {
 
 double knot_above_tissue(const sim::Model& model, const sim::State& state, const suture::KnotReading& knot) {
   const interactions::SutureState& s = suture_of(state);
+  const auto at = [&](int hole) {
+    return suture::point_at(suture_of(model).thread, s.thread, double(s.holes[std::size_t(hole)].arc));
+  };
   double least = 1e9;
-  for (int i = 0; i < s.hole_count; ++i) {
-    const SutureHole& hole = s.holes[std::size_t(i)];
-    if (hole.slot < 0) continue;
-    const Vec3d at = suture::point_at(suture_of(model).thread, s.thread, double(hole.arc));
-    least = std::min(least, length(at - knot.place));
-  }
+  for (int i = 0; i < s.hole_count; ++i)
+    for (int k = i; k < s.hole_count; ++k) {
+      if (s.holes[std::size_t(i)].slot < 0 || s.holes[std::size_t(k)].slot < 0) continue;
+      const Vec3d a = at(i), ab = at(k) - a;
+      const double w = std::clamp(dot(knot.place - a, ab) / std::max(1e-12, dot(ab, ab)), 0.0, 1.0);
+      least = std::min(least, length(a + w * ab - knot.place));
+    }
   return least;
 }
 

@@ -27,7 +27,8 @@ int passages_through(const sim::State& state, BodyId body);
 int held_of_suture(const sim::Model& model, const sim::State& state, std::size_t hand);
 /// Is the needle's middle or its tip where the endoscope points?
 bool needle_in_picture(const sim::Model& model, const sim::State& state);
-/// From the first throw to the nearest place where the thread goes into tissue [m].
+/// From the first throw to the nearest place of the bite: a straight line between places where the thread goes into
+/// tissue and comes out [m].
 double knot_above_tissue(const sim::Model& model, const sim::State& state, const suture::KnotReading& knot);
 suture::KnotReading knot_of(const sim::Model& model, const sim::State& state);
 /// How often the thread winds round the hand's jaws, hinge and last centimetres of shaft.

@@ -11,6 +11,7 @@ namespace {
 constexpr double kRollPace = 2.5;  // [rad/s] a wrist that drives a needle
 constexpr double kRolled = 0.02;   // [rad]
 constexpr int kRefine = 12;        // times that the shaft's direction is looked at anew
+constexpr int kNearer = 4;         // times that a tip is looked at which leads another place
 
 Vec3d beside_axis(Vec3d v, Vec3d axis) { return v - dot(v, axis) * axis; }
 
@@ -69,12 +70,36 @@ HandWish wish_for(const Operator& op, int hand, const NeedlePose& pose) {
   return wish;
 }
 
-bool lead_needle(Operator& op, int hand, const NeedlePose& pose, double speed) {
-  const HandWish wish = wish_for(op, hand, pose);
+HandWish wish_for(const Operator& op, int hand, const NeedlePose& pose, double arc) {
+  const interactions::ToolModel& tool = op.tool(hand);
+  const suture::NeedleModel& m = suture_of(op.model()).needle;
+  const interactions::ToolShape now = sim::shape_of(op.model(), op.state(), std::size_t(hand));
+  const Vec3d local = interactions::to_jaw(now, suture::needle_point(m, suture_of(op.state()).needle, arc));
+  const Vec3d to = pose.x + rotate(pose.q, m.place(arc));
+  HandWish wish = wish_for(op, hand, pose);
+  for (int i = 0; i < kNearer; ++i) {
+    const kinematics::FulcrumPose there = kinematics::inverse(op.arm(hand).port, wish.tip, wish.roll);
+    wish.tip += to - interactions::from_jaw(interactions::shape_of(tool, there, 0), local);
+  }
+  return wish;
+}
+
+namespace {
+
+bool lead_to(Operator& op, int hand, const HandWish& wish, double speed) {
   Arms::Arm& arm = op.arm(hand);
   const double step = kRollPace * sim::kTick;
   arm.roll += std::clamp(wish.roll - arm.roll, -step, step);
   return op.arms().move(hand, wish.tip, speed) && std::fabs(wish.roll - arm.roll) < kRolled;
+}
+
+}  // namespace
+
+bool lead_needle(Operator& op, int hand, const NeedlePose& pose, double speed) {
+  return lead_to(op, hand, wish_for(op, hand, pose), speed);
+}
+bool lead_needle(Operator& op, int hand, const NeedlePose& pose, double speed, double arc) {
+  return lead_to(op, hand, wish_for(op, hand, pose, arc), speed);
 }
 
 }  // namespace trocar::training

@@ -58,13 +58,13 @@ class DriveNeedle final : public Skill {
                            slerp(m_from.q, to.q, m_share)};
       if (lead_needle(op, m_hand, now, 2 * pace::kTravel) && m_share >= 1) go(kDown);
     } else if (m_phase == kDown) {
-      if (lead_needle(op, m_hand, wanted, pace::kCareful)) go(kDrive);
+      if (lead_needle(op, m_hand, wanted, pace::kCareful, 0)) go(kDrive);
     } else if (m_phase == kDrive) {
       m_angle = std::min(m_last, m_angle + m_speed / m.radius * sim::kTick);
-      lead_needle(op, m_hand, wanted, pace::kTravel);
+      lead_needle(op, m_hand, wanted, pace::kTravel, 0);
       if (m_angle >= m_last) go(kRest);
     } else {
-      lead_needle(op, m_hand, wanted, pace::kTravel);
+      lead_needle(op, m_hand, wanted, pace::kTravel, 0);
       if (m_in_phase > kHang) return through(op) ? Progress::done : fail("the needle has not come through");
     }
     return Progress::working;
@@ -110,11 +110,28 @@ class TakeNeedle final : public Skill {
     } else if (m_phase == kEnter) {
       if (op.arms().move(m_hand, tip, pace::kCareful) || m_in_phase > kLongest) go(kClose);
     } else {
+      give_way(op, at);
       if (!op.arms().grip(m_hand, 1, 1.0) || m_in_phase < kFeels + 1.0) return Progress::working;
       return held_of_suture(op.model(), op.state(), std::size_t(m_hand)) == 1 ? Progress::done
                                                                               : fail("the jaws have not taken it");
     }
     return Progress::working;
+  }
+
+  /// A needle that another hand holds stays where it is: jaws that close on it come to it.
+  void give_way(Operator& op, Vec3d at) const {
+    constexpr double kPace = 0.004, kGives = 2e-5, kMost = 2e-5;  // [m/s], [m/N] a tick, [m] a tick
+    Arms::Arm& arm = op.arm(m_hand);
+    if (op.tool_state(m_hand).holds == 0) {
+      const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), std::size_t(m_hand));
+      const double off = interactions::to_jaw(shape, at).x, step = kPace * sim::kTick;
+      arm.tip += interactions::direction_from_jaw(shape, {std::clamp(off, -step, step), 0, 0});
+      return;
+    }
+    const double* f = op.tool_state(m_hand).pull;
+    const Vec3d pull{f[0], f[1], f[2]};
+    const double size = length(pull);
+    if (size > 0.2) arm.tip += (std::min(kMost, kGives * (size - 0.2)) / size) * pull;
   }
 
   int m_hand;
