@@ -111,7 +111,7 @@ void dent_skins(StepContext& c, size_t hand, const NeedleLine& line, NeedleHand&
   if (!n.touch.body.exists()) return;
   const size_t organ = n.touch.body.index();
   n.press = interactions::press_skin(surface_of(n.touch), n.touch, line, std::int32_t(hand), c.work.organ_loads[organ]);
-  const double gives = c.model.injection.organs[organ].puncture;
+  const double gives = interactions::kGroundBevel * c.model.injection.organs[organ].puncture;
   if (gives > 0 && n.press >= gives) go_in(c, hand, n);
 }
 
