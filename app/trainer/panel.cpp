@@ -120,6 +120,18 @@ const char* valves_of(const PanelContent& c, int h) {
   return side == c.both->mouse ? "left button: suction, right: water" : "D: suction, A: water";
 }
 
+const char* plunger_of(const PanelContent& c, int h) {
+  if (!c.both)
+    return c.gamepad ? "right trigger: draw the plunger, left: press it; right stick pressed: needle in, out"
+                     : "D or left button: draw the plunger, A or right: press it; Space: needle in, out";
+  const int side = c.both->pair[devices::kLeft] == h ? devices::kLeft : devices::kRight;
+  if (c.gamepad)
+    return side == devices::kLeft ? "left trigger: draw, cross left: press; right stick pressed: needle in, out"
+                                  : "right trigger: draw, cross right: press; right stick pressed: needle in, out";
+  return side == c.both->mouse ? "left button: draw, right: press; left held, right click: needle in, out"
+                               : "D: draw the plunger, A: press it; Space: needle in, out";
+}
+
 const char* switches_of(const PanelContent& c, int h) {
   if (!c.both) return c.gamepad ? "right trigger: coagulate, left: cut" : "G or left button: coagulate, Space: cut";
   const int side = c.both->pair[devices::kLeft] == h ? devices::kLeft : devices::kRight;
@@ -132,7 +144,10 @@ const char* switches_of(const PanelContent& c, int h) {
 /// Two buttons that no other instrument has.
 void draw_buttons(const PanelContent& c, int h) {
   if (!leads(c, h)) return;
-  if (attempt::has_valves(c.lesson.model, c.now.state, h)) ui::text(valves_of(c, h), ui::kOrange);
+  if (attempt::held_by(c.lesson.model, c.now.state, h).can().inject)
+    ui::text(plunger_of(c, h), ui::kOrange);
+  else if (attempt::has_valves(c.lesson.model, c.now.state, h))
+    ui::text(valves_of(c, h), ui::kOrange);
   if (attempt::is_bare_electrode(c.lesson.model, c.now.state, h)) ui::text(switches_of(c, h), ui::kOrange);
 }
 

@@ -433,6 +433,34 @@ TEST(Valves, WhatWasHeldWhenTheInstrumentWasChosenFlowsOnlyWhenPressedAnew) {
   EXPECT_TRUE(session.give(anew).suck);
 }
 
+TEST(InjectionNeedle, GoesInAndOutByEveryDeviceAndNothingFlowsMeanwhile) {
+  Session session;
+  session.state.valves[0] = session.state.needle[0] = true;
+  session.rest(1);
+  session.press(Key::space);
+  EXPECT_TRUE(session.state.ratchet[0]);
+  session.rest(40);
+  EXPECT_EQ(session.state.handle[0], 1) << "it has gone into its shaft";
+  HandSample mouse;
+  mouse.left_button = mouse.right_button = true;
+  const HandCommand both = session.give(mouse);
+  EXPECT_FALSE(both.suck || both.irrigate);
+  mouse.right_button = false;
+  session.give(mouse);
+  EXPECT_FALSE(session.state.ratchet[0]);
+  session.rest(40);
+  EXPECT_EQ(session.state.handle[0], 0) << "it is out again";
+  HandSample pad;
+  pad.gamepad.set(Button::right_stick, true);
+  EXPECT_FALSE(session.give(pad).yellow) << "no foot switch is meant";
+  EXPECT_TRUE(session.state.ratchet[0]);
+  session.rest(1);
+  pad = {};
+  pad.gamepad.left_trigger = 1;
+  EXPECT_TRUE(session.give(pad).irrigate);
+  EXPECT_TRUE(session.state.ratchet[0]) << "the trigger presses the plunger and nothing else";
+}
+
 TEST(MouseKeyboard, WhoLetsBothButtonsGoAtOnceHasLockedTheJawsAndOpenedNoMenu) {
   Session session;
   session.squeeze(20);

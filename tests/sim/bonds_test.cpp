@@ -130,6 +130,44 @@ TEST(BondedPouch, ABladeBetweenWallAndLiverPartsWhatItCrosses) {
   for (int tick = 0; tick < 300; ++tick) ASSERT_TRUE(step(m, m.start, s, w).fine());
 }
 
+// Hydrodissection: 5 mL take most of a bond's strength where they come in.
+TEST(BondedPouch, FluidInItsPlaneLoosensBondsByAtMostEightyFivePercentAndPartsNone) {
+  const Model& m = model();
+  State s = initial_state(m);
+  Work w = make_work(m);
+  StepReport report = step(m, m.start, s, w);
+  StepContext context{m, m.start, s, w, report};
+  const interactions::Holders holders = holders_of(context);
+  const std::vector<interactions::Bond>& bonds = m.bonds[0].bonds;
+  std::vector<Vec3d> feet;
+  for (const interactions::Bond& bond : bonds) feet.push_back(held_place(bond.hold, holders) - bond.hold.offset);
+  const size_t middle = bonds.size() / 2;
+  constexpr double kSpread = 0.004;
+  loosen_bonds(context, feet[middle], 2e-6, kSpread);
+  EXPECT_NEAR(s.bonds[0][middle].damage, 0.4, 1e-6);
+  int untouched = 0;
+  for (size_t b = 0; b < bonds.size(); ++b) {
+    EXPECT_LE(s.bonds[0][b].damage, 0.4f + 1e-6f);
+    untouched += s.bonds[0][b].damage == 0;
+  }
+  EXPECT_GT(untouched, 0) << "of bonds far away";
+  for (const Vec3d& foot : feet) loosen_bonds(context, foot, 50e-6, kSpread);
+  for (const interactions::BondState& bond : s.bonds[0]) {
+    EXPECT_EQ(bond.damage, 0.85f);
+    EXPECT_TRUE(bond.holds());
+  }
+  EXPECT_GT(share(s), 0);
+
+  // The same pull takes off more of it.
+  const auto holding = [](const State& state) {
+    return std::count_if(state.bonds[0].begin(), state.bonds[0].end(), [](const auto& b) { return b.holds(); });
+  };
+  for (int tick = 0; tick < 2700; ++tick) ASSERT_TRUE(step(m, pulling(tick), s, w).fine()) << tick;
+  std::printf("of %d bonds %d hold after the pull; with fluid in their plane %d\n", int(bonds.size()),
+              int(holding(pulled().end)), int(holding(s)));
+  EXPECT_LT(holding(s), holding(pulled().end));
+}
+
 TEST(BondedPouch, KeyframesShowWhatHasParted) {
   State shown = initial_state(model());
   const std::vector<std::uint8_t> bytes = display_bytes(model(), pulled().end);

@@ -122,8 +122,8 @@ TEST(Infusion, MakesAsMuchRoomAsHasFlowedIn) {  // [injected volume]
 }
 
 TEST(Infusion, NeedsThePressureOfAnExpandingRegionInASkeletonOfSprings) {  // [pore pressure]
-  // P = (K + 4 G / 3) theta, far from all surfaces.
-  InfusedQuarter q(20, 0.060, 0.030, 0.05e-6);
+  // P = (K + 4 G / 3) theta, far from all surfaces. Cells of 2.3 mm; with 3 mm it is 11 % off in the middle, 1 % in all.
+  InfusedQuarter q(26, 0.060, 0.030, 0.05e-6);
   q.bring(1, 5e-3);
   q.ticks(1500);
   const double bulk = kE / (3 * (1 - 2 * kNu)), shear = kE / (2 * (1 + kNu));

@@ -82,6 +82,7 @@ void HandPilot::insert(int hand) {
 const sim::Input& HandPilot::lead(const devices::HandSample& sample, const sim::State& state) {
   for (int h = 0; h < hand_count(m_model); ++h) {
     m_hands.state.valves[size_t(h)] = has_valves(m_model, state, h);
+    m_hands.state.needle[size_t(h)] = held_by(m_model, state, h).can().inject;
     m_hands.state.electrode[size_t(h)] = is_bare_electrode(m_model, state, h);
     m_hands.state.wrist[size_t(h)] = h < int(m_model.hands.size()) && m_model.tool(state, size_t(h)).bends.bends();
   }

@@ -20,6 +20,8 @@ constexpr HelpLine kHelpBoth[] = {
     {Device::gamepad, "with A held", "bend the wrists of instruments that have one"},
     {Device::gamepad, "left, right trigger", "close the left, the right jaws; suction; a hook coagulates"},
     {Device::gamepad, "cross left, right", "lock, unlock the left, the right jaws; water; a hook cuts"},
+    {Device::gamepad, "trigger, cross of its side", "of an injection needle: draw, press the plunger"},
+    {Device::gamepad, "right stick pressed", "an injection needle: into its shaft, out of it"},
     {Device::gamepad, "cross up, down", "another hand in place of the one last used"},
     {Device::gamepad, "both shoulders held",
      "left stick: where the endoscope looks; right: along it, roll; cross: post"},
@@ -258,6 +260,7 @@ HandCommand lead_one(const HandSettings& settings, const HandSample& share, int 
   side.handle = all.handle;
   side.ratchet = all.ratchet;
   side.valves = all.valves;
+  side.needle = all.needle;
   side.electrode = all.electrode;
   side.wrist = all.wrist;
   side.fine = all.fine;

@@ -28,6 +28,7 @@ constexpr HelpLine kHelp[] = {
     {Device::keyboard, "R F", "light post of an oblique endoscope"},
     {Device::keyboard, "A D",
      "suction-irrigator: water, suction, as long as it is held; injection needle: press, draw the plunger"},
+    {Device::keyboard, "Space", "of an injection needle: into its shaft, out of it"},
     {Device::keyboard, "G, Space", "of a hook: coagulate, cut, as long as it is held"},
     {Device::keyboard, "T", "wipe the lens; it takes eight seconds"},
     {Device::keyboard, "K", "declare that it is shown: the critical view"},
@@ -40,7 +41,8 @@ constexpr HelpLine kHelp[] = {
     {Device::mouse, "move with U held", "bend a wrist"},
     {Device::mouse, "left held, right click", "lock the jaws; the same again: unlock"},
     {Device::mouse, "left, right button",
-     "of a suction-irrigator: suction, water; of a needle: draw, press the plunger"},
+     "of a suction-irrigator: suction, water; of an injection needle: draw, press the plunger"},
+    {Device::mouse, "left held, right click", "of an injection needle: into its shaft, out of it"},
     {Device::mouse, "left button", "of a hook: coagulate, as long as it is held"},
     {Device::mouse, "middle or right click", "choose hand, both hands, instrument, fine motion, pause"},
     {Device::mouse, "side buttons", "lead the previous, the next hand"},
@@ -51,6 +53,8 @@ constexpr HelpLine kHelp[] = {
     {Device::gamepad, "right trigger", "close the jaws as far as it is pulled; endoscope: light post"},
     {Device::gamepad, "left trigger", "lock, unlock the jaws; endoscope: light post the other way"},
     {Device::gamepad, "right, left trigger", "of a suction-irrigator: suction, water; of a hook: coagulate, cut"},
+    {Device::gamepad, "right, left trigger", "of an injection needle: draw, press the plunger"},
+    {Device::gamepad, "right stick pressed", "of an injection needle: into its shaft, out of it"},
     {Device::gamepad, "B", "wipe the lens"},
     {Device::gamepad, "A, right stick pressed", "foot switch: blue, coagulates; yellow, cuts"},
     {Device::gamepad, "shoulders", "lead the previous, the next hand, the endoscope among them"},
@@ -233,7 +237,8 @@ void open_valves(const HandSample& sample, HandState& state, HandCommand& comman
   const bool suck = squeezes(sample) || sample.held.has(Key::d) || pad.right_trigger > kTriggerPressed;
   const bool irrigate = sample.right_button || sample.held.has(Key::a) || pad.left_trigger > kTriggerPressed;
   state.waiting &= suck || irrigate;
-  if (state.waiting) return;
+  // Nobody draws a plunger and presses it: both buttons of a mouse move the needle.
+  if (state.waiting || (state.needle[state.led] && sample.right_button && sample.left_button)) return;
   command.suck = suck;
   command.irrigate = irrigate;
 }
@@ -326,6 +331,7 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
   const bool trigger =
       sample.gamepad.left_trigger > kTriggerPressed && !(state.last.gamepad.left_trigger > kTriggerPressed);
   const bool valves = state.led != kScope && state.valves[state.led];
+  const bool needle = valves && state.needle[state.led];
   const bool jaws = state.led == kScope || !(valves || state.electrode[state.led]);
   HandCommand command;
   command.led = state.led;
@@ -335,11 +341,13 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
   command.wipe = sample.held.has(Key::t) || sample.pressed.has(Key::t) || sample.gamepad.has(Button::b);
   command.declare = sample.held.has(Key::k) || sample.pressed.has(Key::k);
   command.blue = sample.held.has(Key::b) || sample.gamepad.has(Button::a);
-  command.yellow = sample.held.has(Key::n) || sample.gamepad.has(Button::right_stick);
+  command.yellow = sample.held.has(Key::n) || (!needle && sample.gamepad.has(Button::right_stick));
   if (state.led == kScope) {
     command.scope = scope_motion(settings, sample, s);
   } else {
-    const bool locks = sample.pressed.has(Key::space) || (jaws && (trigger || (tapped && with_left)));
+    const bool locks = sample.pressed.has(Key::space) || (jaws && trigger) ||
+                       ((jaws || needle) && tapped && with_left) ||
+                       (needle && went_down(Button::right_stick, sample, state.last));
     if ((jaws || valves) && locks) toggle_ratchet(state);
     HandSample steered = sample;
     steered.right_button &= !valves;

@@ -200,6 +200,8 @@ struct HandState {
   std::array<bool, kMaxHands> ratchet{};  ///< holds the handle when it is released
   /// Set by the program: this instrument has valves in place of jaws, so that what closes jaws opens them.
   std::array<bool, kMaxHands> valves{};
+  /// ... of these: it has a needle that goes in and out, and a plunger where others have valves.
+  std::array<bool, kMaxHands> needle{};
   /// ... this one is bare metal without jaws, a hook: what closes jaws coagulates, what locks them cuts, while it is
   /// held. A thumb on a stick, a hand on arrow keys could press no foot switch meanwhile.
   std::array<bool, kMaxHands> electrode{};

@@ -22,7 +22,8 @@ PlungerPush push_plunger(const NeedleModel& needle, const AtTip& at, double want
     if (at.pressure + seep * slow < opens && (slow >= wanted || most <= opens)) {
       out.flow = std::max(0.0, slow);
       out.tip = at.pressure + seep * out.flow;
-      out.force = (out.tip + in_needle * out.flow) * needle.area();  // [plunger]
+      // Tissue that presses harder than a thumb can holds the plunger where it is.
+      out.force = std::min(needle.most_force, (out.tip + in_needle * out.flow) * needle.area());  // [plunger]
       return out;
     }
   }

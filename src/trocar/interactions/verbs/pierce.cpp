@@ -9,16 +9,62 @@ namespace {
 
 constexpr double kDeepest = 0.025;   // [m] below a skin that is looked for
 constexpr double kAlongside = -0.1;  // cosine of the needle with the skin's normal
+constexpr double kLeastCarried = 0.01;
+
+/// The skin about a place that carries what a needle does there: no more than kMostCarry vertices, their shares add up
+/// to 1.
+class Patch {
+ public:
+  Patch(const tissue::Skin& skin, const SkinPlace& place) noexcept : m_skin(skin) {
+    for (std::size_t k = 0; k < 3; ++k)
+      m_middle += place.weight[k] * vec_cast<double>(skin.rest[std::size_t(place.vertex[k])]);
+    for (const std::int32_t v : place.vertex) {
+      take(v);
+      for (int i = skin.neighbour_first[std::size_t(v)]; i < skin.neighbour_first[std::size_t(v) + 1]; ++i)
+        take(skin.neighbour[std::size_t(i)]);
+    }
+    if (m_sum > 0) return;
+    for (std::size_t k = 0; k < 3; ++k) add(place.vertex[k], place.weight[k]);  // a coarse skin: its triangle
+  }
+  template <class F>
+  void each(F&& f) const noexcept {
+    for (std::size_t i = 0; i < m_count; ++i) f(m_vertex[i], m_share[i] / m_sum);
+  }
+
+ private:
+  static constexpr std::size_t kMostCarry = 48;
+
+  void take(int vertex) noexcept {
+    const Vec3d off = vec_cast<double>(m_skin.rest[std::size_t(vertex)]) - m_middle;
+    const double inside = 1 - dot(off, off) / (kCarriedOver * kCarriedOver);
+    if (inside <= 0 || std::find(m_vertex.begin(), m_vertex.begin() + m_count, vertex) != m_vertex.begin() + m_count)
+      return;
+    add(vertex, inside * inside);
+  }
+  void add(int vertex, double share) noexcept {
+    if (m_count == kMostCarry) return;
+    m_vertex[m_count] = vertex;
+    m_share[m_count++] = share;
+    m_sum += share;
+  }
+
+  const tissue::Skin& m_skin;
+  Vec3d m_middle;
+  std::array<int, kMostCarry> m_vertex{};
+  std::array<double, kMostCarry> m_share{};
+  std::size_t m_count = 0;
+  double m_sum = 0;
+};
 
 void load_place(const Surface& surface, const SkinPlace& place, const SkinLoad& whole, std::int32_t hand,
                 NetworkLoads& loads) noexcept {
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (place.weight[k] < 0.01) continue;
+  Patch(*surface.skin, place).each([&](int vertex, double share) {
+    if (share < kLeastCarried) return;
     SkinLoad load = whole;
-    load.k *= place.weight[k];
-    load.d *= place.weight[k];
-    add_skin_load(surface.nodes, *surface.skin, place.vertex[k], load, {Owner::tool_contact, hand, 0}, loads);
-  }
+    load.k *= share;
+    load.d *= share;
+    add_skin_load(surface.nodes, *surface.skin, vertex, load, {Owner::tool_contact, hand, 0}, loads);
+  });
 }
 
 }  // namespace

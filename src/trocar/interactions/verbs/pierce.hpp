@@ -2,10 +2,13 @@
 // puncture force; from then on that place of the skin sits on the needle. It is carried aside with it, and along with
 // it as far as friction bears.
 //
-//   F = k sunk < F_puncture          before; k 1000 N/m, our choice: how far the skin gives before it is pierced is its
-//   own |F along| <= drag * depth        after                                                     drag 0.05 N/mm
+//   F = k sunk < g F_puncture        before; k 1000 N/m, our choice: how far the skin gives before it is pierced is its
+//                                    own. g 0.35: a ground bevel cuts where a taper point has to stretch
+//   |F along| <= drag * depth        after                                                         drag 0.05 N/mm
 //
-// The needle itself has no other contact: between skin and point tissue takes it along at the skin alone.
+// What a point bears on is carried by the skin around it, a bell of 6 mm: a lattice's cells are wider than a point, and
+// a single node gives way where tissue does not. The needle itself has no other contact: between skin and point tissue
+// takes it along at the skin alone.
 #pragma once
 
 #include <array>
@@ -18,6 +21,8 @@
 namespace trocar::interactions {
 
 inline constexpr double kPointStiffness = 1000;  ///< [N/m]
+inline constexpr double kGroundBevel = 0.35;     ///< g, of what a tissue's `puncture_N` is for a suture's needle. Our choice
+inline constexpr double kCarriedOver = 0.006;    ///< [m] of skin about the point that carries it.          Our choice
 inline constexpr double kShaftStiffness = 600;   ///< [N/m] of the skin on the needle.                       Our choice
 inline constexpr double kNeedleDrag = 50;        ///< [N/m] that a length in the tissue bears
 inline constexpr double kPointFound = 0.008;     ///< [m] how far a point looks for a skin

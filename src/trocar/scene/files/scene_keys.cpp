@@ -302,8 +302,10 @@ const Table<Tissue>& tissue() {
        R::number("fracture_J_m2", units::one, &T::fracture, 0, 1e6,
                  "of an organ: what it takes to tear a square metre off its surface, where bonds are tougher than "
                  "that; default {}: they never tear it"),
-       R::number("puncture_N", units::one, &T::puncture, 0, 50,
-                 "force at which a needle's tip gets through its surface, default {}; 0: none does"),
+       R::number(
+           "puncture_N", units::one, &T::puncture, 0, 50,
+           "force at which a suture needle's tip gets through its surface, a ground injection needle's at a third; "
+           "default {}; 0: none does"),
        R::number("stitch_damage_N", units::one, &T::stitch_damage, 0, 100,
                  "pull of a thread from which on a stitch harms; three times that cuts through; default {}: 2"),
        needed(R::text("source", &T::source, "where the figures come from: a publication, or \"ours\"")),

@@ -15,16 +15,16 @@ namespace {
 
 using interactions::NeedleLine;
 
-constexpr double kPlungerRamp = 0.3;    // [s] in which a thumb comes to the flow that it has in mind.     Our choice
-constexpr std::uint64_t kShareTicks = 10;    // ticks between two looks at what has flowed
+constexpr double kPlungerRamp = 0.3;       // [s] in which a thumb comes to the flow that it has in mind.     Our choice
+constexpr std::uint64_t kShareTicks = 10;  // ticks between two looks at what has flowed
 constexpr std::uint64_t kAbsorbTicks = 100;  // ... at what vessels take up
-constexpr double kAbsorbTime = 600;     // [s] tau of that.                                                Our choice
-constexpr double kSamePlace = 0.003;    // [m] a plunger that was drawn there was drawn here
-constexpr double kTrackCloses = 8;      // [s] tau of a needle's way that closes.                          Our choice
-constexpr double kTrackOver = 60;       // [s]
-constexpr double kTrackLeaks = 1e-12;   // [m^3/Pa s] when it has just been left: at 25 kPa 0.2 mL get out.  Our choice
-constexpr double kTrackWide = 0.004;    // [m] what is around it is what leaks
-constexpr double kTrackDeep = 0.003;    // [m] where its pressure is asked for
+constexpr double kAbsorbTime = 600;    // [s] tau of that.                                                Our choice
+constexpr double kSamePlace = 0.003;   // [m] a plunger that was drawn there was drawn here
+constexpr double kTrackCloses = 8;     // [s] tau of a needle's way that closes.                          Our choice
+constexpr double kTrackOver = 60;      // [s]
+constexpr double kTrackLeaks = 1e-12;  // [m^3/Pa s] when it has just been left: at 25 kPa 0.2 mL get out.  Our choice
+constexpr double kTrackWide = 0.004;   // [m] what is around it is what leaks
+constexpr double kTrackDeep = 0.003;   // [m] where its pressure is asked for
 
 NeedleLine line_of(const StepContext& c, size_t hand) noexcept {
   return interactions::needle_of(c.model.tool(c.state, hand), c.work.shapes[hand]);
@@ -111,7 +111,7 @@ void dent_skins(StepContext& c, size_t hand, const NeedleLine& line, NeedleHand&
   if (!n.touch.body.exists()) return;
   const size_t organ = n.touch.body.index();
   n.press = interactions::press_skin(surface_of(n.touch), n.touch, line, std::int32_t(hand), c.work.organ_loads[organ]);
-  const double gives = c.model.injection.organs[organ].puncture;
+  const double gives = interactions::kGroundBevel * c.model.injection.organs[organ].puncture;
   if (gives > 0 && n.press >= gives) go_in(c, hand, n);
 }
 

@@ -36,7 +36,7 @@ const EventKind kInjected{
      {"in_vessel", "the point is in a vessel",
       [](const Moment& m, const Happening& h) -> Value { return needle_at(m, h).vessel >= 0; }, 0, 1, true}},
     "A plunger began to press with its needle's point in an organ.",
-    needs_needle,
+    needs_syringe,
     &noticing<Injected>,
     true};
 

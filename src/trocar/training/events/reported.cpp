@@ -63,7 +63,7 @@ constexpr Lacks lacks_for(sim::EventWords::Needs needs) {
     case sim::EventWords::current:
       return needs_current;
     case sim::EventWords::needle:
-      return needs_needle;
+      return needs_syringe;
     case sim::EventWords::nothing:
       break;
   }

@@ -39,7 +39,7 @@ inline std::string_view needs_current(const sim::Model& model) {
   if (!model.energy.there) return needs_energy(model);
   return unless_there_is(model, &interactions::Abilities::coagulate, "an electrode");
 }
-inline std::string_view needs_needle(const sim::Model& model) {
+inline std::string_view needs_syringe(const sim::Model& model) {
   return model.injection.there() ? "" : "an injection needle";
 }
 /// Nothing can be exchanged where every rack holds one instrument.

@@ -1,0 +1,95 @@
+// The injection exercise performed: the demonstration on several seeds, and one run a code with that flaw in the plan.
+#include "basics.hpp"
+
+namespace trocar::training::basics {
+namespace {
+
+constexpr const char* kInjection = "../gynaecology/injection";
+
+PlanTask& first(Lesson& lesson, std::string_view skill) {
+  return lesson.demonstration.plan.task("inject on the left", skill);
+}
+
+/// To the nearest place of a vessel, by a hand that does not look where it goes, and the plunger pressed there.
+Progress into_a_vessel(Operator& op, int hand, double now) {
+  const sim::NeedleHand& needle = op.state().injection.hands[size_t(hand)];
+  Arms::Arm& arm = op.arm(hand);
+  const int vessel = op.model().vessel_index("uterine_upper_left");
+  const Vec3d way = op.vessel_spot(vessel, 0.5).place - needle.at;
+  const double far = length(way);
+  if (needle.vessel < 0) arm.tip += (std::min(far, 0.01 * sim::kTick) / std::max(far, 1e-9)) * way;
+  arm.moving = true;
+  arm.irrigating = needle.vessel >= 0;
+  return op.state().injection.account.vessel > fluids::kMillilitre / 10 || now > 40 ? Progress::done
+                                                                                   : Progress::working;
+}
+
+std::vector<Flaw> of_injection() {
+  return {
+      {kInjection,
+       "I1",
+       [](Lesson& lesson) {
+         const int hand = first(lesson, "pierce").argument("hand").index;
+         first(lesson, "pierce").set("x_mm", 0.0155).set("y_mm", -0.163).set("z_mm", -0.102);
+         flaws::replace(first(lesson, "aspirate"),
+                        [hand](Operator& op, double now) { return into_a_vessel(op, hand, now); });
+       },
+       {}},
+      {kInjection, "I2", [](Lesson& lesson) { first(lesson, "aspirate").set("for_s", 0.3); }, {}},
+      {kInjection, "I3", [](Lesson& lesson) { first(lesson, "pierce").set("depth_mm", 0.008); }, {}},
+      {kInjection,
+       "E11",
+       [](Lesson& lesson) {
+         PlanTask& pierce = first(lesson, "pierce");
+         pierce.set_index("of", BodyId::organ(size_t(lesson.model.organ_index("bladder"))).code());
+         pierce.set("x_mm", 0).set("y_mm", -0.185).set("z_mm", -0.1);
+       },
+       {}},
+      {kInjection,
+       "I4",
+       [](Lesson& lesson) {
+         const int hand = first(lesson, "pierce").argument("hand").index;
+         flaws::insert(lesson.demonstration.plan.goal("inject on the left"), 0, [hand](Operator& op, double now) {
+           op.arm(hand).irrigating = now < 5;
+           return now < 5 ? Progress::working : Progress::done;
+         });
+       },
+       {}},
+      {kInjection,
+       "I5",
+       [](Lesson& lesson) {
+         first(lesson, "inject").set("volume_mL", 4.8e-6);
+         lesson.demonstration.plan.task("inject on the right", "inject").set("volume_mL", 4.8e-6);
+       },
+       {}},
+  };
+}
+
+TEST(InjectionExercise, TheDemonstrationPassesOnSeveralSeeds) {
+  for (const std::uint64_t seed : {0, 1, 2}) expect_passes(kInjection, seed);
+}
+
+class InjectionFlaw : public testing::TestWithParam<Flaw> {};
+TEST_P(InjectionFlaw, TriggersItsErrorAndOnlyWhatTheTableSaysItImplies) {
+  const Flaw& flaw = GetParam();
+  Lesson lesson(flaw.exercise);
+  const Penalty* p = lesson.exercise.penalty(flaw.code);
+  ASSERT_NE(p, nullptr);
+  flaw.plan(lesson);
+  const Performed run(lesson, flaw.code);
+  EXPECT_GE(run.made(flaw.code), 1) << run.difficulties;
+  for (const ErrorMade& e : run.monitor.errors()) {
+    std::printf("%s: %s at %.1f s\n", flaw.code, e.code.c_str(), e.at);
+    const bool may = std::find(p->may.begin(), p->may.end(), e.code) != p->may.end();
+    EXPECT_TRUE(e.code == flaw.code || may) << e.code << " at " << e.at << " s";
+  }
+  EXPECT_EQ(run.monitor.score().failed, p->fail);
+}
+INSTANTIATE_TEST_SUITE_P(Codes, InjectionFlaw, testing::ValuesIn(of_injection()), [](const auto& info) {
+  return std::string(info.param.code);
+});
+
+TEST(InjectionFlaws, ThereIsOneForEveryCode) { expect_complete(kInjection, of_injection()); }
+
+}  // namespace
+}  // namespace trocar::training::basics
