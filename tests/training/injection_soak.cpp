@@ -89,8 +89,8 @@ TEST_P(InjectionFlaw, TriggersItsErrorAndOnlyWhatTheTableSaysItImplies) {
   }
   EXPECT_EQ(run.monitor.score().failed, p->fail);
 }
-INSTANTIATE_TEST_SUITE_P(Codes, InjectionFlaw, testing::ValuesIn(of_injection()),
-                         [](const auto& info) { return std::string(info.param.code); });
+std::string code_of(const testing::TestParamInfo<Flaw>& info) { return info.param.code; }
+INSTANTIATE_TEST_SUITE_P(Codes, InjectionFlaw, testing::ValuesIn(of_injection()), code_of);
 
 TEST(InjectionFlaws, ThereIsOneForEveryCode) { expect_complete(kInjection, of_injection()); }
 
