@@ -75,6 +75,15 @@ std::string hands_heading(const PanelContent& c) {
   return fmt::format("Both: {}, {}", of(devices::kLeft), of(devices::kRight));
 }
 
+/// What is left in a syringe, and what came when its plunger was drawn.
+std::string syringe_in_words(const PanelContent& c, int h) {
+  const sim::NeedleHand& n = c.now.state.injection.hands[size_t(h)];
+  std::string out = fmt::format("{:.1f} mL left", fluids::kM3PerPicolitre * 1e6 * double(n.left));
+  if (n.blood > 0) return out + ", blood comes";
+  if (n.in() && n.drawn_for > 0) return out + fmt::format(", no blood in {:.1f} s", n.drawn_for);
+  return c.hands && c.hands->ratchet[size_t(h)] ? out + ", needle drawn in" : out;
+}
+
 void draw_hand(const PanelContent& c, int h) {
   const interactions::ToolState& tool = c.now.state.tools[size_t(h)];
   const interactions::ToolModel& held = attempt::held_by(c.lesson.model, c.now.state, h);
@@ -85,6 +94,7 @@ void draw_hand(const PanelContent& c, int h) {
   if (tool.holds > 0) state = "holds";
   if (c.hands && c.hands->ratchet[size_t(h)]) state += state.empty() ? "locked" : ", locked";
   if (const std::string flow = attempt::flow_in_words(c.now.state, h); !flow.empty()) state = flow;
+  if (held.can().inject) state = syringe_in_words(c, h);
   ui::mark(led ? Mark::now : Mark::note);
   const std::string where = attempt::hand_name(c.lesson.model, h);
   const std::string what =

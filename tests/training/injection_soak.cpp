@@ -15,13 +15,17 @@ Progress into_a_vessel(Operator& op, int hand, double now) {
   const sim::NeedleHand& needle = op.state().injection.hands[size_t(hand)];
   Arms::Arm& arm = op.arm(hand);
   const int vessel = op.model().vessel_index("uterine_upper_left");
-  const Vec3d way = op.vessel_spot(vessel, 0.5).place - needle.at;
+  Vec3d way = op.vessel_spot(vessel, 0.5).place - needle.at;
+  for (const double at : {0.6, 0.7, 0.8, 0.85, 0.9, 0.95}) {
+    const Vec3d other = op.vessel_spot(vessel, at).place - needle.at;
+    if (dot(other, other) < dot(way, way)) way = other;
+  }
   const double far = length(way);
   if (needle.vessel < 0) arm.tip += (std::min(far, 0.01 * sim::kTick) / std::max(far, 1e-9)) * way;
   arm.moving = true;
   arm.irrigating = needle.vessel >= 0;
   return op.state().injection.account.vessel > fluids::kMillilitre / 10 || now > 40 ? Progress::done
-                                                                                   : Progress::working;
+                                                                                    : Progress::working;
 }
 
 std::vector<Flaw> of_injection() {
@@ -30,7 +34,7 @@ std::vector<Flaw> of_injection() {
        "I1",
        [](Lesson& lesson) {
          const int hand = first(lesson, "pierce").argument("hand").index;
-         first(lesson, "pierce").set("x_mm", 0.0155).set("y_mm", -0.163).set("z_mm", -0.102);
+         first(lesson, "pierce").set("x_mm", 0.0148).set("y_mm", -0.1576).set("z_mm", -0.0957);
          flaws::replace(first(lesson, "aspirate"),
                         [hand](Operator& op, double now) { return into_a_vessel(op, hand, now); });
        },
@@ -85,9 +89,8 @@ TEST_P(InjectionFlaw, TriggersItsErrorAndOnlyWhatTheTableSaysItImplies) {
   }
   EXPECT_EQ(run.monitor.score().failed, p->fail);
 }
-INSTANTIATE_TEST_SUITE_P(Codes, InjectionFlaw, testing::ValuesIn(of_injection()), [](const auto& info) {
-  return std::string(info.param.code);
-});
+std::string code_of(const testing::TestParamInfo<Flaw>& info) { return info.param.code; }
+INSTANTIATE_TEST_SUITE_P(Codes, InjectionFlaw, testing::ValuesIn(of_injection()), code_of);
 
 TEST(InjectionFlaws, ThereIsOneForEveryCode) { expect_complete(kInjection, of_injection()); }
 

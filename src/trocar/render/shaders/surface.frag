@@ -33,6 +33,7 @@ uniform vec4 u_material[14];
 #define CELL_CONTRAST u_material[10].z
 #define SCATTER u_material[10].w         /* metal: share that it scatters instead of mirroring */
 #define SOIL u_material[11].x            /* metal: share of Paint's blood and burn that is there */
+#define VESSELS_LEFT u_material[11].x    /* tissue: of its vessels, where Paint's tint is whole */
 #define MIDDLE u_material[11].yzw        /* of the cavity that a lining encloses */
 
 uniform mat4 u_model_view;
@@ -294,7 +295,7 @@ void main() {
 #endif
 
 #ifdef VESSELS
-  vec2 vessel = vessels_at(v_rest, v_rest_normal) * VESSEL_AMOUNT;
+  vec2 vessel = vessels_at(v_rest, v_rest_normal) * (VESSEL_AMOUNT * mix(1.0, VESSELS_LEFT, tint));
   albedo = mix(albedo, albedo * vec3(0.62, 0.5, 0.72), vessel.g);
   albedo = mix(albedo, VESSEL_COLOUR, vessel.r * 0.85);
 #endif

@@ -8,11 +8,11 @@
 namespace trocar::tissue {
 namespace {
 
-constexpr double kOnePicolitre = 1e-15;      // [m^3]
-constexpr double kReach = 3;              // of sigma: beyond it a Gaussian is nothing
-constexpr double kFollows = 0.1;          // [s] tau.                                           Our choice
-constexpr float kMostPerTheta = 4;            // times E theta: no pressure that so little fluid could not account for
-constexpr double kLookedFor = 0.02;           // [m] how far the pressure of a place is looked for
+constexpr double kOnePicolitre = 1e-15;  // [m^3]
+constexpr double kReach = 3;             // of sigma: beyond it a Gaussian is nothing
+constexpr double kFollows = 0.1;         // [s] tau.                                           Our choice
+constexpr float kMostPerTheta = 4;       // times E theta: no pressure that so little fluid could not account for
+constexpr double kLookedFor = 0.02;      // [m] how far the pressure of a place is looked for
 
 /// Six times the volume of a cell, and its derivatives with the corners.
 struct CellShape {

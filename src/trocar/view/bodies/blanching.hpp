@@ -17,6 +17,8 @@ namespace trocar::view {
 inline constexpr double kBloodLeft = 0.2;
 
 inline constexpr double kFleshBlood = 2e-5;  ///< f l [m]
+inline constexpr float kVesselsLeft =
+    0.3f;  ///< of what is seen of a skin's small vessels: they have closed. Our choice
 
 /// Linear colour of blanched tissue whose own colour is `natural`.
 inline Vec3f pale_of(Vec3f natural) {
@@ -30,8 +32,7 @@ inline Vec3f pale_of(Vec3f natural) {
 class Blanching {
  public:
   /// @param organ  its number; @param skin  that is drawn
-  Blanching(std::size_t organ, const tissue::Skin& skin)
-      : m_organ(organ), m_skin(&skin), m_pale(skin.rest.size(), 0) {}
+  Blanching(std::size_t organ, const tissue::Skin& skin) : m_organ(organ), m_skin(&skin), m_pale(skin.rest.size(), 0) {}
 
   /// Looks again twice a second. True where something has changed since the last time.
   bool update(const sim::State& state) {

@@ -457,7 +457,10 @@ void BodyDrawing::list_organs(bool with_walls, const FirstParts& first, const Li
     if (b.any()) to.add(item(b.mesh(), look(*m_model, "gallbladder_bed"), first.of(BodyId::organ(b.solid()))));
   for (std::size_t i = 0; i < m_organs.size(); ++i) {
     DrawItem organ = item(m_organs[i].mesh(), look(*m_model, m_model->solids[i].look), first.of(BodyId::organ(i)));
-    if (m_blanching[i].any()) organ.material.tint = pale_of(organ.material.colour);
+    if (m_blanching[i].any()) {
+      organ.material.tint = pale_of(organ.material.colour);
+      organ.material.soil = kVesselsLeft;
+    }
     to.add(organ, m_details.organs[i], m_organs[i].positions(),
            m_burns[i].any() || m_blanching[i].any() || m_organs[i].dented() || held(BodyId::organ(i)));
   }
