@@ -5,8 +5,8 @@
 //   s = 0 the knot, 0 .. knot the loop, knot .. fed the tail from the knot to the mouth, from fed on in the tube
 //
 // Of the thread in the tube nothing is computed: its elements sleep (the thread takes them to be parted) and lie along
-// the tube's axis. Before the loop is opened, and while the instrument is hardly in the body, all of it is carried
-// along as it was laid. What a loop does to the strand that it lies around: suture_strangle.hpp; what moves it:
+// the tube's axis. Until the loop is open, and while the instrument is hardly in the body, all of it is carried
+// along as it lies by itself (suture_sling_shape.hpp). What a loop does to the strand that it lies around: suture_strangle.hpp; what moves it:
 // suture_sling_step.hpp. docs/endoloop.md.
 #pragma once
 
@@ -25,15 +25,12 @@ struct SlingModel {
   double stowed = 0;                   ///< and in the loop that is carried in [m]
   double slides = 1, slips = 11;       ///< of the knot: closing, and opening again [N]
   std::int32_t first_hold = 0;         ///< the thread's slots of its own: kSlingHolds from here on
-  std::vector<Vec3d> laid, directors;  ///< (nodes), (nodes - 1) stowed, in the mouth's frame [m]
-  std::vector<Vec3d> bend;             ///< (nodes) rest bend, in the material's frame
 
   bool there() const noexcept { return loop > 0; }
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("loop", s.loop), v("stowed", s.stowed), v("slides", s.slides), v("slips", s.slips), v("first_hold", s.first_hold),
-        v("laid", s.laid), v("directors", s.directors), v("bend", s.bend);
+    v("loop", s.loop), v("stowed", s.stowed), v("slides", s.slides), v("slips", s.slips), v("first_hold", s.first_hold);
   }
 };
 
@@ -79,7 +76,7 @@ struct SlingState {
   enum Stage : std::int32_t {
     packed,   ///< no hand has it
     stowed,   ///< a hand has it; as it was laid
-    opening,  ///< thread is fed out until the loop is as large as it is made
+    opening,  ///< thread is fed out until the loop is as large as it is made; it stands as it is bent by itself
     open,     ///< the knot is at the mouth
     off,      ///< the knot has left the mouth, thread runs from it to the mouth
     left,     ///< it was cut off: the loop stays where it is, with its knot
@@ -98,7 +95,7 @@ struct SlingState {
   std::array<SlingAround, kMostAround> around{};
 
   bool out() const noexcept { return stage >= opening && stage != left; }  ///< of the tube, and on the instrument
-  bool computed() const noexcept { return stage >= opening; }
+  bool computed() const noexcept { return stage > opening; }
   /// Or is not there any more.
   bool lies_in_tube(double s) const noexcept { return stage <= stowed || s > fed; }
   bool lies_around(std::int32_t strand) const noexcept {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/interactions/objects/suture_sling_shape.hpp>
 #include <trocar/interactions/objects/suture_sling_step.hpp>
 
 namespace trocar::interactions {
@@ -10,7 +11,6 @@ constexpr double kFeedsOpen = 0.10;   // of the handle's way: as long as less is
 constexpr double kGain = 0.25;        // of what thread would have to go for a tension to be right, a tick
 constexpr double kSpeedGain = 0.020;  // [m/s] a newton that a tension is off by, at most
 constexpr double kRunsAtMost = 0.6;   // [m/s] thread is pulled out of the tube
-constexpr double kApart = 1.1;        // diameters between both threads at the knot
 constexpr double kAtMouth = 0.0025;   // [m] a knot is at the mouth
 constexpr double kStandsBelow = 0.3;  // [N] of tension up to which the tube's end leads the thread's direction
 constexpr double kCalmer = 0.3;       // of a tension that is new: the rest is what was told before
@@ -23,12 +23,8 @@ int first_inside(const SutureModel& m, double fed) noexcept {
   return std::min(m.thread.nodes - 1, int(fed / m.thread.spacing) + 1);
 }
 Vec3d at_mouth(const SutureModel& m, const SlingMouth& mouth, double side) noexcept {
-  return mouth.tip + (0.5 * kApart * side * thickness_of(m)) * mouth.up;
+  return mouth.tip + (kThreadsApart * side * thickness_of(m)) * mouth.up;
 }
-Vec3d placed(const SlingMouth& mouth, Vec3d p) noexcept {
-  return p.x * mouth.axis + p.y * mouth.up + p.z * cross(mouth.axis, mouth.up);
-}
-
 /// What way of thread puts a tension right that is off by so much.
 double way_for(const SutureModel& m, double off, double length, double fastest, double dt) noexcept {
   const double way = kGain * off * std::max(length, 2 * m.thread.spacing) / m.thread.stuff.stretch;
@@ -65,26 +61,17 @@ void lie_in_tube(const SutureModel& m, SutureState& s) noexcept {
   }
 }
 
-/// As it was laid, at the mouth.
-void carry(const SutureModel& m, SutureState& s) noexcept {
+/// Carried along as it lies by itself with so much thread.
+void carry(const SutureModel& m, double thread, SutureState& s) noexcept {
   SlingState& g = s.sling;
-  suture::ThreadState& t = s.thread;
-  g.knot = g.fed = m.sling.stowed;
+  g.knot = g.fed = thread;
+  lay_loop(m, thread, s);
   const int inside = first_inside(m, g.fed);
-  for (size_t n = 0; n < t.x.size(); ++n) {
-    t.x[n] = g.mouth.tip + placed(g.mouth, m.sling.laid[n]);
-    t.v[n] = {};
-    t.twist[n] = 0;
-    t.bend[n] = m.sling.bend[n];
-  }
-  for (size_t e = 0; e < t.alive.size(); ++e) {
-    t.director[e] = placed(g.mouth, m.sling.directors[e]);
-    t.alive[e] = int(e) < inside && g.stage == SlingState::stowed;
-  }
-  t.self_count = t.touch_count = 0;
+  for (size_t e = 0; e < s.thread.alive.size(); ++e)
+    s.thread.alive[e] = int(e) < inside && g.stage >= SlingState::stowed;
   g.around_count = 0;
   g.was_closed = 0;
-  g.tension = g.tail = 0;
+  g.tension = g.tail = g.pulled = 0;
 }
 
 void release_holds(const SutureModel& m, SutureState& s) noexcept {
@@ -98,16 +85,19 @@ void take_holds(const SutureModel& m, bool knot, SutureState& s) noexcept {
                     (first_inside(m, s.sling.fed) - kJustBelow) * m.thread.spacing);
 }
 
+/// Fed out until it is as large as it is made, or the handle says that this is enough.
+void open_up(const SutureModel& m, const SlingHand& hand, double dt, SutureState& s) noexcept {
+  SlingState& g = s.sling;
+  const bool feeds = hand.drawn < kFeedsOpen && g.fed < m.sling.loop;
+  carry(m, feeds ? std::min(m.sling.loop, g.fed + kFeeds * dt) : g.fed, s);
+  if (feeds) return;
+  g.stage = SlingState::open;
+  take_holds(m, true, s);
+}
+
 /// The handle leads it.
 void open_or_close(const SutureModel& m, const SlingHand& hand, double dt, SutureState& s) noexcept {
   SlingState& g = s.sling;
-  if (g.stage == SlingState::opening) {
-    const bool feeds = hand.drawn < kFeedsOpen && g.fed < m.sling.loop;
-    if (feeds) feed_to(m, std::min(m.sling.loop, g.fed + kFeeds * dt), s);
-    if (!feeds) g.stage = SlingState::open;
-    g.knot = g.fed;
-    return;
-  }
   const double closes = hand.most - m.sling.slides - g.tension;
   const double opens = g.tension - m.sling.slips - std::max(kTubeRubs, hand.most);
   if (closes > 0) feed_to(m, std::max(kLeastLoop, g.fed - way_for(m, closes, g.fed, kDraws, dt)), s);
@@ -134,7 +124,7 @@ void slide_knot(const SutureModel& m, double dt, SutureState& s) noexcept {
   suture::TieState& tie = s.thread.ties[kTieSlot];
   tie.t = g.knot;
   const Vec3d apart = suture::point_at(m.thread, s.thread, g.knot) - s.thread.x[0];
-  tie.offset = kApart * thickness_of(m) * normalised(apart, g.mouth.up);
+  tie.offset = 2 * kThreadsApart * thickness_of(m) * normalised(apart, g.mouth.up);
 }
 
 /// The tail runs out of the tube where it is pulled at, and is drawn in as the hand wants.
@@ -205,13 +195,13 @@ bool is_own_mouth(const SutureModel& m, const SutureState& s, const SutureRod& r
 void take_sling(const SutureModel& m, std::int32_t hand, SutureState& s) noexcept {
   s.sling.hand = hand;
   s.sling.stage = SlingState::stowed;
-  carry(m, s);
+  carry(m, m.sling.stowed, s);
 }
 void put_down_sling(const SutureModel& m, SutureState& s) noexcept {
   s.sling.hand = -1;
   s.sling.stage = SlingState::packed;
   release_holds(m, s);
-  carry(m, s);
+  carry(m, m.sling.stowed, s);
 }
 
 bool lead_sling(const SutureModel& m, double dt, SutureState& s, SutureWork& w) noexcept {
@@ -228,14 +218,15 @@ bool lead_sling(const SutureModel& m, double dt, SutureState& s, SutureWork& w) 
     g.stage = SlingState::stowed;
     release_holds(m, s);
   }
-  if (g.stage == SlingState::stowed && hand.depth >= kStowsWithin && hand.drawn < kFeedsOpen) {
-    carry(m, s);
-    g.stage = SlingState::opening;
-    take_holds(m, true, s);
-  }
   if (g.stage <= SlingState::stowed) {
-    carry(m, s);
+    carry(m, m.sling.stowed, s);
+    if (g.stage == SlingState::stowed && hand.depth >= kStowsWithin && hand.drawn < kFeedsOpen)
+      g.stage = SlingState::opening;
     return false;
+  }
+  if (g.stage == SlingState::opening) {
+    open_up(m, hand, dt, s);
+    if (g.stage == SlingState::opening) return false;
   }
   if (g.stage != SlingState::off) {
     open_or_close(m, hand, dt, s);
