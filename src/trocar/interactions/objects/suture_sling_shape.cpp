@@ -29,17 +29,13 @@ Pear pear() noexcept {
   return p;
 }
 
-/// Rest bends are those of the nodes as they lie.
-void remember_bends(const SutureModel& m, int last, SutureState& s) noexcept {
-  suture::ThreadState& t = s.thread;
-  for (int n = 1; n + 1 < m.thread.nodes; ++n) {
-    const size_t i = size_t(n);
-    t.bend[i] = {};
-    if (n >= last) continue;
-    const Vec3d before = (t.x[i] - t.x[i - 1]) / m.thread.spacing, after = (t.x[i + 1] - t.x[i]) / m.thread.spacing;
-    const Vec3d along = normalised(before + after, after), q = after - before;
-    t.bend[i] = {dot(q, t.director[i]), dot(q, cross(along, t.director[i])), 0};
-  }
+/// The material's frame at a node.
+struct Frame {
+  Vec3d along, director;
+};
+Frame frame_at(const suture::ThreadState& t, size_t i) noexcept {
+  const Vec3d along = normalised(t.x[i + 1] - t.x[i - 1]), d = t.director[i - 1] + t.director[i];
+  return {along, normalised(d - dot(d, along) * along, any_perpendicular(along))};
 }
 
 }  // namespace
@@ -74,8 +70,27 @@ void lay_loop(const SutureModel& m, double thread, SutureState& s) noexcept {
     t.twist[size_t(n)] = 0;
   }
   for (Vec3d& d : t.director) d = across;
-  remember_bends(m, last, s);
+  for (int n = 1; n + 1 < m.thread.nodes; ++n) t.bend[size_t(n)] = {};
+  keep_shape(m, thread, s);
   t.self_count = t.touch_count = 0;
+}
+
+void keep_shape(const SutureModel& m, double thread, SutureState& s) noexcept {
+  suture::ThreadState& t = s.thread;
+  const SlingMouth& mouth = s.sling.mouth;
+  const Pear shape = pear();
+  const double h = m.thread.spacing;
+  double angle = 0;
+  for (int n = 1; n + 1 < m.thread.nodes && n * h < thread; ++n) {
+    const double turn = h / thread * shape.curvature(n * h / thread);
+    angle += turn;
+    const double at = angle - 0.5 * turn;
+    const Vec3d inside = portable::cos(at) * mouth.up - portable::sin(at) * mouth.axis;
+    const Frame f = frame_at(t, size_t(n));
+    const Vec3d q = turn * (inside - dot(inside, f.along) * f.along);
+    Vec3d& bend = t.bend[size_t(n)];
+    bend.x = dot(q, f.director), bend.y = dot(q, cross(f.along, f.director));
+  }
 }
 
 }  // namespace trocar::interactions

@@ -13,4 +13,9 @@ inline constexpr double kThreadsApart = 0.55;  ///< of its thickness, from the t
 /// those that it has of its own.
 void lay_loop(const SutureModel& m, double thread, SutureState& s) noexcept;
 
+/// While it lies loose, its bends of its own stay those of such a pear of as much thread as there is. They are kept in the
+/// mouth's frame and not in the thread's: those would turn about it with every bend elsewhere, without the work that
+/// takes, and the loop would roll itself up.
+void keep_shape(const SutureModel& m, double thread, SutureState& s) noexcept;
+
 }  // namespace trocar::interactions

@@ -230,6 +230,7 @@ bool lead_sling(const SutureModel& m, double dt, SutureState& s, SutureWork& w) 
   }
   if (g.stage != SlingState::off) {
     open_or_close(m, hand, dt, s);
+    if (g.stage == SlingState::open && g.tension < kStandsBelow) keep_shape(m, g.fed, s);
     leave_mouth(m, hand, s);
   } else {
     slide_knot(m, dt, s);
