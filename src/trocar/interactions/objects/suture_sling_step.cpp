@@ -12,6 +12,7 @@ constexpr double kGain = 0.25;        // of what thread would have to go for a t
 constexpr double kSpeedGain = 0.020;  // [m/s] a newton that a tension is off by, at most
 constexpr double kRunsAtMost = 0.6;   // [m/s] thread is pulled out of the tube
 constexpr double kAtMouth = 0.0025;   // [m] a knot is at the mouth
+constexpr double kStowsBelow = 0.020;   // [m] of the instrument in the body, where an opened one is packed again
 constexpr double kStandsBelow = 0.3;  // [N] of tension up to which the tube's end leads the thread's direction
 constexpr double kCalmer = 0.3;       // of a tension that is new: the rest is what was told before
 constexpr double kJustBelow = 1e-6;   // of an element: a place in it that is a node
@@ -213,7 +214,7 @@ bool lead_sling(const SutureModel& m, double dt, SutureState& s, SutureWork& w) 
   }
   const Vec3d tip_before = g.mouth.tip;
   if (hand.hand >= 0) g.mouth = hand.mouth;
-  if (g.stage >= SlingState::opening && g.stage <= SlingState::open && hand.depth < kStowsWithin &&
+  if (g.stage >= SlingState::opening && g.stage <= SlingState::open && hand.depth < kStowsBelow &&
       g.around_count == 0) {
     g.stage = SlingState::stowed;
     release_holds(m, s);
