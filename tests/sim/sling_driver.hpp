@@ -88,6 +88,42 @@ class SlingDriver {
     const int ticks = std::max(1, int(seconds / sim::kTick));
     for (int i = 1; i <= ticks; ++i) handle = from + (to - from) * i / ticks, step();
   }
+  Vec3d tangent(int strand, double s) const { return normalised(point(strand, s + 0.004) - point(strand, s - 0.004)); }
+  /// Where the mouth shall be so that a loop with so much thread has that place of the strand in its middle; the less
+  /// thread, the more the knot stands level with it.
+  Vec3d mouth_for(int strand, double s, double thread) {
+    const double back = std::max(0.0058, 0.265 * thread), slanting = std::clamp((back - 0.006) / 0.01, 0.0, 1.0);
+    if (thread > 0.045) m_at = point(strand, s), m_along = tangent(strand, s);  // what it touches gives way
+    const Vec3d at = m_at, n = m_along, out = normalised(at - port());
+    const Vec3d level = normalised(out - dot(out, n) * n);
+    return at - back * normalised(slanting * out + (1 - slanting) * level);
+  }
+  /// From above, over the strand's free end at `end` and down to s.
+  void put_over(int strand, double end, double s) {
+    const Vec3d above = 0.012 * tangent(strand, end - 0.005);
+    move(mouth_for(strand, end, model().sling.loop) + 2 * above);
+    face(tangent(strand, end - 0.005));
+    grip(0, 0.3);
+    rest(2.6);
+    move(mouth_for(strand, end, model().sling.loop) + above);
+    for (double at = end - 0.002; at > s; at -= 0.004) {
+      move(mouth_for(strand, at, model().sling.loop), 0.02);
+      face(tangent(strand, at), 0.1);
+    }
+    move(mouth_for(strand, s, model().sling.loop), 0.02);
+    face(tangent(strand, s), 0.3);
+  }
+  /// The handle closes to `to`, at first until the loop lies around it; the mouth follows.
+  void draw_closed(int strand, double s, double to, double seconds) {
+    for (int i = 0; i < int(seconds / sim::kTick); ++i) {
+      const bool lies = sling().tension > 0.4;
+      handle = std::min(to, handle + (handle < 0.25 || lies ? 0.0005 : 0.0));
+      const Vec3d go = mouth_for(strand, s, sling().fed) - m_tip;
+      const double most = 0.04 * sim::kTick;
+      m_tip += std::min(1.0, most / std::max(1e-9, length(go))) * go;
+      step();
+    }
+  }
   int told(sim::Event::Kind kind) const { return events[size_t(kind)]; }
 
  private:
@@ -95,6 +131,7 @@ class SlingDriver {
   int m_hand;
   Vec3d m_tip;
   double m_roll = 0;
+  Vec3d m_at, m_along{0, 0, 1};  ///< of the strand, before the loop touches it
 
  public:
   sim::State state;

@@ -264,8 +264,7 @@ void settle_sling(const SutureModel& m, double dt, SutureState& s, SutureWork& w
   const int e = suture::place_at(m.thread, g.knot).element;
   const int beside = std::max(0, e - 2);
   g.tension += kCalmer * (suture::tension(m.thread, s.thread, beside) - g.tension);
-  w.sling.force = {};
-  if (g.stage == SlingState::left) return;
+  if (g.stage == SlingState::left) return;  // its force has what lies on the knot, until here
   const size_t first = size_t(m.sling.first_hold);
   for (size_t k = 0; k < kSlingHolds; ++k)
     if (s.thread.holds[first + k].active) w.sling.force += w.hold_reactions[first + k].force;

@@ -11,8 +11,10 @@ constexpr std::uint64_t kFindsEvery = 4;  // ticks in which a loop looks what it
 constexpr double kTouchesAhead = 0.0004;  // [m] contacts are there before they touch
 constexpr double kElementsAlong = 0.012;  // [m] of a strand to either side of a loop that thread may lie on
 constexpr double kSkinHardens = 0.15;     // of the thread's thickness, as suture::set_press() has it
-constexpr double kMostStiff = 20000;      // [N/m] of all that presses on a strand, taken into account
-constexpr double kMostSunk = 0.97;        // of the depth at which a strand is crushed
+constexpr double kMostStiff = 300000;     // [N/m] of all that presses on a strand, taken into account
+constexpr double kMostSunk = 0.93;        // of the depth at which a strand is crushed
+constexpr double kKnot = 0.0015;          // [m] that a knot at the mouth keeps a strand off
+constexpr double kKnotPushes = 12000;     // [N/m] with which it does
 constexpr double kLeastDepth = 1e-5;      // [m] at which a law's secant is taken
 
 /// Where a point is beside a strand's middle line.
@@ -71,7 +73,27 @@ class Strangling {
         m_work(w),
         m_loads(loads) {}
 
-  void bear() const noexcept {
+  /// What is drawn against the tube's end lies on the knot there.
+  void lie_on_knot(const SlingAround& a) noexcept {
+    if (m_sling.stage != SlingState::open) return;
+    const StrandBody& body = m_bodies.strands[size_t(a.strand)];
+    const tissue::StrandState& s = m_bodies.strand_states[size_t(a.strand)];
+    const Beside at = beside(body, s, {a.element, a.w}, m_sling.mouth.tip);
+    if (!at.there()) return;
+    const size_t e = size_t(at.place.element);
+    const double depth = std::min(body.model.radius[e], std::max(0.0, a.radius)) + kKnot - at.away;
+    if (depth <= 0) return;
+    tissue::StrandLoad load;
+    load.element = at.place.element;
+    load.w = at.place.w;
+    load.d = m_dt * kKnotPushes;
+    const Vec3d push = (-kKnotPushes * depth) * at.out;
+    load.f0 = push + load.d * (s.v[e] + at.place.w * (s.v[e + 1] - s.v[e]));
+    m_loads.strands[size_t(a.strand)].add(load, {Owner::body, 0, 0});
+    m_work.sling.force -= push;
+  }
+
+  void bear() noexcept {
     for (std::int32_t i = 0; i < m_sling.around_count; ++i) {
       const SlingAround& a = m_sling.around[size_t(i)];
       const tissue::StrandState& s = m_bodies.strand_states[size_t(a.strand)];
@@ -82,6 +104,7 @@ class Strangling {
       load.d = m_dt * std::min(kMostStiff, a.stiff);
       load.f0 = a.pull + load.d * (s.v[e] + a.w * (s.v[e + 1] - s.v[e]));
       m_loads.strands[size_t(a.strand)].add(load, {Owner::body, 0, 0});
+      lie_on_knot(a);
     }
   }
 
