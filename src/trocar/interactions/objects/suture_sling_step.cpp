@@ -106,11 +106,11 @@ void open_or_close(const SutureModel& m, const SlingHand& hand, double dt, Sutur
   g.knot = g.fed;
 }
 
-/// Pulled away from the mouth with more than the tail is held by.
+/// Pulled away from the mouth with more than the tail is held by, when the handle does not draw any more.
 void leave_mouth(const SutureModel& m, const SlingHand& hand, SutureState& s) noexcept {
   SlingState& g = s.sling;
   const bool tight = g.around_count > 0 && g.tension > kStandsBelow;
-  if (!tight || g.pulled <= std::max(kTubeRubs, hand.most)) return;
+  if (!tight || g.pulled <= std::max(kTubeRubs, hand.most) || hand.most > m.sling.slides) return;
   g.stage = SlingState::off;
   suture::release_hold(s.thread, m.sling.first_hold + kKnotHold);
   suture::tie(m.thread, s.thread, kTieSlot, 0, g.knot);
@@ -141,11 +141,12 @@ void run_tail(const SutureModel& m, const SlingHand& hand, Vec3d tip_before, dou
     fed -= way_for(m, hand.most - g.tail, std::max(tail, 0.003), kDraws, dt);
   }
   feed_to(m, std::clamp(fed, g.knot, m.thread.length), s);
+  const bool draws = hand.most > m.sling.slides;
   const bool at_mouth_again =
-      g.fed - g.knot < 1e-4 && tail < kAtMouth && length(s.thread.x[0] - g.mouth.tip) < kAtMouth;
+      draws && g.fed - g.knot < 1e-4 && tail < kAtMouth && length(s.thread.x[0] - g.mouth.tip) < kAtMouth;
   if (!at_mouth_again) return;
   g.stage = SlingState::open;
-  g.knot = g.fed;
+  feed_to(m, g.knot, s);
   suture::untie(s.thread, kTieSlot);
   suture::take_hold(m.thread, s.thread, m.sling.first_hold + kKnotHold, 0);
 }
@@ -259,7 +260,7 @@ void settle_sling(const SutureModel& m, double dt, SutureState& s, SutureWork& w
       ++count;
     }
     if (count > 0) a.squeeze /= count;
-    a.cutting = g.tension >= a.bears ? a.cutting + dt : 0.0;
+    a.cutting = std::max(0.0, a.cutting + (g.tension >= a.bears ? dt : -dt));
   }
   const int e = suture::place_at(m.thread, g.knot).element;
   const int beside = std::max(0, e - 2);

@@ -10,7 +10,7 @@ namespace trocar::interactions {
 
 inline constexpr double kFeeds = 0.060;        ///< [m/s] an opened handle feeds the loop out.             [d]
 inline constexpr double kDraws = 0.040;        ///< [m/s] at most, a closing one draws thread in.          [d]
-inline constexpr double kTubeRubs = 0.3;       ///< [N] of the thread in its tube.                         [d]
+inline constexpr double kTubeRubs = 0.03;      ///< [N] of the thread in its tube.                         [d]
 inline constexpr double kStowsWithin = 0.040;  ///< [m] of the instrument in the body: less, and it is packed. [d]
 inline constexpr double kLeastLoop = 0.006;    ///< [m] of thread that a knot cannot close any more
 
