@@ -10,6 +10,10 @@ namespace {
 constexpr std::uint64_t kFindsEvery = 4;  // ticks in which a loop looks what it lies around
 constexpr double kTouchesAhead = 0.0004;  // [m] contacts are there before they touch
 constexpr double kElementsAlong = 0.012;  // [m] of a strand to either side of a loop that thread may lie on
+constexpr double kHoldsFrom = 0.0003;     // [m] of depth: where it has sunk in
+constexpr double kOffWithin = 0.0002;     // [m] of an end: it is off
+constexpr double kGrooveRubs = 0.2;       // of thread on tissue that it has sunk into                    [d]
+constexpr double kGroove = 0.4;           // ... as deep as this, in radii of the strand                 [d]
 constexpr double kSkinHardens = 0.15;     // of the thread's thickness, as suture::set_press() has it
 constexpr double kMostStiff = 300000;     // [N/m] of all that presses on a strand, taken into account
 constexpr double kMostSunk = 0.93;        // of the depth at which a strand is crushed
@@ -116,17 +120,12 @@ class Strangling {
     measure();
     for (size_t i = 0; i < m_bodies.strands.size() && m_sling.around_count < kMostAround; ++i) {
       SlingAround found;
-      if (!passes(i, found)) continue;
+      for (std::int32_t k = 0; k < had; ++k)
+        if (before[size_t(k)].strand == std::int32_t(i)) found = before[size_t(k)];
+      const bool around = passes(i, found) || found.strand >= 0;
       found.strand = std::int32_t(i);
-      for (std::int32_t k = 0; k < had; ++k) {
-        const SlingAround& old = before[size_t(k)];
-        if (old.strand != found.strand) continue;
-        const SlingAround place = found;
-        found = old;
-        found.element = place.element;
-        found.w = place.w;
-      }
-      m_sling.around[size_t(m_sling.around_count++)] = found;
+      const bool tight = found.squeeze > kHoldsFrom;
+      if (around && (tight ? sits(i, found) : passes(i, found))) m_sling.around[size_t(m_sling.around_count++)] = found;
     }
   }
 
@@ -154,6 +153,17 @@ class Strangling {
     m_middle = m_middle / double(count);
     m_reach = 0;
     for (int n = 0; n < count; ++n) m_reach = std::max(m_reach, length(m_state.thread.x[size_t(n)] - m_middle));
+  }
+
+  /// One that has sunk in leaves over an end, or not at all.
+  bool sits(size_t strand, SlingAround& found) const noexcept {
+    const StrandBody& body = m_bodies.strands[strand];
+    const tissue::StrandState& s = m_bodies.strand_states[strand];
+    const Beside at = beside(body, s, {found.element, found.w}, m_middle);
+    if (!at.there() || at.away > body.model.radius[size_t(at.place.element)]) return false;
+    found.element = at.place.element;
+    found.w = at.place.w;
+    return free_end(body, s, at.place).away > kOffWithin;
   }
 
   /// The surface is a fan about the loop's middle.
@@ -202,7 +212,11 @@ class Strangling {
     on = number;
     m_work.sling.stiff[size_t(n)] = depth > 0 ? piece * law.slope : 0.0;
     m_work.sling.deep[size_t(n)] = depth;
-    m_work.skins[size_t(n)] = plane_for(n, x, normal, velocity, piece * law.force, piece * law.slope, depth);
+    suture::SkinContact& plane = m_work.skins[size_t(n)];
+    plane = plane_for(n, x, normal, velocity, piece * law.force, piece * law.slope, depth);
+    // the deeper in its groove, the more the tissue beside it holds it
+    const double on_it = m_model.thread.stuff.friction_tissue, sunk = std::clamp(depth / (kGroove * radius), 0.0, 1.0);
+    plane.friction = on_it + sunk * std::max(0.0, kGrooveRubs - on_it);
   }
 
   /// A skin hardens with its own depth: F = k o (1 + (o / c)^2). Its k and where it begins, o above the thread's side,
