@@ -122,10 +122,9 @@ class Strangling {
       SlingAround found;
       for (std::int32_t k = 0; k < had; ++k)
         if (before[size_t(k)].strand == std::int32_t(i)) found = before[size_t(k)];
-      const bool around = passes(i, found) || found.strand >= 0;
+      const bool tight = found.strand >= 0 && found.squeeze > kHoldsFrom;
       found.strand = std::int32_t(i);
-      const bool tight = found.squeeze > kHoldsFrom;
-      if (around && (tight ? sits(i, found) : passes(i, found))) m_sling.around[size_t(m_sling.around_count++)] = found;
+      if (tight ? sits(i, found) : passes(i, found)) m_sling.around[size_t(m_sling.around_count++)] = found;
     }
   }
 
