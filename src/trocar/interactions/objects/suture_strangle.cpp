@@ -16,6 +16,9 @@ constexpr double kGrooveRubs = 0.2;       // of thread on tissue that it has sun
 constexpr double kGroove = 0.4;           // ... as deep as this, in radii of the strand                 [d]
 constexpr double kSkinHardens = 0.15;     // of the thread's thickness, as suture::set_press() has it
 constexpr double kMostStiff = 300000;     // [N/m] of all that presses on a strand, taken into account
+constexpr double kLeastStiff = 4000;      // ... and at least: a strand weighs next to nothing
+constexpr double kKeepsGoing = 0.5;       // of a strand's velocity, against which it is not held
+constexpr double kAtRest = 0.2;           // [N] by which a loop may pull beyond its tension
 constexpr double kMostSunk = 0.93;        // of the depth at which a strand is crushed
 constexpr double kKnot = 0.0015;          // [m] that a knot at the mouth keeps a strand off
 constexpr double kKnotPushes = 12000;     // [N/m] with which it does
@@ -92,9 +95,15 @@ class Strangling {
     load.w = at.place.w;
     load.d = m_dt * kKnotPushes;
     const Vec3d push = (-kKnotPushes * depth) * at.out;
-    load.f0 = push + load.d * (s.v[e] + at.place.w * (s.v[e + 1] - s.v[e]));
+    load.f0 = push + kKeepsGoing * load.d * (s.v[e] + at.place.w * (s.v[e + 1] - s.v[e]));
     m_loads.strands[size_t(a.strand)].add(load, {Owner::body, 0, 0});
     m_work.sling.force -= push;
+  }
+
+  /// No more than both ends of a loop pull with: what a solve shows beyond that is not there in the next one.
+  Vec3d bounded(Vec3d pull) const noexcept {
+    const double most = 2 * (std::max(0.0, m_sling.tension) + kAtRest), size = length(pull);
+    return size > most ? (most / size) * pull : pull;
   }
 
   void bear() noexcept {
@@ -105,8 +114,8 @@ class Strangling {
       tissue::StrandLoad load;
       load.element = a.element;
       load.w = a.w;
-      load.d = m_dt * std::min(kMostStiff, a.stiff);
-      load.f0 = a.pull + load.d * (s.v[e] + a.w * (s.v[e + 1] - s.v[e]));
+      load.d = m_dt * std::clamp(a.stiff, kLeastStiff, kMostStiff);
+      load.f0 = bounded(a.pull) + kKeepsGoing * load.d * (s.v[e] + a.w * (s.v[e + 1] - s.v[e]));
       m_loads.strands[size_t(a.strand)].add(load, {Owner::body, 0, 0});
       lie_on_knot(a);
     }
@@ -209,7 +218,7 @@ class Strangling {
     const Vec3d normal = normalised(at.out + (end.side * slope_to_end(radius, std::max(0.0, depth), end.away)) * along);
     const Vec3d velocity = s.v[e] + at.place.w * (s.v[e + 1] - s.v[e]);
     on = number;
-    m_work.sling.stiff[size_t(n)] = depth > 0 ? piece * law.slope : 0.0;
+    m_work.sling.stiff[size_t(n)] = piece * law.slope;
     m_work.sling.deep[size_t(n)] = depth;
     suture::SkinContact& plane = m_work.skins[size_t(n)];
     plane = plane_for(n, x, normal, velocity, piece * law.force, piece * law.slope, depth);
