@@ -13,6 +13,7 @@ constexpr double kElementsAlong = 0.012;  // [m] of a strand to either side of a
 constexpr double kHoldsFrom = 0.0003;     // [m] of depth: where it has sunk in
 constexpr double kOffWithin = 0.0002;     // [m] of an end: it is off
 constexpr double kGrooveRubs = 0.2;       // of thread on tissue that it has sunk into                    [d]
+constexpr double kGrooveStiff = 3000;     // [N/m] of its sides, a node
 constexpr double kGroove = 0.4;           // ... as deep as this, in radii of the strand                 [d]
 constexpr double kSkinHardens = 0.15;     // of the thread's thickness, as suture::set_press() has it
 constexpr double kMostStiff = 300000;     // [N/m] of all that presses on a strand, taken into account
@@ -221,29 +222,27 @@ class Strangling {
     m_work.sling.stiff[size_t(n)] = piece * law.slope;
     m_work.sling.deep[size_t(n)] = depth;
     suture::SkinContact& plane = m_work.skins[size_t(n)];
-    plane = plane_for(n, x, normal, velocity, piece * law.force, piece * law.slope, depth);
+    plane = plane_for(n, x, normal, velocity, piece * law.force, depth);
     // the deeper in its groove, the more the tissue beside it holds it
     const double on_it = m_model.thread.stuff.friction_tissue, sunk = std::clamp(depth / (kGroove * radius), 0.0, 1.0);
     plane.friction = on_it + sunk * std::max(0.0, kGrooveRubs - on_it);
   }
 
-  /// A skin hardens with its own depth: F = k o (1 + (o / c)^2). Its k and where it begins, o above the thread's side,
-  /// so that force and slope are those of the law here.
-  suture::SkinContact plane_for(int n, Vec3d x, Vec3d normal, Vec3d velocity, double force, double slope,
+  /// A skin hardens with its own depth: F = k o (1 + (o / c)^2). Where it begins, o above the thread's side, so that it
+  /// presses as the law says here; k is that of the groove's sides, which friction strains against.
+  suture::SkinContact plane_for(int n, Vec3d x, Vec3d normal, Vec3d velocity, double force,
                                 double depth) const noexcept {
     const double half = 0.5 * m_model.thread.stuff.diameter, c = kSkinHardens * m_model.thread.stuff.diameter;
-    const double secant = force / slope;
-    double o = secant, q = 0;
+    double o = force / kGrooveStiff;
     for (int k = 0; k < 12; ++k) {
-      q = (o / c) * (o / c);
-      o = secant * (1 + 3 * q) / (1 + q);
+      const double q = (o / c) * (o / c);
+      o -= (o * (1 + q) - force / kGrooveStiff) / (1 + 3 * q);
     }
-    q = (o / c) * (o / c);
     suture::SkinContact plane;
     plane.node = n;
     plane.normal = normal;
     plane.velocity = velocity;
-    plane.stiffness = force / (o * (1 + q));
+    plane.stiffness = kGrooveStiff;
     const double over = depth > 0 ? o : depth;  // of the thread's side in the plane
     plane.point = x - (half - over) * normal + m_dt * velocity;
     return plane;
