@@ -25,6 +25,7 @@ enum class ToolKind : std::int32_t {
   dissector,
   bag,
   injection_needle,
+  endoloop,
 };
 
 /// Verbs that instruments do with what is at their tip. What jaws do is in sim/verbs.
@@ -39,6 +40,7 @@ struct Abilities {
   bool spread = false;     ///< jaws that open push apart what lies on their outer sides
   bool inject = false;     ///< a hollow needle comes out of the shaft, with a syringe behind it
   bool bag = false;        ///< a sleeve that the scene's bag comes out of (interactions/objects/bag.hpp)
+  bool sling = false;      ///< a tube with a loop of thread at its mouth (interactions/objects/suture_sling.hpp)
 
   /// Legs of clips and blades come astride of what they close on.
   constexpr bool blunt() const noexcept { return !set_clips && !cut; }
@@ -60,6 +62,7 @@ inline constexpr KindOfTool kToolKinds[] = {
     {ToolKind::dissector, "dissector", {.grip = true, .spread = true}},
     {ToolKind::bag, "bag", {.bag = true}},
     {ToolKind::injection_needle, "injection_needle", {.inject = true}},
+    {ToolKind::endoloop, "endoloop", {.sling = true}},
 };
 
 constexpr const KindOfTool& about(ToolKind kind) noexcept { return kToolKinds[std::size_t(kind)]; }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/interactions/objects/suture.hpp>
+#include <trocar/interactions/objects/suture_sling_step.hpp>
 
 namespace trocar::interactions {
 namespace {
@@ -88,6 +89,7 @@ Suture::States Suture::start(const Models& models) {
     s.holes.resize(kMostHoles);
     s.bites.resize(kMostBites);
     s.near.resize(size_t(m.needle.beads + m.thread.nodes));
+    if (m.sling.there()) put_down_sling(m, s);
     states.push_back(std::move(s));
   }
   return states;
@@ -113,6 +115,11 @@ Suture::Work Suture::make_work(const Models& models, int hands) {
       w.obstacle_reactions.resize(w.obstacles.size());
       w.skin_reactions.resize(w.skins.size());
       w.passage_reactions.resize(w.passages.size());
+      if (m.sling.there()) {
+        w.sling.on.resize(w.skins.size());
+        w.sling.stiff.resize(w.skins.size());
+        w.sling.deep.resize(w.skins.size());
+      }
     }
     all.list.push_back(std::move(w));
   }
@@ -131,6 +138,8 @@ void Suture::clear(Work& all) noexcept {
     std::fill(w.obstacles.begin(), w.obstacles.end(), suture::Obstacle{});
     std::fill(w.obstacle_reactions.begin(), w.obstacle_reactions.end(), suture::ObstacleReaction{});
     w.thread_report = {};
+    w.sling.hand = {};
+    w.sling.force = {};
   }
 }
 

@@ -24,6 +24,7 @@
 #include <trocar/core/body_id.hpp>
 #include <trocar/core/fields.hpp>
 #include <trocar/interactions/objects/object_hand.hpp>
+#include <trocar/interactions/objects/suture_sling.hpp>
 #include <trocar/interactions/objects/tissue_point.hpp>
 #include <trocar/interactions/objects/wall_grid.hpp>
 #include <trocar/suture/needle/needle_step.hpp>
@@ -55,6 +56,7 @@ struct SutureModel {
   std::vector<Vec3d> path;  ///< of the thread at the start, from the swage on [m]
   std::int32_t hand = -1;   ///< that holds the needle at the start
   std::int32_t grips = 0;   ///< places of the needle that jaws hold
+  SlingModel sling;         ///< where it is a loop at the mouth of a tube
 
   bool has_needle() const noexcept { return needle.beads > 0; }
   bool has_thread() const noexcept { return thread.nodes > 0; }
@@ -64,13 +66,15 @@ struct SutureModel {
   static void fields(S& s, V&& v) {
     v("name", s.name, core::kNotHashed), v("look", s.look, core::kNotHashed),
         v("needle_look", s.needle_look, core::kNotHashed), v("needle", s.needle), v("thread", s.thread),
-        v("place", s.place), v("turn", s.turn), v("path", s.path), v("hand", s.hand), v("grips", s.grips);
+        v("place", s.place), v("turn", s.turn), v("path", s.path), v("hand", s.hand), v("grips", s.grips),
+        v("sling", s.sling, core::only_if(s.sling.there()));
   }
 };
 struct SutureModels {
   std::vector<SutureModel> list;
   WallGrid walls;                                        ///< those of the Model once more
   std::vector<StitchTissue> organs, strands, membranes;  ///< of all bodies of the Model
+  std::vector<double> strangles;  ///< (strands) tension of a loop that cuts through [N]; with slings
 
   const StitchTissue& of(BodyId body) const noexcept {
     return body.is(BodyKind::strand) ? strands[body.index()]
@@ -79,7 +83,7 @@ struct SutureModels {
   template <class S, class V>
   static void fields(S& s, V&& v) {
     v("list", s.list), v("organs", s.organs), v("strands", s.strands), v("membranes", s.membranes),
-        v("walls", s.walls, core::kNotHashed);
+        v("strangles", s.strangles, core::only_if(!s.strangles.empty())), v("walls", s.walls, core::kNotHashed);
   }
 };
 
@@ -161,6 +165,7 @@ struct SutureState {
   std::int32_t torn = 0;          ///< bites that were torn out so far
   std::int32_t broken = 0;        ///< 1: the thread was pulled apart
   std::int32_t strained = 0;      ///< ticks in a row in which it bore more than it bears
+  SlingState sling;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
@@ -168,7 +173,7 @@ struct SutureState {
         v("hole_count", s.hole_count), v("bite_count", s.bite_count), v("holes", s.holes, core::first(s.hole_count)),
         v("bites", s.bites, core::first(s.bite_count)), v("near", s.near), v("cut", s.cut), v("tail", s.tail),
         v("tail_force", s.tail_force), v("peak", s.peak), v("strain", s.strain), v("torn", s.torn),
-        v("broken", s.broken), v("strained", s.strained);
+        v("broken", s.broken), v("strained", s.strained), v("sling", s.sling, core::only_if(s.sling.fed > 0));
   }
 };
 
@@ -208,6 +213,7 @@ struct SutureWork {
   std::vector<Vec3d> skin_reactions;
   std::vector<suture::PassageReaction> passage_reactions;
   suture::ThreadReport thread_report;
+  SlingWork sling;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
@@ -215,7 +221,7 @@ struct SutureWork {
         v("contact_normals", s.contact_normals), v("holds", s.holds), v("obstacles", s.obstacles), v("skins", s.skins),
         v("passages", s.passages), v("hold_reactions", s.hold_reactions), v("obstacle_reactions", s.obstacle_reactions),
         v("skin_reactions", s.skin_reactions), v("passage_reactions", s.passage_reactions),
-        v("thread_report", s.thread_report);
+        v("thread_report", s.thread_report), v("sling", s.sling);
   }
 };
 struct SutureWorks {
@@ -320,6 +326,7 @@ void Suture::between(const Models& models, const States& states, size_t i, const
   if (any) return;  // a needle in the jaws takes what there is of room
   const double near = tool.jaw_length + 0.005;
   for (std::int32_t n = 0; n < m.thread.nodes; ++n) {
+    if (m.sling.there() && s.sling.lies_in_tube(n * m.thread.spacing)) break;
     const Vec3d off = s.thread.x[size_t(n)] - shape.pivot;
     if (dot(off, off) < near * near) offer(m.grips + n);
   }
@@ -334,6 +341,7 @@ void Suture::account(const Work& work, double, Account&& account) noexcept {
     for (const SutureRod& rod : work.rods)
       if (size_t(rod.slot) < w.obstacle_reactions.size())
         account(rod.tag, -w.obstacle_reactions[size_t(rod.slot)].force);
+    if (w.sling.hand.hand >= 0) account({Owner::tool_contact, w.sling.hand.hand, 0}, -w.sling.force);
   }
   for (const SuturePinch& p : work.pinches)
     if (p.count > 0) account(p.tag, p.force);
@@ -346,6 +354,7 @@ void Suture::shown(const Models&, States_& states, F&& f) {
   for (auto& s : states) {
     f(&s.needle.x, 1), f(&s.needle.q, 1), f(&s.broken, 1);
     f(s.thread.alive.data(), s.thread.alive.size());
+    if (s.sling.fed > 0) f(&s.sling.stage, 1), f(&s.sling.parted, 1), f(&s.sling.fed, 1), f(&s.sling.knot, 1);
     if (s.thread.x.empty()) continue;
     Vec3d middle = s.thread.x[s.thread.x.size() / 2];
     f(&middle, 1);

@@ -4,6 +4,7 @@
 #include <trocar/interactions/contact/body_push.hpp>
 #include <trocar/interactions/contact/nearest_skin.hpp>
 #include <trocar/interactions/objects/suture_on_tissue.hpp>
+#include <trocar/interactions/objects/suture_sling_step.hpp>
 #include <trocar/interactions/objects/suture_stitch.hpp>
 
 namespace trocar::interactions {
@@ -157,7 +158,7 @@ class Resting {
   void find(std::uint64_t tick) noexcept {
     const int beads = m_model.needle.beads;
     for (int b = 0; b < beads; ++b) rest_bead(b, turn(tick, b));
-    for (int n = 0; n < m_model.thread.nodes; ++n) rest_node(n, turn(tick, beads + n));
+    for (int n = 0; n <= last_out(m_model, m_state); ++n) rest_node(n, turn(tick, beads + n));
     if (beads > 0) find_tip();
     meet_rods();
   }
@@ -212,7 +213,7 @@ class Resting {
     const NearSkin on = look(i, p, anew);
     suture::SkinContact& c = m_work.skins[size_t(n)];
     const bool on_skin = on.there() && on.distance - radius < kSkinAhead && on.distance > -kDeepestRest &&
-                         !goes_through(m_model, m_state, on.body, s, false);
+                         !goes_through(m_model, m_state, on.body, s, false) && !strangled(on.body);
     // in a corner between both, what it is deeper in
     const WallPlaces walls = walls_near(m_models.walls, p);
     const WallPlace* nearest = nullptr;
@@ -237,6 +238,11 @@ class Resting {
       c = {n, on, normal, {0, 0, 0}, kHardStiffness, -1};
       return;
     }
+  }
+
+  /// Its own law says what a loop meets there (suture_strangle.hpp).
+  bool strangled(BodyId body) const noexcept {
+    return body.is(BodyKind::strand) && m_state.sling.lies_around(std::int32_t(body.index()));
   }
 
   Vec3d tip() const noexcept { return suture::needle_point(m_model.needle, m_state.needle, 0); }
@@ -273,7 +279,8 @@ class Resting {
       const SutureRod& rod = m_all.rods[i];
       const bool held = rod.held == std::int32_t(m_index);
       if (m_model.has_needle() && !(held && rod.holds_needle)) at_rod(int(i), rod);
-      if (m_model.has_thread() && !rod.cuts) keep_off(rod, held && !rod.holds_needle);
+      if (m_model.has_thread() && !rod.cuts && !is_own_mouth(m_model, m_state, rod))
+        keep_off(rod, held && !rod.holds_needle);
     }
     if (m_model.has_thread() && m_model.has_needle()) keep_off_needle();
   }

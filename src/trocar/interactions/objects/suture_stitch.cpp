@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/interactions/objects/suture_on_tissue.hpp>
+#include <trocar/interactions/objects/suture_sling_step.hpp>
 #include <trocar/interactions/objects/suture_stitch.hpp>
 #include <trocar/numerics/mat3.hpp>
 
@@ -63,6 +64,7 @@ class Sewing {
   void move_thread() noexcept {
     if (!m_model.has_thread()) return;
     drive_holds();
+    if (m_model.sling.there() && !lead_sling(m_model, m_dt, m_state, m_work)) return;
     drive_passages();
     const suture::ThreadReport r = suture::advance(
         m_model.thread, {m_work.holds, m_work.obstacles, m_work.skins, m_work.passages},
@@ -80,6 +82,7 @@ class Sewing {
       m_state.strained = 0;
     }
     take_reactions();
+    if (m_model.sling.there()) settle_sling(m_model, m_dt, m_state, m_work);
   }
 
  private:

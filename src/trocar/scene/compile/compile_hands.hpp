@@ -19,6 +19,8 @@ bool has_needle(const sim::Model& model);
 /// Nothing in scenes without a needle. After hands and organs.
 void compile_injection(const Description& description, sim::Model& model);
 
+/// Is there a loop among them?
+bool has_slings(const std::vector<SutureSetting>& settings);
 /// Sutures, once all bodies and hands are known: what a stitch meets in each, who holds what, how the thread lies.
 void compile_sutures(const Description& d, sim::Model& model, std::vector<core::Fault>& faults);
 

@@ -28,6 +28,14 @@ StitchTissue stitch_of(const Description& d, const std::string& tissue) {
   return t;
 }
 
+/// Tension of a loop that cuts through a strand of it [N].
+double strangles(const Description& d, const std::string& tissue) {
+  constexpr double kStrangles = 8;
+  for (const Tissue& row : d.tissues)
+    if (row.name == tissue && row.strangle > 0) return row.strangle;
+  return kStrangles;
+}
+
 /// The needle between the jaws as they are at the start: across them, so that the shaft's roll drives it.
 void put_in_jaws(const SutureSetting& s, const sim::Model& model, std::size_t hand, SutureModel& m) {
   const interactions::ToolModel& tool = model.placed(hand);
@@ -73,6 +81,10 @@ void lay_thread(const SutureSetting& s, SutureModel& m) {
 
 }  // namespace
 
+bool has_slings(const std::vector<SutureSetting>& settings) {
+  return std::any_of(settings.begin(), settings.end(), [](const SutureSetting& s) { return s.sling.there; });
+}
+
 void compile_sutures(const Description& d, sim::Model& model, std::vector<core::Fault>& faults) {
   const std::vector<SutureSetting>& settings = settings_of(SutureScene{}, d.objects);
   SutureModels& all = interactions::part_of<interactions::Suture>(model.objects);
@@ -92,9 +104,18 @@ void compile_sutures(const Description& d, sim::Model& model, std::vector<core::
     }
     const suture::ThreadKind* kind = suture::find_thread(s.size, s.make);
     if (!kind) continue;
-    m.thread = suture::build(thread_of(s, kind->stuff, model));
-    lay_thread(s, m);
+    suture::ThreadDescription thread = thread_of(s, kind->stuff, model);
+    const std::int32_t own_hold = thread.holds;
+    if (s.sling.there) thread.holds += interactions::kSlingHolds;
+    m.thread = suture::build(thread);
+    if (s.sling.there)
+      compile_sling(s.sling, own_hold, m);
+    else
+      lay_thread(s, m);
   }
+  expect_endoloop(settings, model, faults);
+  if (has_slings(settings))
+    for (const sim::StrandAnatomy& b : model.strands) all.strangles.push_back(strangles(d, b.tissue));
   std::vector<const tissue::Skin*> walls;
   for (const sim::WallModel& w : model.walls) walls.push_back(&w.skin);
   all.walls = interactions::make_wall_grid(walls, kWallReach);

@@ -8,6 +8,8 @@
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile_vessels.hpp>
+#include <trocar/scene/compile/compile_hands.hpp>
+#include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/model/host_views.hpp>
 
@@ -57,6 +59,7 @@ vessels::VesselGraph joined(const Description& d) {
   const auto injects = [](const Instrument& i) { return i.can().inject; };
   if (std::any_of(d.instruments.begin(), d.instruments.end(), injects))
     all.settings.max_clips += 2 * int(all.segments.size());
+  if (has_slings(settings_of(SutureScene{}, d.objects))) all.settings.max_clips += sim::kMostLoops;
   if (d.breathing) all.heart.breaths = d.breathing->per_minute;
   return all;
 }

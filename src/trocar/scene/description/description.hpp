@@ -39,8 +39,9 @@ struct Tissue {
   double fracture = 0;        ///< what it takes to tear a square metre of it off (0: bonds never do) [J/m^2]
   double puncture = 0.5;      ///< force at which a needle's tip gets through its surface (0: none does) [N]
   double stitch_damage = 0;   ///< of a stitch's pull, from which on it harms [N]; 0: interactions::StitchTissue's
+  double strangle = 0;        ///< tension of a loop that cuts through a strand [N]; 0: 8, our choice
   std::string source;         ///< literature or "ours": of the figures that have no source of their own below
-  std::array<std::string, 11> source_of;  ///< in the order of kTissueFigures; empty: `source`
+  std::array<std::string, 12> source_of;  ///< in the order of kTissueFigures; empty: `source`
   core::Location at;
 };
 /// The figures of a tissue, as files name them.
@@ -48,17 +49,18 @@ struct TissueFigure {
   const char* key;
   double Tissue::*value;
 };
-inline constexpr std::array<TissueFigure, 11> kTissueFigures{{{"density_kg_m3", &Tissue::density},
-                                                              {"young_Pa", &Tissue::young},
-                                                              {"poisson", &Tissue::poisson},
-                                                              {"p1", &Tissue::p1},
-                                                              {"p2", &Tissue::p2},
-                                                              {"strain_cap", &Tissue::strain_cap},
-                                                              {"failure_strain", &Tissue::failure_strain},
-                                                              {"damping_ms", &Tissue::damping_ms},
-                                                              {"fracture_J_m2", &Tissue::fracture},
-                                                              {"puncture_N", &Tissue::puncture},
-                                                              {"stitch_damage_N", &Tissue::stitch_damage}}};
+inline constexpr std::array<TissueFigure, 12> kTissueFigures{{{"density_kg_m3", &Tissue::density},
+                                                             {"young_Pa", &Tissue::young},
+                                                             {"poisson", &Tissue::poisson},
+                                                             {"p1", &Tissue::p1},
+                                                             {"p2", &Tissue::p2},
+                                                             {"strain_cap", &Tissue::strain_cap},
+                                                             {"failure_strain", &Tissue::failure_strain},
+                                                             {"damping_ms", &Tissue::damping_ms},
+                                                             {"fracture_J_m2", &Tissue::fracture},
+                                                             {"puncture_N", &Tissue::puncture},
+                                                             {"stitch_damage_N", &Tissue::stitch_damage},
+                                                             {"strangle_N", &Tissue::strangle}}};
 
 /// A section of a lofted body: a super-ellipse with two half-axis vectors.
 struct Section {

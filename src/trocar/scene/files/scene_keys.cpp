@@ -308,6 +308,8 @@ const Table<Tissue>& tissue() {
            "default {}; 0: none does"),
        R::number("stitch_damage_N", units::one, &T::stitch_damage, 0, 100,
                  "pull of a thread from which on a stitch harms; three times that cuts through; default {}: 2"),
+       R::number("strangle_N", units::one, &T::strangle, 0, 200,
+                 "tension of a sling's loop that cuts through a strand of it, default {}: 8"),
        needed(R::text("source", &T::source, "where the figures come from: a publication, or \"ours\"")),
        R::own(keys::object("sources", tissue_sources, "sources of single figures, where they differ"), read_sources,
               written_sources)},

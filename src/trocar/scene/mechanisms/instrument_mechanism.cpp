@@ -33,12 +33,18 @@ std::string names_of(const List& list) {
 /// A linkage, led by its handle.
 class LedLinkage {
  public:
-  LedLinkage(const Mechanism& m, int drive, int upper, int lower, bool parallel)
+  enum Way {
+    angle,
+    gap,
+    along
+  };  ///< what opens: jaws that turn or stay parallel, a clamp that is drawn along the axis
+
+  LedLinkage(const Mechanism& m, int drive, int upper, int lower, Way way)
       : m_m(m),
         m_drive(m.drives[std::size_t(drive)]),
         m_upper(upper),
         m_lower(lower),
-        m_parallel(parallel),
+        m_way(way),
         m_work(m),
         m_u(m.start_u()) {
     kinematics::hold_drives(m, m_work);
@@ -62,7 +68,8 @@ class LedLinkage {
     }
     const kinematics::Frame a = place(m_m.frames[std::size_t(m_upper)], m_work.pose);
     const kinematics::Frame b = place(m_m.frames[std::size_t(m_lower)], m_work.pose);
-    if (m_parallel) return a.p.x - b.p.x;
+    if (m_way == gap) return a.p.x - b.p.x;
+    if (m_way == along) return b.p.z - a.p.z;
     return turned(a) - turned(b);
   }
 
@@ -76,7 +83,7 @@ class LedLinkage {
   const Mechanism& m_m;
   const kinematics::Drive& m_drive;
   int m_upper, m_lower;
-  bool m_parallel;
+  Way m_way;
   kinematics::LoopWork m_work;
   kinematics::Branch m_branch;
   std::vector<double> m_u;
@@ -145,26 +152,29 @@ std::string find_ways(LedLinkage& led, Ways& ways) {
 void take_linkage(const Instrument& i, interactions::ToolModel& tool, std::vector<core::Fault>& faults) {
   if (!i.linkage.description) return;
   const Mechanism m = kinematics::build(*i.linkage.description);
-  const int drive = m.drive(i.handle), upper = m.frame("tip_upper"), lower = m.frame("tip_lower");
+  const int drive = m.drive(i.handle);
+  const bool sling = i.can().sling;
+  const char *first = sling ? "clamp" : "tip_upper", *second = sling ? "mouth" : "tip_lower";
+  const int upper = m.frame(first), lower = m.frame(second);
   if (drive < 0) {
     faults.push_back({i.linkage.at,
                       fmt::format("expected a mechanism with an actuator '{}', got {}", i.handle, names_of(m.drives))});
     return;
   }
   if (upper < 0 || lower < 0) {
-    faults.push_back({i.linkage.at, fmt::format("expected a mechanism with frames tip_upper and tip_lower, got {}",
+    faults.push_back({i.linkage.at, fmt::format("expected a mechanism with frames {} and {}, got {}", first, second,
                                                 names_of(m.frame_names))});
     return;
   }
   const bool parallel = i.parallel_gap > 0;
-  LedLinkage led(m, drive, upper, lower, parallel);
+  LedLinkage led(m, drive, upper, lower, sling ? LedLinkage::along : parallel ? LedLinkage::gap : LedLinkage::angle);
   Ways ways;
   if (const std::string why = find_ways(led, ways); !why.empty()) {
     faults.push_back({i.linkage.at, "expected a linkage that closes the jaws all along the handle's way, got " + why});
     return;
   }
   constexpr int last = interactions::kLinkageSteps;
-  if (!parallel && std::fabs(ways.opening[last]) > kNearlyShut) {
+  if (!parallel && !sling && std::fabs(ways.opening[last]) > kNearlyShut) {
     faults.push_back({i.linkage.at, fmt::format("expected jaws that meet when the handle is closed, got {:.1f} degrees "
                                                 "between them",
                                                 ways.opening[last] * 180 / portable::pi)});
@@ -180,7 +190,10 @@ void take_linkage(const Instrument& i, interactions::ToolModel& tool, std::vecto
     tool.linkage.aperture[k] = (ways.opening[k] - ways.opening[last]) / (ways.opening[0] - ways.opening[last]);
     tool.linkage.leverage[k] = ways.slope[last] / ways.slope[k];  // virtual work, relative to the closed jaws
   }
-  if (!parallel) tool.opening = ways.opening[0] - ways.opening[last];
+  if (sling)
+    tool.opening = 0;
+  else if (!parallel)
+    tool.opening = ways.opening[0] - ways.opening[last];
 }
 
 void take_wrist(const Instrument& i, interactions::ToolModel& tool, std::vector<core::Fault>& faults) {

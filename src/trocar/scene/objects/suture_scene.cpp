@@ -39,7 +39,8 @@ const Shape& suture_shape() {
        keys::vec3("axis", -1, 1, "about which a turn drives the needle, tip first; default (0, 0, 1)"),
        keys::vec3("points", -1, 1, "the way that the middle of the needle is driven, default (1, 0, 0)"),
        keys::points("line_mm", -kSutureFar, kSutureFar, 2,
-                    "the thread at the start, from the needle on; beyond it the thread goes straight on")}};
+                    "the thread at the start, from the needle on; beyond it the thread goes straight on"),
+       sling_key()}};
   return shape;
 }
 
@@ -78,6 +79,8 @@ SutureSetting SutureScene::read(const JsonObject& o) {
   s.axis = o.vec3("axis", s.axis);
   s.points = o.vec3("points", s.points);
   for (const Vec3d& p : o.points("line_mm")) s.line.push_back(p / 1000.0);
+  s.sling = read_sling(o, s);
+  if (s.sling.there) s.length = s.sling.thread();
   s.at = o.at();
   s.text = o.value();
   if (s.size.empty() && s.needle.empty()) o.fault(o.at(), "expected a size, a needle or both, got neither");
@@ -91,7 +94,7 @@ SutureSetting SutureScene::read(const JsonObject& o) {
   if (!s.needle.empty() && o.names("at_mm") == o.names("held_by"))
     o.fault(o.at(), "expected at_mm of a needle that lies or held_by of one that is held, got " +
                         std::string(o.names("at_mm") ? "both" : "neither"));
-  if (s.needle.empty() && s.line.size() < 2) o.fault(o.at(), "expected line_mm of a thread without a needle, got none");
+  if (s.needle.empty() && s.line.size() < 2 && !s.sling.there) o.fault(o.at(), "expected line_mm of a thread without a needle, got none");
   if (!(length(cross(s.axis, s.points)) > 1e-6)) o.fault("axis", "expected two directions that differ, got one");
   return s;
 }

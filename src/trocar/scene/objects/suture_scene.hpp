@@ -8,6 +8,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/numerics/quat.hpp>
 #include <trocar/scene/json/shape.hpp>
+#include <trocar/scene/objects/sling_scene.hpp>
 
 namespace trocar::sim {
 struct Model;
@@ -27,6 +28,7 @@ struct SutureSetting {
   std::string hand;         ///< trocar of the hand that holds the needle; empty: it lies
   bool backhand = false;
   double grasped = 0.65;  ///< where, of its length from the tip
+  SlingSetting sling;
   core::Location at;
   JsonValue text;  ///< as it was read
 };

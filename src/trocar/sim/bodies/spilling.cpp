@@ -3,6 +3,7 @@
 
 #include <trocar/interactions/couplings/strand_body.hpp>
 #include <trocar/numerics/portable.hpp>
+#include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/bodies/spilling.hpp>
 #include <trocar/vessels/lumen.hpp>
 
@@ -43,6 +44,10 @@ double open_share(const StepContext& c, int strand, bool at_start, double s) noe
     share = clip.cover >= kClosing ? 0 : std::min(share, 1 - clip.cover);
     if (share <= 0) return 0;
   }
+  visit_loops(c.model, c.state, [&](const LoopClosure& loop) {
+    if (loop.strand != strand || (at_start ? loop.s > s : loop.s < s)) return;
+    share = loop.cover >= kClosing ? 0 : std::min(share, 1 - loop.cover);
+  });
   return share;
 }
 

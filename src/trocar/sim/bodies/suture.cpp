@@ -1,5 +1,6 @@
 #include <trocar/interactions/objects/suture_on_tissue.hpp>
 #include <trocar/interactions/objects/suture_stitch.hpp>
+#include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/bodies/suture.hpp>
 #include <trocar/sim/bodies/views.hpp>
 
@@ -29,16 +30,19 @@ void rest_sutures(StepContext& c) noexcept {
                                c.state.tick, kTick, interactions::part_of<Suture>(c.state.objects),
                                interactions::part_of<Suture>(c.work.objects),
                                {c.work.strand_loads, c.work.organ_loads, c.work.membrane_loads});
+  rest_slings(c);
 }
 
 void sew(StepContext& c) noexcept {
   if (!has_sutures(c)) return;
   see_again(c);
+  lead_slings(c);
   const interactions::SewnReport r = interactions::sew(
       interactions::part_of<Suture>(c.model.objects), bodies_of(c), c.model.gravity, kTick, c.model.cavity,
       interactions::part_of<Suture>(c.state.objects), interactions::part_of<Suture>(c.work.objects));
   if (r.overflowed) c.report.flags |= StepReport::kTooManyLoads;
   if (r.torn.exists()) tell(c, Event::torn, 0, r.torn);
+  watch_slings(c);
   if (!r.bad.exists() || c.report.first_bad_body.exists()) return;
   c.report.flags |= tissue::StepReport::kNonFinite;
   c.report.first_bad_body = r.bad;

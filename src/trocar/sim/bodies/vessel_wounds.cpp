@@ -136,6 +136,13 @@ void open_vessels_within(StepContext& c, int strand, int element, int hand) noex
         open_vessel(c, int(v), at.s, 1, hand);
 }
 
+double place_within(const StepContext& c, int strand, size_t vessel, double arc) noexcept {
+  const VesselPath& path = path_of(c, vessel);
+  for (size_t i = 0; i + 1 < path.points.size(); ++i)
+    if (const Within at = within_strand(c.model.strand_bodies[size_t(strand)], strand, path, i, arc); at.there) return at.s;
+  return -1;
+}
+
 void open_vessels(StepContext& c, BodyId body, const Parting& parting, int hand) noexcept {
   if (!parting.parted) return;
   if (body.is(BodyKind::strand)) return open_vessels_within(c, int(body.index()), parting.element, hand);

@@ -24,6 +24,9 @@ void open_vessels(StepContext& context, BodyId body, const Parting& parting, int
 /// A clip has been set: what it closes of vessels. Where no strand lay between its legs, it may lie on a vessel.
 void clip_vessels(StepContext& context, size_t hand, int clip) noexcept;
 
+/// Where a vessel runs within a strand at that arc length of it [m]: its s; below 0: it does not.
+double place_within(const StepContext& context, int strand, std::size_t vessel, double arc) noexcept;
+
 /// The vessel that opens by itself, in its tick.
 void open_bleeder(StepContext& context) noexcept;
 

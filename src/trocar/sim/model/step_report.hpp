@@ -24,7 +24,12 @@ struct Event {
     parted,
     declared,
     pierced,
-    injected
+    injected,
+    loop_tightened,
+    loop_loosened,
+    loop_slipped,
+    loop_cut,
+    thread_cut
   } kind = none;
   std::int32_t tool = 0;
   /// The clip's or the cut's number in the State's book; grasped: the body held (BodyId::code);
@@ -39,8 +44,9 @@ struct Event {
 
 /// A kind of event in words. A new kind of event is one line above and one here.
 struct EventWords {
-  /// Without which it never happens: jaws that grip, a rack of several instruments, current, an injection needle.
-  enum Needs { nothing, grip, choice, current, needle };
+  /// Without which it never happens: jaws that grip, a rack of several instruments, current, an injection needle, a
+  /// sling, a thread.
+  enum Needs { nothing, grip, choice, current, needle, sling, thread };
 
   Event::Kind kind;
   const char* name;     ///< as lists of what happened have it
@@ -64,6 +70,16 @@ inline constexpr EventWords kEventWords[] = {
      "Who operates declared, by key or pedal, that what was to be shown is shown."},
     {Event::pierced, "pierced", "{tool} pierced {body}", "A needle went into an organ.", true, EventWords::needle},
     {Event::injected, "injected", "{tool} injects into {body}", nullptr, true},
+    {Event::loop_tightened, "loop_tightened", "{tool} closed a loop on {body}",
+     "A sling's loop has been drawn so tight that it closes the lumen of what it lies around.", true,
+     EventWords::sling},
+    {Event::loop_loosened, "loop_loosened", "a loop on {body} gave way",
+     "A loop that had closed a lumen does not any more.", true, EventWords::sling},
+    {Event::loop_slipped, "loop_slipped", "a loop slipped off {body}",
+     "A loop that had been drawn tight slipped off an end.", true, EventWords::sling},
+    {Event::loop_cut, "loop_cut", "a loop cut through {body}", "A loop that was drawn too hard cut through.", true,
+     EventWords::sling},
+    {Event::thread_cut, "thread_cut", "{tool} cut {body}", "Blades cut a thread.", true, EventWords::thread},
 };
 /// Of a kind that is not Event::none.
 constexpr const EventWords& words_of(Event::Kind kind) noexcept { return kEventWords[std::size_t(kind) - 1]; }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/numerics/portable.hpp>
+#include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/bodies/vessel_wounds.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 #include <trocar/sim/stages/injecting.hpp>
@@ -142,10 +143,16 @@ void lay_out(StepContext& c) noexcept {
     out.sealed = sealed_share(s, int(i));
     out.outside = outside;
   }
-  const std::span<vessels::Occlusion> closed(c.work.closed);
-  const size_t narrow = c.model.injection.there() ? 2 * c.model.vessels.list.size() : 0;
-  lay_out_seals(s, closed.subspan(interactions::kMaxVesselClips).first(closed.size() - narrow - interactions::kMaxVesselClips));
-  if (narrow > 0) lay_out_blanching(c, closed.last(narrow));
+  // One after the other: clips, what heat sealed, what a drug narrows, loops.
+  std::span<vessels::Occlusion> rest = std::span(c.work.closed).subspan(interactions::kMaxVesselClips);
+  const auto take_last = [&rest](size_t count) {
+    const std::span<vessels::Occlusion> taken = rest.last(count);
+    rest = rest.first(rest.size() - count);
+    return taken;
+  };
+  if (has_slings(c.model)) lay_out_loops(c, take_last(kMostLoops));
+  if (c.model.injection.there()) lay_out_blanching(c, take_last(2 * c.model.vessels.list.size()));
+  lay_out_seals(s, rest);
   for (size_t i = 0; i < size_t(interactions::kMaxVesselClips); ++i) {
     vessels::Occlusion& out = c.work.closed[i];
     out = {};

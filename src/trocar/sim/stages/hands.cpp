@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/interactions/instrument/lever.hpp>
+#include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/stages/hands.hpp>
 #include <trocar/sim/stages/stage.hpp>
 
@@ -104,7 +105,8 @@ void move_hand(StepContext& c, size_t t) noexcept {
     // An empty hand opens its jaws; a bag's mouth is shut before it is drawn out, and a needle drawn in.
     const interactions::Abilities& can = c.model.tool(c.state, t).can();
     command = {tool.pose(), can.bag || can.inject ? 1.0 : 0.0};
-    const bool free = tool.holds == 0 && !holds_open_bag(c, t) && !joints_of(c.state, t).bent();
+    const bool free =
+        tool.holds == 0 && !holds_open_bag(c, t) && !bound_by_sling(c, t) && !joints_of(c.state, t).bent();
     if (free) command.pose.depth = kParked;
     if (free && tool.depth <= kParked) change_instrument(c, t, in.instrument);
   }

@@ -5,6 +5,7 @@
 #include <trocar/training/events/registry.hpp>
 #include <trocar/training/facts/needs.hpp>
 #include <trocar/training/observe/hands.hpp>
+#include <trocar/training/observe/stitches.hpp>
 #include <trocar/training/observe/watches.hpp>
 
 namespace trocar::training {
@@ -64,6 +65,10 @@ constexpr Lacks lacks_for(sim::EventWords::Needs needs) {
       return needs_current;
     case sim::EventWords::needle:
       return needs_syringe;
+    case sim::EventWords::sling:
+      return needs_sling;
+    case sim::EventWords::thread:
+      return needs_thread;
     case sim::EventWords::nothing:
       break;
   }

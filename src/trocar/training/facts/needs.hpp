@@ -42,6 +42,11 @@ inline std::string_view needs_current(const sim::Model& model) {
 inline std::string_view needs_syringe(const sim::Model& model) {
   return model.injection.there() ? "" : "an injection needle";
 }
+inline std::string_view needs_sling(const sim::Model& model) {
+  const auto& list = model.objects.sutures.list;
+  const auto sling = [](const interactions::SutureModel& m) { return m.sling.there(); };
+  return std::any_of(list.begin(), list.end(), sling) ? "" : "a sling";
+}
 /// Nothing can be exchanged where every rack holds one instrument.
 inline std::string_view needs_choice(const sim::Model& model) {
   const auto choice = [](const sim::HandModel& hand) { return hand.rack.size() > 1; };

@@ -5,7 +5,7 @@
 namespace trocar::training {
 namespace {
 
-/// Clips and cuts are all that changes a lumen, so it is looked at in ticks that report an event.
+/// Clips, loops and cuts are all that changes a lumen, so it is looked at in ticks that report an event.
 class Lumen : public Observer {
  public:
   Lumen(const sim::Model& model, const Arguments& a) : m_check(model, a[0].index, a[1].number()) {}

@@ -23,16 +23,16 @@ bool LumenCheck::leads(int from, int to, std::int32_t cuts) {
   return vessels::open_path(graph, from, to, m_scratch);
 }
 
-/// The element that a clip closes; -1: none. A clip within an element that is cut closes the next one on its own side
+/// The element that a clip or a loop at `s` closes; -1: none. One within an element that is cut closes the next one on its own side
 /// of the cut.
-int LumenCheck::closed_by(const sim::Model& model, const sim::State& state, const interactions::Clip& clip) const {
+int LumenCheck::closed_at(const sim::Model& model, const sim::State& state, double s) const {
   const interactions::StrandBody& body = model.strand_bodies[size_t(m_strand)];
-  const int element = interactions::place_at(body, clip.s).element;
+  const int element = interactions::place_at(body, s).element;
   if (state.strands[size_t(m_strand)].alive[size_t(element)]) return element;
   for (int i = 0; i < state.cut_count; ++i) {
     const interactions::Cut& cut = state.cuts[size_t(i)];
     if (cut.strand != m_strand || interactions::place_at(body, cut.s).element != element) continue;
-    const int beside = clip.s < cut.s ? element - 1 : element + 1;
+    const int beside = s < cut.s ? element - 1 : element + 1;
     return beside + 1 < m_nodes ? beside : -1;
   }
   return element;
@@ -43,9 +43,14 @@ void LumenCheck::update(const sim::Model& model, const sim::State& state) {
   for (int i = 0; i < state.clip_count; ++i) {
     const interactions::Clip& clip = state.clips[size_t(i)];
     if (clip.strand != m_strand) continue;
-    const int element = closed_by(model, state, clip);
+    const int element = closed_at(model, state, clip.s);
     if (element >= 0) m_closures[size_t(m_closure_count++)] = {element, float(clip.cover)};
   }
+  sim::visit_loops(model, state, [&](const sim::LoopClosure& loop) {
+    if (loop.strand != m_strand || size_t(m_closure_count) >= m_closures.size()) return;
+    const int element = closed_at(model, state, loop.s);
+    if (element >= 0) m_closures[size_t(m_closure_count++)] = {element, float(loop.cover)};
+  });
   std::int32_t cuts = 0;
   const std::vector<std::uint8_t>& alive = state.strands[size_t(m_strand)].alive;
   for (std::int32_t e = 0; e + 1 < m_nodes; ++e)

@@ -9,7 +9,7 @@ namespace trocar::view {
 
 using PartsOfKind = std::vector<InstrumentPart>(const interactions::ToolModel& tool);
 PartsOfKind grasper_parts, clip_applier_parts, scissors_parts, probe_parts, suction_irrigator_parts, hook_parts,
-    bipolar_parts, dissector_parts, bag_parts, injection_needle_parts;
+    bipolar_parts, dissector_parts, bag_parts, injection_needle_parts, endoloop_parts;
 
 struct KindShape {
   interactions::ToolKind kind;
@@ -26,6 +26,7 @@ inline constexpr KindShape kKindShapes[] = {
     {interactions::ToolKind::dissector, dissector_parts},
     {interactions::ToolKind::bag, bag_parts},
     {interactions::ToolKind::injection_needle, injection_needle_parts},
+    {interactions::ToolKind::endoloop, endoloop_parts},
 };
 static_assert(std::size(kKindShapes) == std::size(interactions::kToolKinds), "a kind has no drawing");
 

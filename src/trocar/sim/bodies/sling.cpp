@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/interactions/objects/suture_sling_step.hpp>
+#include <trocar/sim/bodies/bodies.hpp>
+#include <trocar/sim/bodies/sling.hpp>
+#include <trocar/sim/bodies/vessel_wounds.hpp>
+#include <trocar/sim/bodies/views.hpp>
+#include <trocar/vessels/lumen.hpp>
+
+namespace trocar::sim {
+namespace {
+
+using interactions::SlingAround;
+using interactions::SlingHand;
+using interactions::SlingState;
+using interactions::Suture;
+
+constexpr double kNewOneWithin = 0.013;  // [m] of the tube's end in the body: another loop can be put in
+constexpr double kTightFrom = 0.0002;    // [m] that a loop has sunk in: it holds
+constexpr double kLoopCloses = double(vessels::LumenGraph{}.closing_cover);
+enum Was : std::int32_t { kWasClosed = 1, kWasTight = 2 };
+
+const interactions::SutureModels& models_of(const StepContext& c) noexcept {
+  return interactions::part_of<Suture>(c.model.objects);
+}
+Suture::States& states_of(StepContext& c) noexcept { return interactions::part_of<Suture>(c.state.objects); }
+interactions::SutureWorks& works_of(StepContext& c) noexcept { return interactions::part_of<Suture>(c.work.objects); }
+
+bool brings_slings(const StepContext& c, std::size_t hand) noexcept { return c.model.tool(c.state, hand).can().sling; }
+
+/// The sling that the hand has, -1: none.
+int sling_of(const StepContext& c, std::size_t hand) noexcept {
+  const auto& states = interactions::part_of<Suture>(c.state.objects);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const SlingState& g = states[i].sling;
+    if (g.hand == std::int32_t(hand) && g.stage > SlingState::packed && g.stage < SlingState::left) return int(i);
+  }
+  return -1;
+}
+bool has_left_one(const StepContext& c, std::size_t hand) noexcept {
+  const auto& states = interactions::part_of<Suture>(c.state.objects);
+  return std::any_of(states.begin(), states.end(), [&](const interactions::SutureState& s) {
+    return s.sling.stage == SlingState::left && s.sling.hand == std::int32_t(hand);
+  });
+}
+
+/// A hand that has left its loop takes another one at its trocar.
+void take_next(StepContext& c, std::size_t hand) noexcept {
+  if (has_left_one(c, hand) && c.state.tools[hand].depth > kNewOneWithin) return;
+  for (std::size_t i = 0; i < models_of(c).list.size(); ++i) {
+    if (!models_of(c).list[i].sling.there() || states_of(c)[i].sling.stage != SlingState::packed) continue;
+    interactions::take_sling(models_of(c).list[i], std::int32_t(hand), states_of(c)[i]);
+    return;
+  }
+}
+
+SlingHand hand_of(const StepContext& c, std::size_t t) noexcept {
+  const kinematics::TipFrame& frame = c.work.shapes[t].frame;
+  const interactions::ToolModel& tool = c.model.tool(c.state, t);
+  const double aperture = interactions::aperture_of(tool.linkage, c.state.tools[t].handle);
+  SlingHand hand;
+  hand.hand = std::int32_t(t);
+  hand.mouth = {frame.tip, frame.axis(), frame.normal()};
+  hand.depth = c.state.tools[t].depth;
+  hand.drawn = 1 - aperture;
+  hand.most = tool.pinch_max * hand.drawn * interactions::leverage_at(tool.linkage, aperture);
+  return hand;
+}
+
+double cover_at(const StepContext& c, const SlingAround& a) noexcept {
+  const tissue::StrandModel& m = c.model.strand_bodies[std::size_t(a.strand)].model;
+  return interactions::cover_of_loop(m.radius[std::size_t(a.element)], m.lumen[std::size_t(a.element)], a.radius);
+}
+
+void cut_through(StepContext& c, SlingState& g, SlingAround& a) noexcept {
+  const StrandRef strand{std::size_t(a.strand)};
+  a.cutting = 0;
+  if (!c.state.strands[strand.index].alive[std::size_t(a.element)]) return;
+  open_vessels(c, strand.id(), cut(c, strand, a.element), g.hand);
+  tell(c, Event::loop_cut, std::max(0, g.hand), strand.id());
+  g.was_closed = 0;
+}
+
+void watch(StepContext& c, SlingState& g) noexcept {
+  std::int32_t is = 0;
+  BodyId body;
+  for (std::int32_t k = 0; k < g.around_count; ++k) {
+    SlingAround& a = g.around[std::size_t(k)];
+    if (a.squeeze > kTightFrom) is |= kWasTight;
+    if (cover_at(c, a) >= kLoopCloses) {
+      if (!(g.was_closed & kWasClosed))
+        tell(c, Event::loop_tightened, std::max(0, g.hand), BodyId::strand(std::size_t(a.strand)));
+      is |= kWasClosed;
+    }
+    g.last = a.strand;
+    if (a.cutting >= kCutsAfter) return cut_through(c, g, a);
+  }
+  if (g.was_closed != 0 && g.around_count == 0 && g.last >= 0)
+    tell(c, Event::loop_slipped, std::max(0, g.hand), BodyId::strand(std::size_t(g.last)));
+  if ((g.was_closed & kWasClosed) && !(is & kWasClosed) && g.around_count > 0)
+    tell(c, Event::loop_loosened, std::max(0, g.hand), BodyId::strand(std::size_t(g.last)));
+  g.was_closed = is;
+}
+
+/// Blades, or too much of a pull, have parted its thread: the rest goes back into the tube.
+void notice_cut(StepContext& c, std::size_t i) noexcept {
+  const interactions::SutureModel& m = models_of(c).list[i];
+  interactions::SutureState& s = states_of(c)[i];
+  const int e = interactions::parted_element(m, s);
+  if (e < 0) return;
+  interactions::cut_sling(m, e, s);
+  int hand = std::max(0, s.sling.hand);
+  for (std::size_t t = 0; t < c.model.hands.size(); ++t)
+    if (c.model.tool(c.state, t).can().cut) hand = int(t);
+  tell(c, Event::thread_cut, hand, BodyId(BodyKind::suture, i));
+}
+
+}  // namespace
+
+bool has_slings(const Model& model) noexcept {
+  const auto& list = interactions::part_of<Suture>(model.objects).list;
+  return std::any_of(list.begin(), list.end(), [](const interactions::SutureModel& m) { return m.sling.there(); });
+}
+
+void rest_slings(StepContext& c) noexcept {
+  if (!has_slings(c.model)) return;
+  interactions::strangle(models_of(c), {c.model.strand_bodies, c.state.strands, {}, {}}, c.state.tick, kTick,
+                         states_of(c), works_of(c), {c.work.strand_loads, {}, {}});
+}
+
+void lead_slings(StepContext& c) noexcept {
+  if (!has_slings(c.model)) return;
+  for (std::size_t i = 0; i < states_of(c).size(); ++i) {
+    if (!models_of(c).list[i].sling.there()) continue;
+    notice_cut(c, i);
+    const SlingState& g = states_of(c)[i].sling;
+    const bool had = g.stage > SlingState::packed && g.stage < SlingState::left;
+    if (had && !brings_slings(c, std::size_t(g.hand)))
+      interactions::put_down_sling(models_of(c).list[i], states_of(c)[i]);
+  }
+  for (std::size_t t = 0; t < c.model.hands.size(); ++t) {
+    if (!brings_slings(c, t)) continue;
+    if (sling_of(c, t) < 0) take_next(c, t);
+    if (const int i = sling_of(c, t); i >= 0) works_of(c).list[std::size_t(i)].sling.hand = hand_of(c, t);
+  }
+}
+
+void watch_slings(StepContext& c) noexcept {
+  if (!has_slings(c.model)) return;
+  for (interactions::SutureState& s : states_of(c)) watch(c, s.sling);
+}
+
+bool bound_by_sling(const StepContext& c, std::size_t hand) noexcept {
+  const int i = sling_of(c, hand);
+  if (i < 0) return false;
+  const SlingState& g = interactions::part_of<Suture>(c.state.objects)[std::size_t(i)].sling;
+  return g.stage == SlingState::off || g.around_count > 0;
+}
+
+void lay_out_loops(const StepContext& c, std::span<vessels::Occlusion> out) noexcept {
+  std::fill(out.begin(), out.end(), vessels::Occlusion{});
+  std::size_t count = 0;
+  visit_loops(c.model, c.state, [&](const LoopClosure& loop) {
+    const interactions::StrandBody& body = c.model.strand_bodies[std::size_t(loop.strand)];
+    const double radius = body.model.radius[std::size_t(interactions::place_at(body, loop.s).element)];
+    for (std::size_t v = 0; v < c.model.vessels.list.size() && count < out.size(); ++v) {
+      const double s = place_within(c, loop.strand, v, loop.s);
+      if (s < 0) continue;
+      const vessels::FlowSegment& segment = c.model.vessels.flow.segments[v];
+      const double lumen = std::min(0.95 * radius, segment.radius + segment.taper * s);
+      out[count++] = {std::int32_t(v), s, interactions::cover_of_loop(radius, lumen, loop.radius)};
+    }
+  });
+}
+
+}  // namespace trocar::sim

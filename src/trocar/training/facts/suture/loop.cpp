@@ -1,0 +1,96 @@
+// Loops of slings on strands.
+#include <cmath>
+
+#include <trocar/training/facts/needs.hpp>
+#include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/loops.hpp>
+
+namespace trocar::training {
+namespace {
+
+std::optional<LoopSeen> on_strand(const Moment& m, const Arguments& a) {
+  return loop_on(m.model, m.state, a[0].index, 0);
+}
+const sim::MarkModel& mark_of(const sim::Model& model, const Arguments& a) {
+  return model.marks[size_t(model.targets[size_t(a[0].index)].index)];
+}
+Value closed(const Moment& m, const Arguments& a) {
+  const auto loop = on_strand(m, a);
+  return loop && loop->closes();
+}
+Value secured(const Moment& m, const Arguments& a) {
+  const auto loop = on_strand(m, a);
+  return loop && loop->closes() && loop->off;
+}
+Value at(const Moment& m, const Arguments& a) {
+  const auto loop = on_strand(m, a);
+  return loop ? Value(loop->closure.s) : kUnknown;
+}
+Value open_share(const Moment& m, const Arguments& a) {
+  const auto loop = on_strand(m, a);
+  return loop ? 1 - loop->closure.cover : 1.0;
+}
+Value stump(const Moment& m, const Arguments& a) {
+  const auto loop = on_strand(m, a);
+  return loop && loop->stump < 1e8 ? Value(loop->stump) : kUnknown;
+}
+Value pull(const Moment& m, const Arguments& a) {
+  const auto loop = on_strand(m, a);
+  return loop ? loop->pull : 0.0;
+}
+Value tension(const Moment& m, const Arguments& a) {
+  const auto loop = on_strand(m, a);
+  return loop ? loop->tension : 0.0;
+}
+Value to_mark(const Moment& m, const Arguments& a) {
+  const sim::MarkModel& mark = mark_of(m.model, a);
+  const auto loop = loop_on(m.model, m.state, mark.body, mark.s);
+  return loop ? Value(std::fabs(loop->closure.s - mark.s)) : kUnknown;
+}
+
+std::vector<Parameter> strand_parameter() { return {{"of", ArgumentKind::strand, "which tube"}}; }
+
+std::string refuses_mark(const sim::Model& model, const Arguments& a) {
+  const sim::VisibilityTarget& t = model.targets[size_t(a[0].index)];
+  const bool stripe = t.kind == sim::VisibilityTarget::mark && model.marks[size_t(t.index)].is_stripe();
+  return stripe ? "" : "expected a mark around a strand, got one that is elsewhere";
+}
+
+}  // namespace
+
+const Fact kLoopClosed{"loop.closed", strand_parameter(), 0, 1, "A loop lies around it that closes its lumen.",
+                       needs_sling,   &stateless<closed>, true};
+const Fact kLoopSecured{
+    "loop.secured", strand_parameter(), 0, 1, "The same, and the loop's tail has been cut: it stays by its knot.",
+    needs_sling,    &stateless<secured>, true};
+const Fact kLoopAt{"loop.at_mm",
+                   strand_parameter(),
+                   0,
+                   1000,
+                   "Where a loop lies around it, from its beginning. Unknown while none does.",
+                   needs_sling,
+                   &stateless<at>};
+const Fact kLoopToMark{"loop.to_mark_mm",
+                       {{"of", ArgumentKind::mark, "a mark around a strand"}},
+                       0,
+                       1000,
+                       "Along the strand from the mark's middle to the nearest loop. Unknown while none lies around it.",
+                       needs_sling,
+                       &stateless<to_mark>,
+                       false,
+                       &refuses_mark};
+const Fact kLoopOpenShare{"loop.open_share", strand_parameter(), 0, 1, "What a loop leaves of its lumen's width.",
+                          needs_sling,       &stateless<open_share>};
+const Fact kLoopStump{"loop.stump_mm",
+                      strand_parameter(),
+                      0,
+                      1000,
+                      "From a loop around it to its next end. Unknown while there is none.",
+                      needs_sling,
+                      &stateless<stump>};
+const Fact kLoopPull{"loop.pull_N", strand_parameter(), 0, 1000, "How hard a loop around it pulls at it as a whole.",
+                     needs_sling,   &stateless<pull>};
+const Fact kLoopTension{"loop.tension_N", strand_parameter(), 0, 1000, "Tension of a loop around it.", needs_sling,
+                        &stateless<tension>};
+
+}  // namespace trocar::training

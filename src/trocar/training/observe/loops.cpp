@@ -1,0 +1,38 @@
+#include <cmath>
+
+#include <trocar/training/observe/loops.hpp>
+
+namespace trocar::training {
+
+std::optional<LoopSeen> loop_on(const sim::Model& model, const sim::State& state, int strand, double s) {
+  std::optional<LoopSeen> nearest;
+  const interactions::StrandBody& body = model.strand_bodies[size_t(strand)];
+  sim::visit_loops(model, state, [&](const sim::LoopClosure& loop) {
+    if (loop.strand != strand) return;
+    if (nearest && std::fabs(nearest->closure.s - s) < std::fabs(loop.s - s)) return;
+    LoopSeen seen;
+    seen.closure = loop;
+    const interactions::SlingState& g = state.objects.sutures[size_t(loop.suture)].sling;
+    for (std::int32_t k = 0; k < g.around_count; ++k)
+      if (g.around[size_t(k)].strand == strand) seen.pull = length(g.around[size_t(k)].pull);
+    seen.tension = g.tension;
+    seen.off = g.stage == interactions::SlingState::left;
+    seen.stump =
+        interactions::free_end(body, state.strands[size_t(strand)], interactions::place_at(body, loop.s)).away;
+    nearest = seen;
+  });
+  return nearest;
+}
+
+int sling_of_hand(const sim::State& state, int hand) {
+  int left = -1;
+  for (size_t i = 0; i < state.objects.sutures.size(); ++i) {
+    const interactions::SlingState& g = state.objects.sutures[i].sling;
+    if (g.hand != hand || g.stage == interactions::SlingState::packed) continue;
+    if (g.stage != interactions::SlingState::left) return int(i);
+    left = int(i);
+  }
+  return left;
+}
+
+}  // namespace trocar::training

@@ -1,0 +1,160 @@
+// A loop of thread that a tube brings in: the box trainer's appendage of foam.
+#include <gtest/gtest.h>
+
+#include <trocar/sim/recording/keyframe.hpp>
+#include <trocar/training/observe/lumen_check.hpp>
+
+#include "shipped.hpp"
+#include "sling_driver.hpp"
+
+namespace trocar {
+namespace {
+
+constexpr double kEnd = 0.045, kPlace = 0.022;  // [m] along the appendage
+
+const sim::Model& box() { return shipped("box_loop"); }
+int right_hand() { return box().hand_index("right"); }
+
+/// Over the appendage and down to the place, once for all tests that go on from there.
+const SlingDriver& over() {
+  static const SlingDriver done = [] {
+    SlingDriver d(box(), right_hand());
+    d.put_over(0, kEnd, kPlace);
+    return d;
+  }();
+  return done;
+}
+/// Drawn closed with 12 x 0.4 - 1 N.
+const SlingDriver& closed() {
+  static const SlingDriver done = [] {
+    SlingDriver d = over();
+    d.draw_closed(0, kPlace, 0.4, 6);
+    return d;
+  }();
+  return done;
+}
+/// The handle opened, the tube 30 mm back, the tail cut between knot and mouth.
+const SlingDriver& left() {
+  static const SlingDriver done = [] {
+    SlingDriver d = closed();
+    d.grip(0, 0.5);
+    d.rest(0.5);
+    d.move(d.tip() + 0.03 * normalised(d.port() - d.tip()), 0.02);
+    d.rest(0.5);
+    suture::cut(d.model().thread, d.state.objects.sutures[0].thread, 0.5 * (d.sling().knot + d.sling().fed));
+    d.rest(0.5);
+    return d;
+  }();
+  return done;
+}
+double place_of(const SlingDriver& d) {
+  const interactions::SlingAround& a = d.sling().around[0];
+  return interactions::arc_at(box().strand_bodies[0], {a.element, a.w});
+}
+double cover_of(const SlingDriver& d) {
+  double cover = 0;
+  sim::visit_loops(box(), d.state, [&](const sim::LoopClosure& loop) { cover = std::max(cover, loop.cover); });
+  return cover;
+}
+/// The appendage parted so far beyond the loop.
+SlingDriver with_stump(double length) {
+  SlingDriver d = left();
+  const interactions::StrandBody& body = box().strand_bodies[0];
+  int e = d.sling().around[0].element + 1;
+  while (body.arc[size_t(e)] < place_of(d) + length - 0.00075) ++e;
+  d.state.strands[0].alive[size_t(e)] = 0;
+  d.rest(1.5);
+  return d;
+}
+
+TEST(Sling, StandsOpenAsItIsBentByItself) {
+  SlingDriver d(box(), right_hand());
+  d.move({0.052, 0.055, -0.008});
+  d.grip(0, 0.3);
+  d.rest(3.5);
+  ASSERT_EQ(d.sling().stage, interactions::SlingState::open);
+  EXPECT_NEAR(d.sling().fed, box().objects.sutures.list[0].sling.loop, 1e-9);
+  const interactions::SlingMouth& mouth = d.sling().mouth;
+  double ahead = 0, wide = 0, off = 0;
+  for (int n = 0; n * d.model().thread.spacing < d.sling().knot; ++n) {
+    const Vec3d p = d.suture().thread.x[size_t(n)] - mouth.tip;
+    ahead = std::max(ahead, dot(p, mouth.axis));
+    wide = std::max(wide, std::fabs(dot(p, mouth.up)));
+    off = std::max(off, std::fabs(dot(p, cross(mouth.axis, mouth.up))));
+  }
+  EXPECT_NEAR(ahead, 0.075, 0.002);
+  EXPECT_NEAR(wide, 0.024, 0.002);
+  EXPECT_LT(off, 0.004);  // its own weight
+}
+
+TEST(Sling, LedOverAFreeEndItLiesAroundTheAppendageAndPressesOnNothing) {
+  ASSERT_EQ(over().sling().around_count, 1);
+  EXPECT_LT(over().sling().tension, 0.05);
+  EXPECT_EQ(cover_of(over()), 0);
+}
+
+TEST(Sling, ClosesTheLumenByTheSameRuleAsClips) {
+  EXPECT_GE(cover_of(closed()), 0.98);
+  EXPECT_EQ(closed().told(sim::Event::loop_tightened), 1);
+  training::LumenCheck check(box(), 0, 0.98);
+  check.update(box(), over().state);
+  EXPECT_FALSE(check.occluded());
+  check.update(box(), closed().state);
+  EXPECT_TRUE(check.occluded());
+}
+
+TEST(Sling, ClosesWhereItsKnotIsHeld) { EXPECT_NEAR(place_of(closed()), kPlace, 0.001); }
+
+TEST(Sling, ItsKnotTakesANewtonToSlideForward) {
+  const double rod = 12 * 0.4;
+  EXPECT_NEAR(closed().sling().tension, rod - 1, 0.4);
+}
+
+TEST(Sling, CutsThroughAtEightNewtonsAndNotAtSix) {
+  SlingDriver six = over(), more = over();
+  six.draw_closed(0, kPlace, 0.58, 8);
+  EXPECT_NEAR(six.sling().tension, 6, 0.5);
+  EXPECT_EQ(six.told(sim::Event::loop_cut), 0);
+  more.draw_closed(0, kPlace, 0.8, 8);
+  EXPECT_EQ(more.told(sim::Event::loop_cut), 1);
+}
+
+TEST(Sling, StaysWithItsKnotWhenTheTailIsCut) {
+  EXPECT_EQ(left().sling().stage, interactions::SlingState::left);
+  EXPECT_EQ(left().told(sim::Event::thread_cut), 1);
+  EXPECT_EQ(left().told(sim::Event::loop_loosened), 0);
+  EXPECT_NEAR(place_of(left()), kPlace, 0.001);
+  EXPECT_GE(cover_of(left()), 0.98);
+  EXPECT_LT(left().sling().knot - closed().sling().knot, 0.0002);
+}
+
+TEST(Sling, StaysOnAStumpOfSixMillimetres) {
+  const SlingDriver d = with_stump(0.006);
+  EXPECT_EQ(d.told(sim::Event::loop_slipped), 0);
+  ASSERT_EQ(d.sling().around_count, 1);
+  EXPECT_GE(cover_of(d), 0.98);
+}
+
+TEST(Sling, SlipsOffAStumpOfTwoMillimetresByItself) {
+  const SlingDriver d = with_stump(0.002);
+  EXPECT_EQ(d.told(sim::Event::loop_slipped), 1);
+  EXPECT_EQ(d.sling().around_count, 0);
+}
+
+TEST(Sling, ItsInstrumentIsNotExchangedWhileTheLoopLiesAroundSomething) {
+  SlingDriver d = closed();
+  const std::int32_t had = d.state.tools[size_t(right_hand())].instrument;
+  d.input.tools[right_hand()].instrument = had == 0 ? 1 : 0;
+  d.rest(1);
+  EXPECT_EQ(d.state.tools[size_t(right_hand())].instrument, had);
+}
+
+TEST(Sling, TheSameInputsGiveTheSameBits) {
+  SlingDriver a = closed(), b = closed();
+  b.work = sim::make_work(box());
+  a.rest(0.2), b.rest(0.2);
+  EXPECT_EQ(sim::hash_of(a.state), sim::hash_of(b.state));
+}
+
+}  // namespace
+}  // namespace trocar
