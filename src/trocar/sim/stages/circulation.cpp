@@ -144,7 +144,8 @@ void lay_out(StepContext& c) noexcept {
   }
   const std::span<vessels::Occlusion> closed(c.work.closed);
   const size_t narrow = c.model.injection.there() ? 2 * c.model.vessels.list.size() : 0;
-  lay_out_seals(s, closed.subspan(interactions::kMaxVesselClips).first(closed.size() - narrow - interactions::kMaxVesselClips));
+  lay_out_seals(
+      s, closed.subspan(interactions::kMaxVesselClips).first(closed.size() - narrow - interactions::kMaxVesselClips));
   if (narrow > 0) lay_out_blanching(c, closed.last(narrow));
   for (size_t i = 0; i < size_t(interactions::kMaxVesselClips); ++i) {
     vessels::Occlusion& out = c.work.closed[i];
