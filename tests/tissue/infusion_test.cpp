@@ -1,5 +1,5 @@
-// Fluid in a lattice: nothing is lost, it makes as much room as it is, and it lifts the surface as the closed form of an
-// expanding point below a free surface has it [Mogi 1958; Mindlin & Cheng 1950].
+// Fluid in a lattice: nothing is lost, it makes as much room as it is, and it lifts the surface as the closed form of
+// an expanding point below a free surface has it [Mogi 1958; Mindlin & Cheng 1950].
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -49,8 +49,7 @@ struct InfusedQuarter {
   }
 
   NetworkDescription description() const {
-    NetworkDescription d =
-        lattice_network(box.corners, box.cells, {}, {.youngs_modulus = kE, .density = 1000}).network;
+    NetworkDescription d = lattice_network(box.corners, box.cells, {}, {.youngs_modulus = kE, .density = 1000}).network;
     d.fixed.assign(d.positions.size(), kFree);
     const double side = n * h, close = 1e-9 * side;
     for (size_t i = 0; i < d.fixed.size(); ++i) {
@@ -69,8 +68,8 @@ struct InfusedQuarter {
     const double R1 = std::sqrt(r2 + (z - c) * (z - c)), R2 = std::sqrt(r2 + (z + c) * (z + c));
     const double i1 = 1 / (R1 * R1 * R1), i2 = 1 / (R2 * R2 * R2), i5 = i2 / (R2 * R2), k = 3 - 4 * kNu;
     const double out = a * (i1 + k * i2 - 6 * z * (z + c) * i5);
-    const double down = a * ((z - c) * i1 + k * (z + c) * i2 - 6 * z * (z + c) * (z + c) * i5 -
-                             2 * i2 * (k * (z + c) - z));
+    const double down =
+        a * ((z - c) * i1 + k * (z + c) * i2 - 6 * z * (z + c) * (z + c) * i5 - 2 * i2 * (k * (z + c) - z));
     return {out * p.x, out * p.y, -down};
   }
   double mogi(double r) const { return (1 - kNu) * volume * depth / (kPi * std::pow(r * r + depth * depth, 1.5)); }
@@ -122,7 +121,8 @@ TEST(Infusion, MakesAsMuchRoomAsHasFlowedIn) {  // [injected volume]
 }
 
 TEST(Infusion, NeedsThePressureOfAnExpandingRegionInASkeletonOfSprings) {  // [pore pressure]
-  // P = (K + 4 G / 3) theta, far from all surfaces. Cells of 2.3 mm; with 3 mm it is 11 % off in the middle, 1 % in all.
+  // P = (K + 4 G / 3) theta, far from all surfaces. Cells of 2.3 mm; with 3 mm it is 11 % off in the middle, 1 % in
+  // all.
   InfusedQuarter q(26, 0.060, 0.030, 0.05e-6);
   q.bring(1, 5e-3);
   q.ticks(1500);

@@ -21,12 +21,13 @@
 namespace trocar::interactions {
 
 inline constexpr double kPointStiffness = 1000;  ///< [N/m]
-inline constexpr double kGroundBevel = 0.35;     ///< g, of what a tissue's `puncture_N` is for a suture's needle. Our choice
-inline constexpr double kCarriedOver = 0.006;    ///< [m] of skin about the point that carries it.          Our choice
-inline constexpr double kShaftStiffness = 600;   ///< [N/m] of the skin on the needle.                       Our choice
-inline constexpr double kNeedleDrag = 50;        ///< [N/m] that a length in the tissue bears
-inline constexpr double kPointFound = 0.008;     ///< [m] how far a point looks for a skin
-inline constexpr double kTornOut = 0.015;        ///< [m] the skin's point off the needle: it has come out
+inline constexpr double kGroundBevel =
+    0.35;  ///< g, of what a tissue's `puncture_N` is for a suture's needle. Our choice
+inline constexpr double kCarriedOver = 0.006;   ///< [m] of skin about the point that carries it.          Our choice
+inline constexpr double kShaftStiffness = 600;  ///< [N/m] of the skin on the needle.                       Our choice
+inline constexpr double kNeedleDrag = 50;       ///< [N/m] that a length in the tissue bears
+inline constexpr double kPointFound = 0.008;    ///< [m] how far a point looks for a skin
+inline constexpr double kTornOut = 0.015;       ///< [m] the skin's point off the needle: it has come out
 
 /// Where a needle is in space.
 struct NeedleLine {

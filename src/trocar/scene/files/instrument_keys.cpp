@@ -137,7 +137,8 @@ void check_instrument(const JsonObject& o, Instrument& i, Context&) {
     o.fault("electrode", fmt::format("expected an electrode only in a {}, got one in a {}",
                                      kinds_that(&Abilities::coagulate), kind));
   if (o.has("needle") && o.has("kind") && !i.can().inject)
-    o.fault("needle", fmt::format("expected a needle only in a {}, got one in a {}", kinds_that(&Abilities::inject), kind));
+    o.fault("needle",
+            fmt::format("expected a needle only in a {}, got one in a {}", kinds_that(&Abilities::inject), kind));
   if (i.parallel_gap > 0 && i.opening > 0)
     o.fault("opening_deg", "expected 0 or nothing beside parallel_gap_mm (jaws turn or stay parallel), got an angle");
   if (o.has("mechanism") && o.has("opening_deg"))

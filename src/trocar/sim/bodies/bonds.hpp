@@ -18,7 +18,8 @@ int sever_bonds(StepContext& context, const geometry::Blade& blade) noexcept;
 void burn_bonds(StepContext& context, Vec3d electrode, double dt) noexcept;
 
 /// Fluid that has been injected near a plane loosens what bridges it: oedema between wall and bed.
-/// @param at  the needle's point [m]; @param volume  that has come in this time [m^3]; @param spread  sigma of where [m]
+/// @param at  the needle's point [m]; @param volume  that has come in this time [m^3]; @param spread  sigma of where
+/// [m]
 void loosen_bonds(StepContext& context, Vec3d at, double volume, double spread) noexcept;
 
 /// Blood that oozes into the film on an organ where bonds of a set have been torn or cut off it. One bond after the

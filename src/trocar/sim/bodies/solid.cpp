@@ -49,10 +49,9 @@ void advance(StepContext& c, SolidRef s) noexcept {
   carry_held_nodes(c, s);
   before_network(c, s);
   const tissue::Hands hands = loads.handled() ? tissue::Hands::on : tissue::Hands::off;
-  c.work.organ_reports[s.organ()] =
-      tissue::advance(model_of(c.model, s).network, loads.sorted, loads.reaction, c.state.solids[s.index],
-                      c.work.solid_work[s.index], nullptr, hands, c.work.organ_scars[s.organ()],
-                      pushed_from_within(c, s.organ()));
+  c.work.organ_reports[s.organ()] = tissue::advance(model_of(c.model, s).network, loads.sorted, loads.reaction,
+                                                    c.state.solids[s.index], c.work.solid_work[s.index], nullptr, hands,
+                                                    c.work.organ_scars[s.organ()], pushed_from_within(c, s.organ()));
   after_network(c, s);
   settle_held_nodes(c, s);
 }

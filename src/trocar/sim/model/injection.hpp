@@ -1,6 +1,7 @@
 // What needles inject: where each point is, what it has given and taken, what lies in organs, and the account of it.
 //
-//   injected = in the tissue + taken up by vessels + leaked + injected into vessels + spilled           [injection account]
+//   injected = in the tissue + taken up by vessels + leaked + injected into vessels + spilled           [injection
+//   account]
 //
 // to the picolitre, at every tick. What leaks and spills goes on into the fluids' account, where a scene has fluids.
 #pragma once
@@ -16,7 +17,7 @@ namespace trocar::sim {
 
 /// What of an organ needles have to do with.
 struct PiercedOrgan {
-  double puncture = 0;           ///< force at which its skin gives way [N]; 0: no needle gets in
+  double puncture = 0;             ///< force at which its skin gives way [N]; 0: no needle gets in
   tissue::InfusionModel infusion;  ///< of lattices; others take nothing up
 
   template <class S, class V>
@@ -57,7 +58,7 @@ struct NeedleHand {
   std::int64_t blood = 0;         ///< drawn since the point went in [pL]
   std::int32_t vessel = -1;       ///< that its point is in
   std::int32_t pushing = 0;       ///< 1: it was injecting in the last tick
-  std::int32_t punctures = 0;         ///< punctures so far
+  std::int32_t punctures = 0;     ///< punctures so far
   std::int32_t changes = 0;       ///< ToolState::changes of the instrument that this is
 
   bool in() const noexcept { return entry.body.exists(); }
@@ -65,11 +66,11 @@ struct NeedleHand {
   static constexpr bool kAsBytes = true;
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("entry", s.entry), v("touch", s.touch), v("at", s.at), v("anchor", s.anchor), v("depth", s.depth), v("press", s.press),
-        v("rate", s.rate), v("flow", s.flow), v("tip_pressure", s.tip_pressure), v("plunger", s.plunger),
-        v("carry", s.carry), v("carry_drawn", s.carry_drawn), v("drawn_for", s.drawn_for), v("checked", s.checked),
-        v("left", s.left), v("pending", s.pending), v("here", s.here), v("blood", s.blood), v("vessel", s.vessel),
-        v("pushing", s.pushing), v("punctures", s.punctures), v("changes", s.changes);
+    v("entry", s.entry), v("touch", s.touch), v("at", s.at), v("anchor", s.anchor), v("depth", s.depth),
+        v("press", s.press), v("rate", s.rate), v("flow", s.flow), v("tip_pressure", s.tip_pressure),
+        v("plunger", s.plunger), v("carry", s.carry), v("carry_drawn", s.carry_drawn), v("drawn_for", s.drawn_for),
+        v("checked", s.checked), v("left", s.left), v("pending", s.pending), v("here", s.here), v("blood", s.blood),
+        v("vessel", s.vessel), v("pushing", s.pushing), v("punctures", s.punctures), v("changes", s.changes);
   }
 };
 static_assert(sizeof(NeedleHand) == 2 * sizeof(interactions::SkinPlace) + 3 * 8 + 10 * 8 + 3 * 8 + 4 * 8 + 4 * 4,
@@ -78,9 +79,9 @@ static_assert(sizeof(NeedleHand) == 2 * sizeof(interactions::SkinPlace) + 3 * 8 
 /// A way that a needle has left. No padding.
 struct NeedleTrack {
   interactions::SkinPlace at;
-  std::uint64_t tick = 0;    ///< when it was drawn out
-  double carry = 0;          ///< [pL] below a whole one
-  std::int64_t leaked = 0;   ///< so far [pL]
+  std::uint64_t tick = 0;   ///< when it was drawn out
+  double carry = 0;         ///< [pL] below a whole one
+  std::int64_t leaked = 0;  ///< so far [pL]
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>
@@ -110,10 +111,10 @@ struct InjectionAccount {
 
 /// All empty in scenes without an injection needle.
 struct InjectionState {
-  std::vector<NeedleHand> hands;               ///< (hands)
-  std::vector<tissue::InfusionState> organs;   ///< (organs) empty ones where nothing is taken up
-  std::vector<std::int64_t> given;             ///< (organs) injected into each [pL]
-  std::vector<NeedleTrack> tracks;             ///< (kMaxTracks)
+  std::vector<NeedleHand> hands;              ///< (hands)
+  std::vector<tissue::InfusionState> organs;  ///< (organs) empty ones where nothing is taken up
+  std::vector<std::int64_t> given;            ///< (organs) injected into each [pL]
+  std::vector<NeedleTrack> tracks;            ///< (kMaxTracks)
   std::int32_t track_count = 0;
   std::int32_t reserved = 0;
   InjectionAccount account;

@@ -30,11 +30,11 @@ struct Bleed {
 
 /// Fluid of needles that comes into the open in this tick.
 struct NeedleOutlet {
-  Vec3d place;                  ///< [m]
-  Vec3d direction{0, 0, 1};     ///< unit
-  double area = 0;              ///< [m^2]
+  Vec3d place;               ///< [m]
+  Vec3d direction{0, 0, 1};  ///< unit
+  double area = 0;           ///< [m^2]
   std::int64_t picolitres = 0;
-  std::int32_t film = -1;       ///< >= 0: it runs out over the skin there
+  std::int32_t film = -1;  ///< >= 0: it runs out over the skin there
 };
 inline constexpr std::int32_t kMaxNeedleOutlets = 12;
 
@@ -116,8 +116,8 @@ struct Work {
         v("vessel_posed", s.vessel_posed), v("flow", s.flow), v("open", s.open), v("closed", s.closed),
         v("flows", s.flows), v("walls", s.walls), v("busy", s.busy), v("impact_at", s.impact_at), v("bleeds", s.bleeds),
         v("bleed_count", s.bleed_count), v("heat", s.heat), v("heat_sources", s.heat_sources), v("steam", s.steam),
-        v("current_flows", s.current_flows), v("fluids", s.fluids), v("wet", s.wet), v("infusion", s.infusion), v("needle_outlets", s.needle_outlets),
-        v("needle_outlet_count", s.needle_outlet_count), v("wounds", s.wounds),
+        v("current_flows", s.current_flows), v("fluids", s.fluids), v("wet", s.wet), v("infusion", s.infusion),
+        v("needle_outlets", s.needle_outlets), v("needle_outlet_count", s.needle_outlet_count), v("wounds", s.wounds),
         v("wet_tools", s.wet_tools), v("valves", s.valves), v("nodes", s.nodes), v("cuttable_skins", s.cuttable_skins),
         v("skins", s.skins, core::kMadeOnce), v("organ_order", s.organ_order, core::kMadeOnce),
         v("strand_order", s.strand_order, core::kMadeOnce), v("membrane_order", s.membrane_order, core::kMadeOnce),

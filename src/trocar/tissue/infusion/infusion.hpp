@@ -9,8 +9,8 @@
 // much room as has flowed in, whatever the law of the springs and however near the surface. It follows with tau, as the
 // body's own motion is far quicker than a syringe. Infinite linear tissue: P = (K + 4 G / 3) theta.
 // A cavity opens in soft tissue at 5 E / 6 [Gent & Lindley 1959]; no pressure is higher.
-// What goes in spreads as a Gaussian about the tip whose width grows with what is there, so that no more than a third of
-// the tissue's own volume lies in it; a node that is full takes none. All amounts are integers: none is lost.
+// What goes in spreads as a Gaussian about the tip whose width grows with what is there, so that no more than a third
+// of the tissue's own volume lies in it; a node that is full takes none. All amounts are integers: none is lost.
 //
 //   InfusionModel model = infusion_of(network, 30e3);
 //   InfusionState state = dry(model);
@@ -73,8 +73,8 @@ struct InfusionWork {
 };
 InfusionWork make_work(const InfusionModel& model);
 
-inline constexpr double kFullest = 0.5;   ///< a node holds so much of its room.                 Our choice
-inline constexpr double kMeant = 0.3;     ///< the middle of a fresh Gaussian.                   Our choice
+inline constexpr double kFullest = 0.5;     ///< a node holds so much of its room.                 Our choice
+inline constexpr double kMeant = 0.3;       ///< the middle of a fresh Gaussian.                   Our choice
 inline constexpr double kNarrowest = 3e-3;  ///< sigma of what little has flowed [m].            Our choice
 
 /// sigma of the Gaussian that holds `volume` [m^3] with kMeant in its middle, at least kNarrowest.         [m]

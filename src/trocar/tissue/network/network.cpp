@@ -94,8 +94,8 @@ void push_steadily(const KernelArgs& a, std::span<const Vec3f> steady) noexcept 
 }  // namespace
 
 StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::span<Vec3f> reactions, NetworkState& s,
-                   NetworkWork& w, core::ThreadPool* pool, Hands hands,
-                   std::span<const ScarredSpring> springs, std::span<const Vec3f> steady) noexcept {
+                   NetworkWork& w, core::ThreadPool* pool, Hands hands, std::span<const ScarredSpring> springs,
+                   std::span<const Vec3f> steady) noexcept {
   LoadedBody body = loaded_body(m);
   StepReport report = check_loads(body, loads);
   ScarredSprings scars(body, springs, w.scars);

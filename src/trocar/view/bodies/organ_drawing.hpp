@@ -58,14 +58,14 @@ class OrganDrawing {
     std::uint32_t at = 0, before = 0, after = 0;
   };
   std::vector<RimVertex> m_rim;
-  std::vector<std::uint8_t> m_parted;  ///< as drawn
-  std::vector<WoundVertex> m_wound;    ///< they follow the skin's vertices in the mesh
-  std::vector<Paint> m_paint;          ///< of the skin
+  std::vector<std::uint8_t> m_parted;    ///< as drawn
+  std::vector<WoundVertex> m_wound;      ///< they follow the skin's vertices in the mesh
+  std::vector<Paint> m_paint;            ///< of the skin
   std::vector<std::uint8_t> m_own_tint;  ///< of its paint, where it is not blanched; empty: it never was
-  MeshBuffer m_open;                   ///< skin and wounds, where there are any
-  std::vector<float> m_height;         ///< relief; empty: none
-  tissue::Box m_box;                   ///< of the drawn vertices
-  bool m_dented = false;               ///< as drawn
+  MeshBuffer m_open;                     ///< skin and wounds, where there are any
+  std::vector<float> m_height;           ///< relief; empty: none
+  tissue::Box m_box;                     ///< of the drawn vertices
+  bool m_dented = false;                 ///< as drawn
   std::uint64_t m_version = 1;
   Moved m_moved;
   OwnedMesh m_mesh;

@@ -99,9 +99,13 @@ const Parameter kInfusedOrgan{"of", ArgumentKind::body, "which organ"};
 
 }  // namespace
 
-const Fact kNeedleDepth{"needle.depth_mm", {kWhoseNeedle}, -30, 60,
+const Fact kNeedleDepth{"needle.depth_mm",
+                        {kWhoseNeedle},
+                        -30,
+                        60,
                         "How deep a needle's point is below the nearest skin. Unknown while it is in no organ.",
-                        needs_syringe, &stateless<point_depth>};
+                        needs_syringe,
+                        &stateless<point_depth>};
 const Fact kNeedleIn{"needle.in",
                      {kWhoseNeedle, {"of", ArgumentKind::body, "which organ; any", false}},
                      0,
@@ -110,28 +114,55 @@ const Fact kNeedleIn{"needle.in",
                      needs_syringe,
                      &stateless<point_in>,
                      true};
-const Fact kNeedlePlunger{"needle.plunger_N", {kWhoseNeedle}, -200, 200,
-                          "The force on the plunger: pressing above 0, drawing below.", needs_syringe,
+const Fact kNeedlePlunger{"needle.plunger_N",
+                          {kWhoseNeedle},
+                          -200,
+                          200,
+                          "The force on the plunger: pressing above 0, drawing below.",
+                          needs_syringe,
                           &stateless<plunger_force>};
-const Fact kNeedleLeft{"needle.left_mL", {kWhoseNeedle}, 0, 100, "What is left in the syringe.", needs_syringe,
-                       &stateless<syringe_left>};
-const Fact kNeedleDrawn{"needle.drawn_s", {kWhoseNeedle}, 0, 3600,
+const Fact kNeedleLeft{"needle.left_mL", {kWhoseNeedle},          0, 100, "What is left in the syringe.",
+                       needs_syringe,    &stateless<syringe_left>};
+const Fact kNeedleDrawn{"needle.drawn_s",
+                        {kWhoseNeedle},
+                        0,
+                        3600,
                         "How long the plunger has been drawn where the point is now, within 3 mm. Unknown while it is "
                         "in no organ.",
-                        needs_syringe, &stateless<plunger_drawn>};
-const Fact kNeedleBlood{"needle.blood_mL", {kWhoseNeedle}, 0, 100, "Blood drawn since the point went in.", needs_syringe,
-                        &stateless<blood_drawn>};
-const Fact kInjectedVolume{"injected.volume_mL", {kInfusedOrgan}, 0, 1e3, "What has been injected into an organ.",
-                           needs_syringe, &stateless<injected_into>, false, &takes_nothing_up};
-const Fact kInjectedVessels{"injected.in_vessels_mL", {}, 0, 1e3, "What has been injected straight into vessels.",
-                            needs_syringe, &stateless<injected_in_vessels>};
-const Fact kInjectedSpilled{"injected.spilled_mL", {}, 0, 1e3,
-                            "What needles have let into the open: spilled, or run back along their ways.", needs_syringe,
+                        needs_syringe,
+                        &stateless<plunger_drawn>};
+const Fact kNeedleBlood{"needle.blood_mL", {kWhoseNeedle},         0, 100, "Blood drawn since the point went in.",
+                        needs_syringe,     &stateless<blood_drawn>};
+const Fact kInjectedVolume{"injected.volume_mL",
+                           {kInfusedOrgan},
+                           0,
+                           1e3,
+                           "What has been injected into an organ.",
+                           needs_syringe,
+                           &stateless<injected_into>,
+                           false,
+                           &takes_nothing_up};
+const Fact kInjectedVessels{
+    "injected.in_vessels_mL",       {}, 0, 1e3, "What has been injected straight into vessels.", needs_syringe,
+    &stateless<injected_in_vessels>};
+const Fact kInjectedSpilled{"injected.spilled_mL",
+                            {},
+                            0,
+                            1e3,
+                            "What needles have let into the open: spilled, or run back along their ways.",
+                            needs_syringe,
                             &stateless<spilled_by_needles>};
-const Fact kInjectedUnits{"injected.drug_IU", {}, 0, 1e5, "The drug that has left needles, wherever it went.",
-                          needs_syringe, &stateless<units_injected>};
-const Fact kInjectedBlanched{"injected.blanched_mm2", {kInfusedOrgan}, 0, 1e6,
-                             "The area of an organ's skin that has blanched, by half at least.", needs_syringe,
-                             &remembering<BlanchedSkin>, false, &takes_nothing_up};
+const Fact kInjectedUnits{
+    "injected.drug_IU",        {}, 0, 1e5, "The drug that has left needles, wherever it went.", needs_syringe,
+    &stateless<units_injected>};
+const Fact kInjectedBlanched{"injected.blanched_mm2",
+                             {kInfusedOrgan},
+                             0,
+                             1e6,
+                             "The area of an organ's skin that has blanched, by half at least.",
+                             needs_syringe,
+                             &remembering<BlanchedSkin>,
+                             false,
+                             &takes_nothing_up};
 
 }  // namespace trocar::training

@@ -7,9 +7,7 @@
 namespace trocar::training {
 namespace {
 
-const sim::NeedleHand& needle_in(const Operator& op, int hand) {
-  return op.state().injection.hands[size_t(hand)];
-}
+const sim::NeedleHand& needle_in(const Operator& op, int hand) { return op.state().injection.hands[size_t(hand)]; }
 
 /// The skin's vertex that was drawn nearest to a place.
 int vertex_near(const tissue::Skin& skin, Vec3d place) {
@@ -28,9 +26,7 @@ int vertex_near(const tissue::Skin& skin, Vec3d place) {
 class Pierce final : public Skill {
  public:
   Pierce(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()),
-        m_organ(given("of").body()),
-        m_depth(given.number("depth_mm", 0.003)) {
+      : m_hand(given.hand()), m_organ(given("of").body()), m_depth(given.number("depth_mm", 0.003)) {
     const Vec3d at{given.number("x_mm", 0), given.number("y_mm", 0), given.number("z_mm", 0)};
     m_vertex = vertex_near(model.solids[m_organ.index()].skin, at);
   }
