@@ -39,11 +39,13 @@ class Wrap final : public Skill {
         m_radius(given.number("radius_mm", 0.010)),
         m_ahead(given.number("ahead_mm", 0.003)),
         m_stand{given.number("x_mm", 0), given.number("y_mm", 0), given.number("z_mm", 0)},
+        m_back(given.number("back_mm", 0.02)),
         m_pull(given.number("pull_N", 0.3)) {}
 
  private:
-  enum Phase { kStand, kBegin, kTurn };
-  static constexpr double kPace = 0.025, kTighter = 0.02, kWider = 0.008, kLeast = 0.004;  // [m/s], [m]
+  enum Phase { kStand, kBegin, kTurn, kUp };
+  static constexpr double kPace = 0.025, kTighter = 0.02, kWider = 0.008, kLeast = 0.004,
+                          kLongest = 4;  // [m/s], [m], [s]
 
   void start(Operator&, int) override { m_angle = 0; }
   Progress work(Operator& op) override {
@@ -68,6 +70,12 @@ class Wrap final : public Skill {
       if (lead(op, m_centre + m_now * m_from, pace::kTravel)) go(kTurn);
       return Progress::working;
     }
+    if (m_phase == kUp) {
+      // what is wound slides up to the hinge, where it stays when the jaws are opened
+      const Vec3d up = normalised(m_up - dot(m_up, m_axis) * m_axis, m_from);
+      const bool there = lead(op, m_centre - m_back * m_axis + m_radius * up, pace::kCareful);
+      return there || m_in_phase > kLongest || strain_of(op) > 4 * m_pull ? Progress::done : Progress::working;
+    }
     const double taut = strain_of(op);
     if (taut > m_pull) m_now = std::max(kLeast, m_now - kTighter * sim::kTick);
     if (taut < 0.3 * m_pull) m_now = std::min(m_radius, m_now + kWider * sim::kTick);
@@ -75,7 +83,12 @@ class Wrap final : public Skill {
     if (taut < 4 * m_pull) m_angle = std::min(last, m_angle + kPace / m_now * sim::kTick);
     const Vec3d at = m_centre + m_now * (portable::cos(m_angle) * m_from + portable::sin(m_angle) * m_to);
     const bool there = lead(op, at, 2 * pace::kTravel);
-    return there && m_angle >= last ? Progress::done : Progress::working;
+    if (there && m_angle >= last) {
+      if (m_back <= 0) return Progress::done;
+      m_up = -normalised(op.model().gravity, {0, 0, -1});
+      go(kUp);
+    }
+    return Progress::working;
   }
   /// The place where the thread is held to there.
   bool lead(Operator& op, Vec3d to, double speed) {
@@ -87,8 +100,8 @@ class Wrap final : public Skill {
   int m_sense;
   double m_radius, m_ahead;
   Vec3d m_stand;
-  double m_pull, m_angle = 0, m_now = 0;
-  Vec3d m_axis, m_centre, m_from, m_to;
+  double m_back, m_pull, m_angle = 0, m_now = 0;
+  Vec3d m_axis, m_centre, m_from, m_to, m_up;
 };
 
 /// Open jaws around the thread's tail, then closed; the hand that holds the thread goes along.
@@ -98,15 +111,18 @@ class GraspTail final : public Skill {
       : m_hand(given.hand()),
         m_with(given("with").given ? given("with").index : -1),
         m_at(given.number("at_mm", 0.006)),
+        m_apart(given.number("apart_mm", 0)),
         m_open(given.number("open_to", 0.5)) {}
 
  private:
-  enum Phase { kReach, kEnter, kClose };
-  static constexpr double kInside = 0.7, kFeels = 0.3, kLongest = 4;  // of the jaws' length, [s]
+  enum Phase { kAway, kReach, kEnter, kClose };
+  static constexpr double kInside = 0.7, kFeels = 0.3, kLongest = 4, kThere = 0.001;  // of the jaws' length, [s], [m]
 
   void start(Operator& op, int tries) override {
     m_beside = 0.0015 * (tries % 3);
-    if (m_with >= 0) m_offset = op.arm(m_with).tip - op.arm(m_hand).tip;
+    if (m_with < 0) return go(kReach);
+    m_offset = op.arm(m_with).tip - op.arm(m_hand).tip;
+    m_offset += m_apart * normalised(op.arm(m_with).port - op.arm(m_with).tip);
   }
   /// As far as the hand that reaches, and nearer when the thread is taut.
   void follow(Operator& op) {
@@ -126,7 +142,9 @@ class GraspTail final : public Skill {
     op.want(p);
     op.want(op.arm(m_hand).tip);
     follow(op);
-    if (m_phase == kReach) {
+    if (m_phase == kAway) {  // the other hand draws back, so that its jaws are not within what is wound
+      if (length(op.arm(m_with).tip - op.arm(m_hand).tip - m_offset) < kThere || m_in_phase > kFeels + 2) go(kReach);
+    } else if (m_phase == kReach) {
       op.arms().turn_across(m_hand, runs);
       const bool open = op.arms().grip(m_hand, m_open, 0.8);
       if (op.arms().move(m_hand, tip - 0.014 * along, pace::kCareful) && open) go(kEnter);
@@ -142,7 +160,7 @@ class GraspTail final : public Skill {
   }
 
   int m_hand, m_with;
-  double m_at, m_open, m_beside = 0;
+  double m_at, m_apart, m_open, m_beside = 0;
   Vec3d m_offset;
 };
 
@@ -154,15 +172,17 @@ class PullThrow final : public Skill {
         m_with(given("with").index),
         m_way{given.number("x_mm", 0), given.number("y_mm", 0), given.number("z_mm", 0)},
         m_pull(given.number("pull_N", 1.5)),
-        m_back(given.number("back_mm", 0.03)),
+        m_back(given.number("back_mm", 0)),
+        m_other_back(given.number("with_back_mm", 0.015)),
         m_rest(given.number("for_s", 0.5)) {}
 
  private:
   enum Phase { kOff, kApart, kKeep, kLoosen };
-  static constexpr double kPace = 0.015, kFarthest = 0.10, kGive = 0.002;  // [m/s], [m]
+  static constexpr double kPace = 0.015, kFarthest = 0.08, kGive = 0.002, kLongest = 4;  // [m/s], [m], [s]
 
   void start(Operator& op, int) override {
     m_far = op.tool_state(m_hand).depth - m_back;
+    m_with_far = op.tool_state(m_with).depth - m_other_back;
     m_gone = 0;
     m_dir = normalised(m_way, {1, 0, 0});
   }
@@ -175,9 +195,11 @@ class PullThrow final : public Skill {
     op.want(op.arm(m_hand).tip);
     op.want(op.arm(m_with).tip);
     if (m_phase == kOff) {
-      if (pull_of(op, m_hand) > m_pull) return Progress::working;
-      if (op.arms().move_to_depth(m_hand, m_far, pace::kCareful)) go(kApart);
-      if (m_in_phase > 4) go(kApart);
+      // out of what is wound, each along its shaft
+      const bool taut = pull_of(op, m_hand) > m_pull || pull_of(op, m_with) > m_pull;
+      const bool there = op.arms().move_to_depth(m_hand, m_far, pace::kCareful);
+      const bool other = op.arms().move_to_depth(m_with, m_with_far, pace::kCareful);
+      if (taut || (there && other) || m_in_phase > kLongest) go(kApart);
       return Progress::working;
     }
     const double step = kPace * sim::kTick;
@@ -203,7 +225,7 @@ class PullThrow final : public Skill {
 
   int m_hand, m_with;
   Vec3d m_way;
-  double m_pull, m_back, m_rest, m_far = 0, m_gone = 0;
+  double m_pull, m_back, m_other_back, m_rest, m_far = 0, m_with_far = 0, m_gone = 0;
   Vec3d m_dir;
 };
 
@@ -226,6 +248,7 @@ const SkillKind kWrap{"wrap",
                        {"z_mm", ArgumentKind::number, "to the front", true, -1000, 1000},
                        number_parameter("radius_mm", "of the circle; 10", 3, 60),
                        number_parameter("ahead_mm", "of their tip that it lies; 3", -20, 40),
+                       number_parameter("back_mm", "towards their shaft that the thread is led in the end; 20", 0, 60),
                        number_parameter("pull_N", "the circle becomes smaller while the thread is pulled harder; 0.3",
                                         0.01, 10)},
                       30,
@@ -238,6 +261,7 @@ const SkillKind kGraspTail{
     {hand_parameter(),
      {"with", ArgumentKind::hand, "whose hand goes along, so that what is wound round the jaws stays there", false},
      number_parameter("at_mm", "from the thread's end; 6", 1, 100),
+     number_parameter("apart_mm", "that the other hand is drawn back before; 0", 0, 100),
      number_parameter("open_to", "how far the handle is closed before; 0.5", 0, 1)},
     20,
     "Puts open jaws around the thread near its free end and closes them.",
@@ -251,7 +275,8 @@ const SkillKind kPullThrow{"pull_throw",
                             {"y_mm", ArgumentKind::number, "towards the head", true, -1000, 1000},
                             {"z_mm", ArgumentKind::number, "to the front", true, -1000, 1000},
                             number_parameter("pull_N", "of either hand; 1.5", 0.1, 10),
-                            number_parameter("back_mm", "that the tail's hand is drawn back before; 30", 0, 150),
+                            number_parameter("back_mm", "that the tail's hand is drawn back before; 0", 0, 150),
+                            number_parameter("with_back_mm", "that the other one is; 15", 0, 150),
                             number_parameter("for_s", "how long they pull then; 0.5", 0, 10)},
                            30,
                            "Draws what is wound round the jaws over the tail, and both hands apart.",
