@@ -62,6 +62,7 @@ class Wrap final : public Skill {
         m_from = normalised(off - dot(off, m_axis) * m_axis, any_perpendicular(m_axis));
         m_to = double(m_sense) * cross(m_axis, m_from);
         m_now = m_radius;
+        m_up = -normalised(op.model().gravity, {0, 0, -1});
         go(kBegin);
       }
       return Progress::working;
@@ -81,11 +82,14 @@ class Wrap final : public Skill {
     if (taut < 0.3 * m_pull) m_now = std::min(m_radius, m_now + kWider * sim::kTick);
     const double last = 2 * portable::pi * m_turns;
     if (taut < 4 * m_pull) m_angle = std::min(last, m_angle + kPace / m_now * sim::kTick);
-    const Vec3d at = m_centre + m_now * (portable::cos(m_angle) * m_from + portable::sin(m_angle) * m_to);
+    const Vec3d out = portable::cos(m_angle) * m_from + portable::sin(m_angle) * m_to;
+    // beneath them its own shaft has to pass before their tips; above them the thread is laid towards their hinge
+    const Vec3d above = normalised(m_up - dot(m_up, m_axis) * m_axis, m_from);
+    const double back = 0.5 * m_back * (1 + dot(out, above));
+    const Vec3d at = m_centre + m_now * out - back * m_axis;
     const bool there = lead(op, at, 2 * pace::kTravel);
     if (there && m_angle >= last) {
       if (m_back <= 0) return Progress::done;
-      m_up = -normalised(op.model().gravity, {0, 0, -1});
       go(kUp);
     }
     return Progress::working;
