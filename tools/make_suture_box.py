@@ -84,6 +84,8 @@ def scene():
             "surface": {"file": "pad.obj"}, "cell_mm": EDGE, "skin_edge_mm": 2.0, "fine_edge_mm": 1.0,
             "anchors": anchors}], "walls": walls}],
         "marks": marks,
+        "variation": {"regions": [{"around": "pad", "near_mm": 60, "far_mm": 110, "shift_mm": 1.5}],
+                      "stiffness": 0.2},
         "instruments": ["../instruments/needle_holder.json", "../instruments/grasper.json",
                         "../instruments/scissors.json"],
         "ports": [{"name": "middle", "position_mm": [0, 0, 0], "diameter_mm": 10},
@@ -92,7 +94,8 @@ def scene():
         "tools": [{"instrument": "needle_holder", "port": "left", "tip_mm": [-30, 70, -45]},
                   {"instrument": "needle_holder", "port": "right", "tip_mm": [25, 78, -48]}],
         "sutures": [{"name": "suture", "size": "3-0", "make": "PDS", "length_mm": 120, "needle": "half_26",
-                     "held_by": "right", "grasped": 0.86, "line_mm": [[45, 120, -66], [65, 180, -72]]}],
+                     "held_by": "right", "grasped": 0.86, 
+                     "line_mm": [[45, 120, -66], [65, 180, -72]]}],
         "scope": {"port": "middle", "tip_mm": [0, 26, -24], "angle_deg": 0, "field_of_view_deg": 70,
                   "shaft_diameter_mm": 10, "shaft_length_mm": 310},
     }

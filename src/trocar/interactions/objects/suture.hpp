@@ -302,17 +302,49 @@ struct Suture {
   static void blend(const States& a, const States& b, double f, States& out) noexcept;
 };
 
+/// Nodes that follow each other, from the first to before the end.
+struct ThreadRun {
+  std::int32_t first = 0, end = 0;
+};
+/// Of all stretches of the thread between the jaws the one nearest to their tips: a hand holds one.
+template <class Inside>
+ThreadRun run_between(const SutureModel& m, const SutureState& s, const ToolModel& tool, const ToolShape& shape,
+                      Inside&& inside) noexcept {
+  const double near = tool.jaw_length + 0.005;
+  ThreadRun best, run;
+  double reached = -1, sum = 0;
+  const auto end_run = [&] {
+    const double mean = run.end > run.first ? sum / (run.end - run.first) : -1;
+    if (run.end > run.first + 1 && mean > reached) reached = mean, best = run;
+  };
+  for (std::int32_t n = 0; n < m.thread.nodes; ++n) {
+    if (m.sling.there() && s.sling.lies_in_tube(n * m.thread.spacing)) break;
+    const Vec3d off = s.thread.x[size_t(n)] - shape.pivot;
+    if (dot(off, off) >= near * near) continue;
+    const Vec3d local = to_jaw(shape, s.thread.x[size_t(n)]);
+    if (!inside(local)) continue;
+    if (n != run.end || run.end == run.first) end_run(), run = {n, n}, sum = 0;
+    run.end = n + 1;
+    sum += local.z;
+  }
+  end_run();
+  return best;
+}
+
 template <class Add>
 void Suture::between(const Models& models, const States& states, size_t i, const ToolModel& tool,
                      const ToolShape& shape, Add&& add) noexcept {
   constexpr double kBeside = 0.0003, kBeyond = 0.0005;  // [m]
   const SutureModel& m = models.list[i];
   const SutureState& s = states[i];
-  const auto offer = [&](std::int32_t place) {
-    const Vec3d local = to_jaw(shape, suture_place(m, s, place));
+  const auto inside = [&](Vec3d local) {
     if (std::fabs(local.y) > 0.5 * tool.jaw_width + kBeside) return false;
     if (local.z < 0 || local.z > tool.jaw_length + kBeyond) return false;
-    if (std::fabs(local.x) > shape.half_opening(local.z) + kBeyond) return false;
+    return std::fabs(local.x) <= shape.half_opening(local.z) + kBeyond;
+  };
+  const auto offer = [&](std::int32_t place) {
+    const Vec3d local = to_jaw(shape, suture_place(m, s, place));
+    if (!inside(local)) return false;
     add(place, local);
     return true;
   };
@@ -324,12 +356,8 @@ void Suture::between(const Models& models, const States& states, size_t i, const
       for (std::int32_t g = 0; g < m.grips; ++g) any = offer(g) || any;
   }
   if (any) return;  // a needle in the jaws takes what there is of room
-  const double near = tool.jaw_length + 0.005;
-  for (std::int32_t n = 0; n < m.thread.nodes; ++n) {
-    if (m.sling.there() && s.sling.lies_in_tube(n * m.thread.spacing)) break;
-    const Vec3d off = s.thread.x[size_t(n)] - shape.pivot;
-    if (dot(off, off) < near * near) offer(m.grips + n);
-  }
+  const ThreadRun run = run_between(m, s, tool, shape, inside);
+  for (std::int32_t n = run.first; n < run.end; ++n) offer(m.grips + n);
 }
 
 template <class Account>
