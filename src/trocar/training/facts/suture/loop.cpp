@@ -88,7 +88,7 @@ const Fact kLoopStump{"loop.stump_mm",
                       "From a loop around it to its next end. Unknown while there is none.",
                       needs_sling,
                       &stateless<stump>};
-const Fact kLoopPull{"loop.pull_N", strand_parameter(), 0, 1000, "How hard a loop around it pulls at it as a whole.",
+const Fact kLoopPull{"loop.pull_N", strand_parameter(), 0, 1000, "How hard a loop around it pulls at it, towards the tube.",
                      needs_sling,   &stateless<pull>};
 const Fact kLoopTension{"loop.tension_N", strand_parameter(), 0, 1000, "Tension of a loop around it.", needs_sling,
                         &stateless<tension>};

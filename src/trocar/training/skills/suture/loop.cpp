@@ -66,12 +66,12 @@ class PutLoopOver final : public Skill {
 
  private:
   enum Phase { kAbove, kOpen, kOver, kDown };
-  static constexpr double kHigh = 0.024, kOnto = 0.012, kLongest = 6;  // [m], [s]
+  static constexpr double kHigh = 0.024, kOnto = 0.012, kLongest = 6, kTakes = 0.5;  // [m], [s]
 
   void start(Operator&, int) override { m_s = m_end; }
   Progress work(Operator& op) override {
     const SlingState* g = sling_in(op, m_hand);
-    if (!g) return fail("there is no loop in the tube");
+    if (!g) return m_in_phase > kTakes ? fail("there is no loop in the tube") : Progress::working;
     Around end, here;
     end.look(op, m_strand, m_end);
     here.look(op, m_strand, m_s);
