@@ -17,8 +17,7 @@ std::optional<LoopSeen> loop_on(const sim::Model& model, const sim::State& state
     seen.tension = g.tension;
     seen.off = g.stage == interactions::SlingState::left;
     seen.pull = seen.off ? 0 : std::max(0.0, g.pulled);
-    seen.stump =
-        interactions::free_end(body, state.strands[size_t(strand)], interactions::place_at(body, loop.s)).away;
+    seen.stump = interactions::free_end(body, state.strands[size_t(strand)], interactions::place_at(body, loop.s)).away;
     nearest = seen;
   });
   return nearest;

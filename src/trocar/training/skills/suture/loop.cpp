@@ -39,9 +39,9 @@ bool face(Operator& op, int hand, Vec3d along) {
 struct Around {
   Vec3d at, along{0, 0, 1};
 
-  static constexpr double kCentre = 0.265;   ///< of the thread: how far in front of the mouth a loop's middle is
+  static constexpr double kCentre = 0.265;    ///< of the thread: how far in front of the mouth a loop's middle is
   static constexpr double kNearest = 0.0058;  ///< [m] of the mouth to the strand's middle line
-  static constexpr double kTouches = 0.045;  ///< [m] of thread: from here on the strand gives way
+  static constexpr double kTouches = 0.045;   ///< [m] of thread: from here on the strand gives way
 
   void look(const Operator& op, int strand, double s) {
     at = op.point(strand, s);
@@ -252,14 +252,14 @@ const SkillKind kCloseLoop{"close_loop",
                            "Draws the loop closed, the knot at the place, until it closes the lumen.",
                            lacks_sling,
                            &making<CloseLoop>};
-const SkillKind kLeaveLoop{"leave_loop",
-                           "leave the loop",
-                           {hand_parameter("that has the sling"),
-                            number_parameter("back_mm", "how far the tube is drawn back; 30", 5, 100)},
-                           15,
-                           "Opens the handle and draws the tube back, thread coming out behind it.",
-                           lacks_sling,
-                           &making<LeaveLoop>};
+const SkillKind kLeaveLoop{
+    "leave_loop",
+    "leave the loop",
+    {hand_parameter("that has the sling"), number_parameter("back_mm", "how far the tube is drawn back; 30", 5, 100)},
+    15,
+    "Opens the handle and draws the tube back, thread coming out behind it.",
+    lacks_sling,
+    &making<LeaveLoop>};
 const SkillKind kCutTail{"cut_tail",
                          "cut the loop's tail",
                          {hand_parameter("that has the scissors"),
