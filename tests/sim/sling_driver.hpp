@@ -1,5 +1,5 @@
-// A hand with a loop at the end of its tube, for tests: wanted is where the mouth shall be and which way the plane of the
-// loop shall face.
+// A hand with a loop at the end of its tube, for tests: wanted is where the mouth shall be and which way the plane of
+// the loop shall face.
 #pragma once
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 //
 // Of the thread in the tube nothing is computed: its elements sleep (the thread takes them to be parted) and lie along
 // the tube's axis. Until the loop is open, and while the instrument is hardly in the body, all of it is carried
-// along as it lies by itself (suture_sling_shape.hpp). What a loop does to the strand that it lies around: suture_strangle.hpp; what moves it:
-// suture_sling_step.hpp. docs/endoloop.md.
+// along as it lies by itself (suture_sling_shape.hpp). What a loop does to the strand that it lies around:
+// suture_strangle.hpp; what moves it: suture_sling_step.hpp. docs/endoloop.md.
 #pragma once
 
 #include <array>
@@ -21,10 +21,10 @@ namespace trocar::interactions {
 
 /// What there is of it beside its thread; without a loop the suture is no sling.
 struct SlingModel {
-  double loop = 0;                     ///< thread in the open loop [m]
-  double stowed = 0;                   ///< and in the loop that is carried in [m]
-  double slides = 1, slips = 11;       ///< of the knot: closing, and opening again [N]
-  std::int32_t first_hold = 0;         ///< the thread's slots of its own: kSlingHolds from here on
+  double loop = 0;                ///< thread in the open loop [m]
+  double stowed = 0;              ///< and in the loop that is carried in [m]
+  double slides = 1, slips = 11;  ///< of the knot: closing, and opening again [N]
+  std::int32_t first_hold = 0;    ///< the thread's slots of its own: kSlingHolds from here on
 
   bool there() const noexcept { return loop > 0; }
 

@@ -1,6 +1,6 @@
-// How a sling's loop lies where nothing but its own memory shapes it: a pear in the plane of the tube's axis. Both threads
-// leave along the tube, bend apart, go straight on and meet in an arc; all of it grows with the thread that there is.
-// docs/endoloop.md.
+// How a sling's loop lies where nothing but its own memory shapes it: a pear in the plane of the tube's axis. Both
+// threads leave along the tube, bend apart, go straight on and meet in an arc; all of it grows with the thread that
+// there is. docs/endoloop.md.
 #pragma once
 
 #include <trocar/interactions/objects/suture.hpp>
@@ -13,9 +13,9 @@ inline constexpr double kThreadsApart = 0.55;  ///< of its thickness, from the t
 /// those that it has of its own.
 void lay_loop(const SutureModel& m, double thread, SutureState& s) noexcept;
 
-/// While it lies loose, its bends of its own stay those of such a pear of as much thread as there is. They are kept in the
-/// mouth's frame and not in the thread's: those would turn about it with every bend elsewhere, without the work that
-/// takes, and the loop would roll itself up.
+/// While it lies loose, its bends of its own stay those of such a pear of as much thread as there is. They are kept in
+/// the mouth's frame and not in the thread's: those would turn about it with every bend elsewhere, without the work
+/// that takes, and the loop would roll itself up.
 void keep_shape(const SutureModel& m, double thread, SutureState& s) noexcept;
 
 }  // namespace trocar::interactions

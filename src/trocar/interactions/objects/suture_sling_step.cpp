@@ -7,15 +7,15 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kFeedsOpen = 0.10;   // of the handle's way: as long as less is drawn, the loop is fed out
-constexpr double kGain = 0.25;        // of what thread would have to go for a tension to be right, a tick
-constexpr double kSpeedGain = 0.020;  // [m/s] a newton that a tension is off by, at most
-constexpr double kRunsAtMost = 0.6;   // [m/s] thread is pulled out of the tube
-constexpr double kAtMouth = 0.0025;   // [m] a knot is at the mouth
-constexpr double kStowsBelow = 0.020;   // [m] of the instrument in the body, where an opened one is packed again
-constexpr double kStandsBelow = 0.3;  // [N] of tension up to which the tube's end leads the thread's direction
-constexpr double kCalmer = 0.3;       // of a tension that is new: the rest is what was told before
-constexpr double kJustBelow = 1e-6;   // of an element: a place in it that is a node
+constexpr double kFeedsOpen = 0.10;    // of the handle's way: as long as less is drawn, the loop is fed out
+constexpr double kGain = 0.25;         // of what thread would have to go for a tension to be right, a tick
+constexpr double kSpeedGain = 0.020;   // [m/s] a newton that a tension is off by, at most
+constexpr double kRunsAtMost = 0.6;    // [m/s] thread is pulled out of the tube
+constexpr double kAtMouth = 0.0025;    // [m] a knot is at the mouth
+constexpr double kStowsBelow = 0.020;  // [m] of the instrument in the body, where an opened one is packed again
+constexpr double kStandsBelow = 0.3;   // [N] of tension up to which the tube's end leads the thread's direction
+constexpr double kCalmer = 0.3;        // of a tension that is new: the rest is what was told before
+constexpr double kJustBelow = 1e-6;    // of an element: a place in it that is a node
 constexpr int kTieSlot = 0;
 
 double thickness_of(const SutureModel& m) noexcept { return m.thread.stuff.diameter; }

@@ -50,17 +50,17 @@ struct TissueFigure {
   double Tissue::*value;
 };
 inline constexpr std::array<TissueFigure, 12> kTissueFigures{{{"density_kg_m3", &Tissue::density},
-                                                             {"young_Pa", &Tissue::young},
-                                                             {"poisson", &Tissue::poisson},
-                                                             {"p1", &Tissue::p1},
-                                                             {"p2", &Tissue::p2},
-                                                             {"strain_cap", &Tissue::strain_cap},
-                                                             {"failure_strain", &Tissue::failure_strain},
-                                                             {"damping_ms", &Tissue::damping_ms},
-                                                             {"fracture_J_m2", &Tissue::fracture},
-                                                             {"puncture_N", &Tissue::puncture},
-                                                             {"stitch_damage_N", &Tissue::stitch_damage},
-                                                             {"strangle_N", &Tissue::strangle}}};
+                                                              {"young_Pa", &Tissue::young},
+                                                              {"poisson", &Tissue::poisson},
+                                                              {"p1", &Tissue::p1},
+                                                              {"p2", &Tissue::p2},
+                                                              {"strain_cap", &Tissue::strain_cap},
+                                                              {"failure_strain", &Tissue::failure_strain},
+                                                              {"damping_ms", &Tissue::damping_ms},
+                                                              {"fracture_J_m2", &Tissue::fracture},
+                                                              {"puncture_N", &Tissue::puncture},
+                                                              {"stitch_damage_N", &Tissue::stitch_damage},
+                                                              {"strangle_N", &Tissue::strangle}}};
 
 /// A section of a lofted body: a super-ellipse with two half-axis vectors.
 struct Section {

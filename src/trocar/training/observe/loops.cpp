@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <trocar/training/observe/loops.hpp>
@@ -13,12 +14,10 @@ std::optional<LoopSeen> loop_on(const sim::Model& model, const sim::State& state
     LoopSeen seen;
     seen.closure = loop;
     const interactions::SlingState& g = state.objects.sutures[size_t(loop.suture)].sling;
-    for (std::int32_t k = 0; k < g.around_count; ++k)
-      if (g.around[size_t(k)].strand == strand) seen.pull = length(g.around[size_t(k)].pull);
     seen.tension = g.tension;
     seen.off = g.stage == interactions::SlingState::left;
-    seen.stump =
-        interactions::free_end(body, state.strands[size_t(strand)], interactions::place_at(body, loop.s)).away;
+    seen.pull = seen.off ? 0 : std::max(0.0, g.pulled);
+    seen.stump = interactions::free_end(body, state.strands[size_t(strand)], interactions::place_at(body, loop.s)).away;
     nearest = seen;
   });
   return nearest;

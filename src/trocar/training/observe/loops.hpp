@@ -11,7 +11,7 @@ namespace trocar::training {
 struct LoopSeen {
   sim::LoopClosure closure;
   double stump = 0;  ///< along the strand to its next free end [m]; 1e9: there is none
-  double pull = 0;   ///< of the thread on the strand [N]
+  double pull = 0;   ///< towards the tube, less what the knot pushes back [N]
   double tension = 0;
   bool off = false;  ///< its tail has been cut, it stays
   bool closes() const noexcept { return closure.cover >= kCloses; }

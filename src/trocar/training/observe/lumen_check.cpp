@@ -23,8 +23,8 @@ bool LumenCheck::leads(int from, int to, std::int32_t cuts) {
   return vessels::open_path(graph, from, to, m_scratch);
 }
 
-/// The element that a clip or a loop at `s` closes; -1: none. One within an element that is cut closes the next one on its own side
-/// of the cut.
+/// The element that a clip or a loop at `s` closes; -1: none. One within an element that is cut closes the next one on
+/// its own side of the cut.
 int LumenCheck::closed_at(const sim::Model& model, const sim::State& state, double s) const {
   const interactions::StrandBody& body = model.strand_bodies[size_t(m_strand)];
   const int element = interactions::place_at(body, s).element;

@@ -1,5 +1,5 @@
-// Whether a tube still leads an egg from the ovary to the uterus, and whether what a cut opened is closed by clips or loops.
-// Memory is taken once; the questions allocate nothing.
+// Whether a tube still leads an egg from the ovary to the uterus, and whether what a cut opened is closed by clips or
+// loops. Memory is taken once; the questions allocate nothing.
 #pragma once
 
 #include <array>

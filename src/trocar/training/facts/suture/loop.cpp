@@ -58,10 +58,10 @@ std::string refuses_mark(const sim::Model& model, const Arguments& a) {
 
 }  // namespace
 
-const Fact kLoopClosed{"loop.closed", strand_parameter(), 0, 1, "A loop lies around it that closes its lumen.",
+const Fact kLoopClosed{"loop.closed", strand_parameter(), 0,   1, "A loop lies around it that closes its lumen.",
                        needs_sling,   &stateless<closed>, true};
 const Fact kLoopSecured{
-    "loop.secured", strand_parameter(), 0, 1, "The same, and the loop's tail has been cut: it stays by its knot.",
+    "loop.secured", strand_parameter(),  0,   1, "The same, and the loop's tail has been cut: it stays by its knot.",
     needs_sling,    &stateless<secured>, true};
 const Fact kLoopAt{"loop.at_mm",
                    strand_parameter(),
@@ -70,27 +70,25 @@ const Fact kLoopAt{"loop.at_mm",
                    "Where a loop lies around it, from its beginning. Unknown while none does.",
                    needs_sling,
                    &stateless<at>};
-const Fact kLoopToMark{"loop.to_mark_mm",
-                       {{"of", ArgumentKind::mark, "a mark around a strand"}},
-                       0,
-                       1000,
-                       "Along the strand from the mark's middle to the nearest loop. Unknown while none lies around it.",
-                       needs_sling,
-                       &stateless<to_mark>,
-                       false,
-                       &refuses_mark};
-const Fact kLoopOpenShare{"loop.open_share", strand_parameter(), 0, 1, "What a loop leaves of its lumen's width.",
+const Fact kLoopToMark{
+    "loop.to_mark_mm",
+    {{"of", ArgumentKind::mark, "a mark around a strand"}},
+    0,
+    1000,
+    "Along the strand from the mark's middle to the nearest loop. Unknown while none lies around it.",
+    needs_sling,
+    &stateless<to_mark>,
+    false,
+    &refuses_mark};
+const Fact kLoopOpenShare{"loop.open_share", strand_parameter(),    0, 1, "What a loop leaves of its lumen's width.",
                           needs_sling,       &stateless<open_share>};
-const Fact kLoopStump{"loop.stump_mm",
-                      strand_parameter(),
-                      0,
-                      1000,
-                      "From a loop around it to its next end. Unknown while there is none.",
-                      needs_sling,
-                      &stateless<stump>};
-const Fact kLoopPull{"loop.pull_N", strand_parameter(), 0, 1000, "How hard a loop around it pulls at it as a whole.",
-                     needs_sling,   &stateless<pull>};
-const Fact kLoopTension{"loop.tension_N", strand_parameter(), 0, 1000, "Tension of a loop around it.", needs_sling,
-                        &stateless<tension>};
+const Fact kLoopStump{
+    "loop.stump_mm", strand_parameter(), 0, 1000, "From a loop around it to its next end. Unknown while there is none.",
+    needs_sling,     &stateless<stump>};
+const Fact kLoopPull{
+    "loop.pull_N", strand_parameter(), 0, 1000, "How hard a loop around it pulls at it, towards the tube.",
+    needs_sling,   &stateless<pull>};
+const Fact kLoopTension{"loop.tension_N", strand_parameter(), 0, 1000, "Tension of a loop around it.",
+                        needs_sling,      &stateless<tension>};
 
 }  // namespace trocar::training

@@ -39,9 +39,9 @@ bool face(Operator& op, int hand, Vec3d along) {
 struct Around {
   Vec3d at, along{0, 0, 1};
 
-  static constexpr double kCentre = 0.265;   ///< of the thread: how far in front of the mouth a loop's middle is
+  static constexpr double kCentre = 0.265;    ///< of the thread: how far in front of the mouth a loop's middle is
   static constexpr double kNearest = 0.0058;  ///< [m] of the mouth to the strand's middle line
-  static constexpr double kTouches = 0.045;  ///< [m] of thread: from here on the strand gives way
+  static constexpr double kTouches = 0.045;   ///< [m] of thread: from here on the strand gives way
 
   void look(const Operator& op, int strand, double s) {
     at = op.point(strand, s);
@@ -66,12 +66,12 @@ class PutLoopOver final : public Skill {
 
  private:
   enum Phase { kAbove, kOpen, kOver, kDown };
-  static constexpr double kHigh = 0.024, kOnto = 0.012, kLongest = 6;  // [m], [s]
+  static constexpr double kHigh = 0.024, kOnto = 0.012, kLongest = 6, kTakes = 0.5;  // [m], [s]
 
   void start(Operator&, int) override { m_s = m_end; }
   Progress work(Operator& op) override {
     const SlingState* g = sling_in(op, m_hand);
-    if (!g) return fail("there is no loop in the tube");
+    if (!g) return m_in_phase > kTakes ? fail("there is no loop in the tube") : Progress::working;
     Around end, here;
     end.look(op, m_strand, m_end);
     here.look(op, m_strand, m_s);
@@ -252,14 +252,14 @@ const SkillKind kCloseLoop{"close_loop",
                            "Draws the loop closed, the knot at the place, until it closes the lumen.",
                            lacks_sling,
                            &making<CloseLoop>};
-const SkillKind kLeaveLoop{"leave_loop",
-                           "leave the loop",
-                           {hand_parameter("that has the sling"),
-                            number_parameter("back_mm", "how far the tube is drawn back; 30", 5, 100)},
-                           15,
-                           "Opens the handle and draws the tube back, thread coming out behind it.",
-                           lacks_sling,
-                           &making<LeaveLoop>};
+const SkillKind kLeaveLoop{
+    "leave_loop",
+    "leave the loop",
+    {hand_parameter("that has the sling"), number_parameter("back_mm", "how far the tube is drawn back; 30", 5, 100)},
+    15,
+    "Opens the handle and draws the tube back, thread coming out behind it.",
+    lacks_sling,
+    &making<LeaveLoop>};
 const SkillKind kCutTail{"cut_tail",
                          "cut the loop's tail",
                          {hand_parameter("that has the scissors"),
