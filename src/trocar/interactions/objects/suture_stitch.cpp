@@ -16,7 +16,7 @@ constexpr double kTipRubs = 1.5;          // friction of a point on skin, which 
 constexpr double kSlidesBeside = 0.0008;  // [m] that a tip slides until it presses on another point
 constexpr double kDrawnBack = 0.0004;     // [m] that a tip is drawn out of its entry until it is out
 constexpr double kOffPath = 0.0015;       // [m] beside its old path the tip makes a new one
-constexpr double kFirm = 0.004;  // [m] of thread that is through a hole when it is as stiff as holes are
+constexpr double kFirm = 0.004;           // [m] of thread that is through a hole when it is as stiff as holes are
 constexpr double kThreadDrag = 0.01;      // [N] of a hole on the thread in it.                           Ours
 constexpr double kKept = 0.003;           // [m] of a bite's way the thread's holes are apart
 constexpr double kCutsThrough = 3;        // times the force that harms
@@ -24,10 +24,10 @@ constexpr double kNeedleTorque =
     0.003;                         // [N m] that fully pinched jaws bear of a needle's turning between their faces. [d]
 constexpr double kFullPinch = 25;  // [N] of a needle holder
 constexpr int kPartsAfter = 20;    // ticks beyond what a thread bears until it parts.            Ours
-constexpr double kBendsWith = 0.05;                  // [N] of a thread that leaves its swage aslant
-constexpr int kAtSwage = 4;                          // elements
-constexpr double kTightens = 0.1;  // [N] a tick: a thread that is drawn at 50 mm/s tightens by a third of that
-constexpr double kTautAbove = 0.002;                 // [N]
+constexpr double kBendsWith = 0.05;   // [N] of a thread that leaves its swage aslant
+constexpr int kAtSwage = 4;           // elements
+constexpr double kTightens = 0.1;     // [N] a tick: a thread that is drawn at 50 mm/s tightens by a third of that
+constexpr double kTautAbove = 0.002;  // [N]
 constexpr double kTailWay = 1e-4, kMostTail = 2000;  // [m], [N/m] secant of the thread's pull at the swage
 
 Vec3d across_of(Vec3d v, Vec3d n) noexcept { return v - dot(v, n) * n; }
@@ -381,7 +381,8 @@ class Sewing {
       if (h.slot < 0) continue;
       const suture::PassageState& passage = m_state.thread.passages[size_t(h.slot)];
       const Vec3d force = m_work.passage_reactions[size_t(h.slot)].force;
-      const bool at_swage = !passage.active && m_model.has_needle() && double(h.arc) < kAtSwage * m_model.thread.spacing;
+      const bool at_swage =
+          !passage.active && m_model.has_needle() && double(h.arc) < kAtSwage * m_model.thread.spacing;
       h.arc = float(passage.s);
       h.force = array_of(force);
       if (at_swage) {  // it has slid back to the needle, whose it is again
