@@ -119,8 +119,8 @@ class SlingDriver {
       const bool lies = sling().tension > 0.4;
       handle = std::min(to, handle + (handle < 0.25 || lies ? 0.0005 : 0.0));
       const Vec3d go = mouth_for(strand, s, sling().fed) - m_tip;
-      const double most = 0.04 * sim::kTick;
-      m_tip += std::min(1.0, most / std::max(1e-9, length(go))) * go;
+      const double far = 0.04 * sim::kTick;
+      m_tip += std::min(1.0, far / std::max(1e-9, length(go))) * go;
       step();
     }
   }
