@@ -10,7 +10,7 @@ namespace trocar::suture {
 namespace {
 
 constexpr double kFreeMotion = 0.2;   ///< that a solve is asked to follow where nothing touches, in spacings
-constexpr double kMostTurn = 0.25;    ///< of an element in a solve, by its ends' speeds [rad]
+constexpr double kMostTurn = 0.5;    ///< of an element in a solve, by its ends' speeds [rad]
 constexpr double kMostMotion = 0.5;   ///< and at the very most, in diameters
 constexpr int kCalmTicks = 200;       ///< after which a thread that is still sleeps
 constexpr double kStillSpeed = 1e-6;  ///< [m/s]
@@ -28,15 +28,18 @@ double fastest_turn(const Tick& t) {
 }
 
 /// The share of what is left that the next solve takes: what leads the thread moves little in it, and elements turn
-/// little, as a solve is linear and takes a turn for a stretch.
+/// little, as a solve is linear and takes a turn for a stretch. Not where thread lies on thread: friction lags by a
+/// solve, and knots would creep by each.
 void choose_part(Tick& t) {
   const double motion = motion_left(t);
   const double wanted = t.s.self_count + t.s.touch_count > 0 ? t.m.solve_motion : kFreeMotion * t.m.spacing;
   const double needed = std::min(motion / (t.m.most_solves - t.solves), kMostMotion * t.m.stuff.diameter);
   const double most = std::max(wanted, needed);
   t.part = motion > most ? most / motion : 1;
-  const double turn = fastest_turn(t) * t.m.tick * t.left, solves_left = t.m.most_solves - t.solves;
-  if (turn * t.part > kMostTurn) t.part = std::min(t.part, std::max(kMostTurn / turn, 1 / solves_left));
+  if (t.s.self_count == 0) {
+    const double turn = fastest_turn(t) * t.m.tick * t.left, solves_left = t.m.most_solves - t.solves;
+    if (turn * t.part > kMostTurn) t.part = std::min(t.part, std::max(kMostTurn / turn, 1 / solves_left));
+  }
   t.h = t.m.tick * t.left * t.part;
   set_obstacle_moves(t);
 }
