@@ -10,36 +10,18 @@ namespace trocar::suture {
 namespace {
 
 constexpr double kFreeMotion = 0.2;   ///< that a solve is asked to follow where nothing touches, in spacings
-constexpr double kMostTurn = 0.5;    ///< of an element in a solve, by its ends' speeds [rad]
 constexpr double kMostMotion = 0.5;   ///< and at the very most, in diameters
 constexpr int kCalmTicks = 200;       ///< after which a thread that is still sleeps
 constexpr double kStillSpeed = 1e-6;  ///< [m/s]
 constexpr double kForgotten = 0.02;   ///< share of a tick that is not worth another solve
 
-/// How far the element that turns fastest would turn in a second [rad].
-double fastest_turn(const Tick& t) {
-  double most = 0;
-  for (int e = 0; e + 1 < t.m.nodes; ++e) {
-    if (!t.s.alive[e]) continue;
-    const Vec3d v = t.s.v[e + 1] - t.s.v[e], across = v - dot(v, t.w.along[e]) * t.w.along[e];
-    most = std::max(most, dot(across, across));
-  }
-  return std::sqrt(most) / t.m.spacing;
-}
-
-/// The share of what is left that the next solve takes: what leads the thread moves little in it, and elements turn
-/// little, as a solve is linear and takes a turn for a stretch. Not where thread lies on thread: friction lags by a
-/// solve, and knots would creep by each.
+/// The share of what is left that the next solve takes.
 void choose_part(Tick& t) {
   const double motion = motion_left(t);
   const double wanted = t.s.self_count + t.s.touch_count > 0 ? t.m.solve_motion : kFreeMotion * t.m.spacing;
   const double needed = std::min(motion / (t.m.most_solves - t.solves), kMostMotion * t.m.stuff.diameter);
   const double most = std::max(wanted, needed);
   t.part = motion > most ? most / motion : 1;
-  if (t.s.self_count == 0) {
-    const double turn = fastest_turn(t) * t.m.tick * t.left, solves_left = t.m.most_solves - t.solves;
-    if (turn * t.part > kMostTurn) t.part = std::min(t.part, std::max(kMostTurn / turn, 1 / solves_left));
-  }
   t.h = t.m.tick * t.left * t.part;
   set_obstacle_moves(t);
 }
