@@ -368,7 +368,7 @@ TEST(Reader, AllFaultsComeInOnePassInTheOrderOfTheFile) {
               "vessels, "
               "fluids, bleeder, energy, peristalsis, breathing, detail, marks, variation, variant, instruments, ports, "
               "instruments_push, tools, "
-              "scope, rigids, fat, bags), got "
+              "scope, rigids, fat, bags, sutures), got "
               "\"titel\" (did "
               "you mean \"title\"?)",
               "expected a number in [1, 25000] for \"density_kg_m3\", got -1", "expected a finite number, got 1e999",

@@ -203,7 +203,6 @@ struct SutureWork {
   suture::ThreadWork thread;
   std::vector<Tag> hold_tags;                        ///< (needle.holds)
   std::vector<std::int32_t> contact_rods;            ///< (needle.contacts) -1: none of an instrument
-  std::vector<Vec3d> contact_normals;                ///< scratch
   std::vector<suture::Hold> holds;                   ///< (slots)
   std::vector<suture::Obstacle> obstacles;           ///< (slots)
   std::vector<suture::SkinContact> skins;            ///< (nodes)
@@ -218,8 +217,8 @@ struct SutureWork {
   template <class S, class V>
   static void fields(S& s, V&& v) {
     v("needle", s.needle), v("thread", s.thread), v("hold_tags", s.hold_tags), v("contact_rods", s.contact_rods),
-        v("contact_normals", s.contact_normals), v("holds", s.holds), v("obstacles", s.obstacles), v("skins", s.skins),
-        v("passages", s.passages), v("hold_reactions", s.hold_reactions), v("obstacle_reactions", s.obstacle_reactions),
+        v("holds", s.holds), v("obstacles", s.obstacles), v("skins", s.skins), v("passages", s.passages),
+        v("hold_reactions", s.hold_reactions), v("obstacle_reactions", s.obstacle_reactions),
         v("skin_reactions", s.skin_reactions), v("passage_reactions", s.passage_reactions),
         v("thread_report", s.thread_report), v("sling", s.sling);
   }
