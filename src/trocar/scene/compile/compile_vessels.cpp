@@ -7,8 +7,8 @@
 #include <trocar/geometry/curves/polyline.hpp>
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
-#include <trocar/scene/compile/compile_vessels.hpp>
 #include <trocar/scene/compile/compile_hands.hpp>
+#include <trocar/scene/compile/compile_vessels.hpp>
 #include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/model/host_views.hpp>

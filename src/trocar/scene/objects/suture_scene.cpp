@@ -94,7 +94,8 @@ SutureSetting SutureScene::read(const JsonObject& o) {
   if (!s.needle.empty() && o.names("at_mm") == o.names("held_by"))
     o.fault(o.at(), "expected at_mm of a needle that lies or held_by of one that is held, got " +
                         std::string(o.names("at_mm") ? "both" : "neither"));
-  if (s.needle.empty() && s.line.size() < 2 && !s.sling.there) o.fault(o.at(), "expected line_mm of a thread without a needle, got none");
+  if (s.needle.empty() && s.line.size() < 2 && !s.sling.there)
+    o.fault(o.at(), "expected line_mm of a thread without a needle, got none");
   if (!(length(cross(s.axis, s.points)) > 1e-6)) o.fault("axis", "expected two directions that differ, got one");
   return s;
 }

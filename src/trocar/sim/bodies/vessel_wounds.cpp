@@ -139,7 +139,8 @@ void open_vessels_within(StepContext& c, int strand, int element, int hand) noex
 double place_within(const StepContext& c, int strand, size_t vessel, double arc) noexcept {
   const VesselPath& path = path_of(c, vessel);
   for (size_t i = 0; i + 1 < path.points.size(); ++i)
-    if (const Within at = within_strand(c.model.strand_bodies[size_t(strand)], strand, path, i, arc); at.there) return at.s;
+    if (const Within at = within_strand(c.model.strand_bodies[size_t(strand)], strand, path, i, arc); at.there)
+      return at.s;
   return -1;
 }
 

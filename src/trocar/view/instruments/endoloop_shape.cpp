@@ -9,7 +9,8 @@ using namespace metal;
 constexpr double kNose = 0.0011, kThreadBore = 0.0005;  // [m] radii of its end, and of the bore there
 constexpr double kRod = 0.00035;                        // [m] radius of the rod that draws the thread
 
-/// The tube comes to a blunt nose, which pushes the knot; thread comes out of its bore (view/objects/suture_drawing.hpp).
+/// The tube comes to a blunt nose, which pushes the knot; thread comes out of its bore
+/// (view/objects/suture_drawing.hpp).
 MeshBuffer nose(const ToolModel& tool) {
   const double end = tool.jaw_length, r = tool.shaft_radius;
   return turned({{-0.1 * end, r, kClean},
