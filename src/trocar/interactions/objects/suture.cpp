@@ -147,8 +147,6 @@ void Suture::touch(const Models& models, const States&, const ObjectHand& hand, 
   if (models.list.empty()) return;
   const ToolShape& shape = hand.touching.shape;
   const Hold* held = hand.state.holds > 0 && hand.state.hold[0].body.is(kKind) ? &hand.state.hold[0] : nullptr;
-  double nearest = 1e9;
-  for (int i = 0; i < hand.state.holds; ++i) nearest = std::min(nearest, double(hand.state.hold[i].local[2]));
   for (int part = kShaft; part < end_of(shape) && all.rods.size() < all.rods.capacity(); part = next(part)) {
     SutureRod rod{hand.touching.before.rod(part), shape.rod(part), {Owner::tool_contact, hand.touching.tool, 0}};
     rod.slot = hand.touching.tool * kRodSlots + (part < kToolParts ? part : kToolParts + part - kFirstLink);
@@ -156,7 +154,6 @@ void Suture::touch(const Models& models, const States&, const ObjectHand& hand, 
     if (held && is_jaw(part)) {
       rod.held = std::int32_t(held->body.index());
       rod.holds_needle = on_needle(models.list[size_t(rod.held)], held->element);
-      rod.from = nearest;
     }
     all.rods.push_back(rod);
   }

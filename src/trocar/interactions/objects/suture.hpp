@@ -184,8 +184,7 @@ struct SutureRod {
   std::int32_t slot = 0;   ///< of a thread's obstacles
   std::int32_t held = -1;  ///< the suture that its jaws hold
   bool holds_needle = false;
-  bool cuts = false;   ///< a blade, which thread lies between
-  double from = -1e9;  ///< how far along it, from a, a held thread leaves room [m]
+  bool cuts = false;  ///< a blade, which thread lies between
 };
 /// What a hand's jaws do to a thread: the mean of the places between them.
 struct SuturePinch {

@@ -306,12 +306,14 @@ class Resting {
       touch(b, normalised(p - on, {0, 0, 1}), gap, {}, kHardStiffness, kSteelFriction, number);
     }
   }
-  void keep_off(const SutureRod& rod, bool shortened) noexcept {
+  /// Jaws that hold thread keep off all of it but what is between them.
+  void keep_off(const SutureRod& rod, bool holds) noexcept {
     suture::Obstacle o{true, rod.now.a, rod.now.b, rod.now.radius, -1};
-    if (shortened) {
-      const double whole = length(o.b - o.a), left = rod.from - kRoomAtPinch;
-      if (left < 0.001) return;
-      if (left < whole) o.b = o.a + (left / whole) * (o.b - o.a);
+    if (holds) {
+      const SuturePinch& p = m_all.pinches[size_t(rod.tag.index)];
+      const int room = int(kRoomAtPinch / m_model.thread.spacing) + 1;
+      if (p.count == 0 || p.suture != std::int32_t(m_index)) return;
+      o.spared = p.lowest - room, o.spared_end = p.highest + room;
     }
     if (rod.slot < int(m_work.obstacles.size())) m_work.obstacles[size_t(rod.slot)] = o;
   }

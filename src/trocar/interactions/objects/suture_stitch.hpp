@@ -16,7 +16,7 @@ inline constexpr double kThreadHole = 1000;    ///< of a hole about the thread [
 inline constexpr double kPricks = 0.25;        ///< cosine between tip and skin's normal above which it can pierce
 inline constexpr double kTipAhead = 0.0001;    ///< [m] from which on a skin counts as touched
 inline constexpr double kTipLeaves = 0.0006;   ///< [m] from which on it does not any more
-inline constexpr double kRoomAtPinch = 0.0015;  ///< [m] that jaws leave a thread between them beside where they hold it
+inline constexpr double kRoomAtPinch = 0.003;  ///< [m] of thread beside what is between jaws that these do not push
 
 inline Vec3d vector_of(const std::array<float, 3>& a) noexcept { return {double(a[0]), double(a[1]), double(a[2])}; }
 inline std::array<float, 3> array_of(Vec3d v) noexcept { return {float(v.x), float(v.y), float(v.z)}; }

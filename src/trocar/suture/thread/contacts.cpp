@@ -147,7 +147,7 @@ int find_obstacles(const ThreadModel& m, const ThreadState& s, std::span<const O
     widen(low, high, s.x[a + 1]);
     for (int o = 0; o < int(given.size()) && o < m.obstacles; ++o) {
       const ObstacleState& seen = s.obstacles[o];
-      if (!seen.active || !s.alive[a]) continue;
+      if (!seen.active || !s.alive[a] || given[o].spares(a)) continue;
       const double reach = given[o].radius + radius;
       Vec3d other_low = seen.a, other_high = seen.a;
       widen(other_low, other_high, seen.b);
@@ -193,7 +193,7 @@ double safe_share(const ThreadModel& m, const ThreadState& s, int near, std::spa
   for (int a = 0; a + 1 < m.nodes; ++a)
     for (int o = 0; o < int(given.size()) && o < m.obstacles; ++o) {
       const ObstacleState& seen = s.obstacles[o];
-      if (!seen.active || !s.alive[a]) continue;
+      if (!seen.active || !s.alive[a] || given[o].spares(a)) continue;
       const Vec3d p = s.x[a], d = s.x[a + 1] - p, e = seen.b - seen.a;
       const NearestPlaces at = nearest_places(p, d, seen.a, e, 0);
       const Vec3d between = p + at.s * d - seen.a - at.t * e;
