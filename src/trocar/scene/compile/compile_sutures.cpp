@@ -16,6 +16,7 @@ using interactions::SutureModel;
 using interactions::SutureModels;
 
 constexpr int kCornersCut = 5;         // times over
+constexpr double kLeaves = 0.006;      // [m] that a thread goes on as the wire ends
 constexpr double kWallReach = 0.0025;  // [m] from which on needles and threads know of walls
 
 StitchTissue stitch_of(const Description& d, const std::string& tissue) {
@@ -71,7 +72,8 @@ suture::ThreadDescription thread_of(const SutureSetting& s, const suture::Thread
 void lay_thread(const SutureSetting& s, SutureModel& m) {
   const Vec3d swage = m.place + rotate(m.turn, m.needle.place(m.needle.length));
   const Vec3d away = m.has_needle() ? -rotate(m.turn, m.needle.along(m.needle.length)) : Vec3d{1, 0, 0};
-  if (m.has_needle()) m.path.push_back(swage);
+  // as the wire has it at first: a thread that is bent back where it is swaged on stays so
+  if (m.has_needle()) m.path = {swage, swage + 0.5 * kLeaves * away, swage + kLeaves * away};
   for (const Vec3d& p : s.line) m.path.push_back(p);
   if (s.line.empty()) m.path.push_back((m.has_needle() ? swage : s.place) + 0.01 * away);
   if (m.path.size() < 2) m.path.insert(m.path.begin(), s.place);

@@ -110,13 +110,15 @@ void add_holds(Tick& t) {
     const Symmetric stiff = along_and_across(along, k, d);
     add_spring(t, at, stiff, stiff * (hold_target(t, n) - point_at(t.m, t.s, h.s)));
     if (!given || is_zero(t.drive.holds[n].direction)) continue;
-    const Vec3d aim = aim_target(t, n, t.part);
+    const Vec3d aim = aim_target(t, n, t.part), lies = t.s.x[at.element + 1] - t.s.x[at.element];
     const double turn = turn_stiffness(t.m);
-    const Symmetric across = along_and_across(0, turn, aim);
+    // what lies the other way round would be at rest against its hold: it is drawn to where it belongs
+    const bool backwards = dot(lies, aim) < 0;
+    const Symmetric across = backwards ? in_all_ways(turn) : along_and_across(0, turn, aim);
     const std::int32_t nodes[2] = {at.element, at.element + 1};
     const double c[2] = {-1, 1};
     t.w.system.add_term(nodes, c, 2, across);
-    const Vec3d f = -(across * (t.s.x[at.element + 1] - t.s.x[at.element]));
+    const Vec3d f = backwards ? turn * (t.m.spacing * aim - lies) : -(across * lies);
     for (int j = 0; j < 2; ++j) t.w.system.push(nodes[j], c[j] * f);
   }
 }
