@@ -15,6 +15,7 @@ constexpr double kSkinAhead = 0.0004;     // [m] contacts are there before they 
 constexpr double kDeepestRest = 0.0025;   // [m] deeper is another side of the body
 constexpr std::uint64_t kLooksAnew = 16;  // ticks in which each bead and node looks for its skin anew
 constexpr double kCalms = 0.5;            // of what tissue resists, as damping beside a needle
+constexpr double kTurnsTo = 0.02;         // of the way a tick: skin under a tip is as it was for some 50 ms. Ours
 constexpr double kSameSide = 0.3;         // cosine between normals of one and the same patch of skin
 constexpr double kBeforeSwage = 0.85;     // of the needle's length: up to there its own thread meets it
 constexpr double kHardStiffness = 2000;   // [N/m] of walls and instruments at a bead
@@ -255,8 +256,9 @@ class Resting {
     const bool inside = m_state.inside.exists();
     const NearSkin on =
         inside ? nearest_skin(m_bodies, m_state.inside, tip(), 0.015) : look_again(m_bodies, m_state.near[0], tip());
-    const double side = inside ? -1 : 1, off = side * on.distance, ahead = -side * dot(drives(), on.normal);
     const auto kind = inside ? SutureTouch::inside : SutureTouch::outside;
+    const Vec3d faces = t.kind == kind ? vector_of(t.normal) : on.normal;
+    const double side = inside ? -1 : 1, off = side * on.distance, ahead = -side * dot(drives(), faces);
     if (t.kind == kind && on.there() && on.body == t.at.body && dot(on.normal, vector_of(t.normal)) < kSameSide) {
       // it has been drawn so far that another part of the skin is nearer
       if (-side * dot(tip() - point_of(m_bodies, t.at), vector_of(t.normal)) < -kTipLeaves) t = {};
@@ -270,8 +272,12 @@ class Resting {
       t = {};
       t.kind = kind;
       t.at = stick_to(m_bodies, on.body, on.point);
+      t.normal = array_of(on.normal);
+      return;
     }
-    t.normal = array_of(on.normal);
+    // a dimple's facets are steep, and a tip in its bottom is nearest to one after the other
+    const Vec3d normal = vector_of(t.normal);
+    t.normal = array_of(normalised(normal + kTurnsTo * (on.normal - normal), on.normal));
   }
 
   void meet_rods() noexcept {
