@@ -214,6 +214,17 @@ TEST(BothHandsPad, OfASuctionIrrigatorTheTriggerSucksAndTheCrossGivesWater) {
   EXPECT_FALSE(pair.hands.state.ratchet[1]);
 }
 
+TEST(BothHandsPad, TheRightStickMovesTheNeedleOfWhicheverHandHasOneAndPressesNoFootSwitchMeanwhile) {
+  for (const int hand : {0, 1}) {
+    Pair pair;
+    pair.hands.state.valves[std::size_t(hand)] = pair.hands.state.needle[std::size_t(hand)] = true;
+    const HandCommands commands = pair.give(pad_with({Button::right_stick}));
+    for (const HandCommand& c : commands) EXPECT_FALSE(c.yellow) << "hand " << c.led;
+    EXPECT_TRUE(pair.hands.state.ratchet[std::size_t(hand)]) << "out it goes";
+    EXPECT_FALSE(pair.hands.state.ratchet[std::size_t(1 - hand)]);
+  }
+}
+
 TEST(BothHandsPad, AHookCoagulatesByItsTriggerWhileItIsLedAndTheOtherJawsClose) {
   Pair pair;
   pair.hands.state.electrode[1] = true;

@@ -73,6 +73,17 @@ bool tilted(const HandSettings& settings, const Stick& stick) {
   return std::max(std::abs(finite(stick.x)), std::abs(finite(stick.y))) > settings.stick_dead;
 }
 
+bool has_needle(int side, const BothHands& hands) {
+  const std::size_t led = std::size_t(hands.pair[std::size_t(side)]);
+  return hands.state.valves[led] && hands.state.needle[led];
+}
+
+/// A press on the right stick is meant for needles where there are any, else for the foot switch, once.
+bool presses_stick(int side, const Gamepad& pad, const BothHands& hands) {
+  if (!pad.has(Button::right_stick)) return false;
+  return has_needle(kLeft, hands) || has_needle(kRight, hands) ? has_needle(side, hands) : side == kLeft;
+}
+
 /// One side of the pad as the whole pad of a hand that is led alone: with the shoulder the stick is the right one.
 Gamepad pad_share(int side, const Gamepad& pad, const BothHands& hands) {
   Gamepad share;
@@ -84,6 +95,7 @@ Gamepad pad_share(int side, const Gamepad& pad, const BothHands& hands) {
   share.right_trigger = side == kLeft ? pad.left_trigger : pad.right_trigger;
   share.left_trigger = pad.has(kLocks[side]) ? 1.0f : 0.0f;
   share.buttons = side == kLeft ? common_buttons(pad) : 0;  // once is enough
+  share.set(Button::right_stick, presses_stick(side, pad, hands));
   if (bends) share.set(Button::a);
   return share;
 }
