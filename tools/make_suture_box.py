@@ -77,8 +77,8 @@ def scene():
         "$schema": "../schema/scene.schema.json", "format": 1, "name": "box_suture",
         "title": "Box trainer: a pad to be sutured", "gravity_m_s2": [0, 0, -9.81],
         "tissues": [{"name": "suture_pad", "density_kg_m3": 1080, "young_Pa": 200000, "strain_cap": 0.3,
-                     "damping_ms": 4, "puncture_N": 0.85, "stitch_damage_N": 6, "source": "ours: soft silicone",
-                     "sources": {"puncture_N": "drains 0.85 to 2.9 N were observed"}}],
+                     "damping_ms": 4, "puncture_N": 0.6, "stitch_damage_N": 6, "source": "ours: soft silicone",
+                     "sources": {"puncture_N": "ours: a little less than the 0.7 N of skin"}}],
         "organs": [{"name": "suture_box", "solids": [{
             "name": "pad", "tissue": "suture_pad", "look": "silicone_pad",
             "surface": {"file": "pad.obj"}, "cell_mm": EDGE, "skin_edge_mm": 2.0, "fine_edge_mm": 1.0,

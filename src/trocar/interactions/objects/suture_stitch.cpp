@@ -9,17 +9,17 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kTrackApart = 0.001;     // [m] of holes along a path
-constexpr double kCutsWith = 0.3;         // of the puncture force: what the tip meets inside.            Ours
-constexpr double kComesOutWith = 0.6;     // of the puncture force: skin that is stretched over a tip.     Ours
-constexpr double kTipRubs = 1.5;          // friction of a point on skin, which catches. Ours
-constexpr double kSlidesBeside = 0.0008;  // [m] that a tip slides until it presses on another point
-constexpr double kDrawnBack = 0.0004;     // [m] that a tip is drawn out of its entry until it is out
-constexpr double kOffPath = 0.0015;       // [m] beside its old path the tip makes a new one
-constexpr double kFirm = 0.004;           // [m] of thread that is through a hole when it is as stiff as holes are
-constexpr double kThreadDrag = 0.01;      // [N] of a hole on the thread in it.                           Ours
-constexpr double kKept = 0.003;           // [m] of a bite's way the thread's holes are apart
-constexpr double kCutsThrough = 3;        // times the force that harms
+constexpr double kTrackApart = 0.001;  // [m] of holes along a path
+constexpr double kCutsWith = 0.3;      // of the puncture force: what the tip meets inside.            Ours
+constexpr double kComesOutWith = 0.6;  // of the puncture force: skin that is stretched over a tip.     Ours
+constexpr double kTipRubs = 1.5;       // friction of a point on skin, which catches. Ours
+constexpr double kSlips = 0.0002;      // [m] that a tip slips until it presses on another point
+constexpr double kDrawnBack = 0.0004;  // [m] that a tip is drawn out of its entry until it is out
+constexpr double kOffPath = 0.0015;    // [m] beside its old path the tip makes a new one
+constexpr double kFirm = 0.004;        // [m] of thread that is through a hole when it is as stiff as holes are
+constexpr double kThreadDrag = 0.01;   // [N] of a hole on the thread in it.                           Ours
+constexpr double kKept = 0.003;        // [m] of a bite's way the thread's holes are apart
+constexpr double kCutsThrough = 3;     // times the force that harms
 constexpr double kNeedleTorque =
     0.003;                         // [N m] that fully pinched jaws bear of a needle's turning between their faces. [d]
 constexpr double kFullPinch = 25;  // [N] of a needle holder
@@ -126,10 +126,11 @@ class Sewing {
       suture::NeedleTip& meets = m_work.needle.tip;
       meets.there = true;
       meets.dir = t.kind == SutureTouch::outside ? vector_of(t.normal) : -vector_of(t.normal);
-      meets.gap = -dot(tip() - point_of(m_bodies, t.at), meets.dir);
+      const Vec3d off = tip() - point_of(m_bodies, t.at);
+      meets.gap = -dot(off, meets.dir);
       meets.stiffness = kTipStiffness;
       meets.friction = kTipRubs;
-      meets.slid = vector_of(t.slid);
+      meets.slid = -across_of(off, meets.dir);  // tissue goes with the tip: not by what the needle has moved
     }
     const SutureHole* front = newest();
     if (!m_state.inside.exists() || !front || front->arc < 0) {
@@ -184,11 +185,11 @@ class Sewing {
       pierce();
       return;
     }
-    const Vec3d beside = across_of(p - point_of(m_bodies, t.at), normal);
-    if (length(beside) < kSlidesBeside) return;
-    const NearSkin on = nearest_skin(m_bodies, t.at.body, p, 0.010);
+    // what friction does not hold of its way
+    const Vec3d at = point_of(m_bodies, t.at), slipped = across_of(p - at, normal) + vector_of(t.slid);
+    if (length(slipped) < kSlips) return;
+    const NearSkin on = nearest_skin(m_bodies, t.at.body, at + slipped, 0.010);
     if (on.there()) t.at = stick_to(m_bodies, t.at.body, on.point);
-    t.slid = {};
   }
 
   bool add_hole(SutureHole::Kind kind, const TissuePoint& at) noexcept {
