@@ -64,6 +64,19 @@ Seed shipped_scene() {
   return {"shipped", bytes_of(packed(files))};
 }
 
+/// A scene with a needle that lies on its pad, and a thread beside it.
+std::string with_sutures(const scene::Description& d) {
+  std::string text = scene::write_scene(d);
+  text.insert(text.rfind('}'), R"(,
+  "sutures": [
+    {"name": "stitch", "size": "3-0", "make": "PDS", "length_mm": 40, "needle": "half_17", "at_mm": [50, 0, 4],
+     "axis": [0, 1, 0], "points": [1, 0, 0], "line_mm": [[55, 5, 4], [60, 20, 4]]},
+    {"name": "tie", "size": "2-0", "make": "silk", "length_mm": 30, "line_mm": [[40, -5, 2], [60, -5, 2]]}
+  ]
+)");
+  return text;
+}
+
 }  // namespace
 
 void scene_files(Bytes bytes) {
@@ -89,6 +102,9 @@ scene::Description small_scene() {
 
 std::vector<Seed> scene_seeds() {
   std::vector<Seed> seeds{shipped_scene(), {"small", bytes_of(scene::write_scene(small_scene()))}};
+  // alone, without the files they name: for their own keys
+  for (const char* scene : {"box_suture", "box_loop"})
+    seeds.push_back({scene, bytes_of(disk_text(std::string(kScenes) + scene + "/scene.json"))});
   for (const char* folder : {"organs", "instruments", "."})
     for (Seed& seed : files_of(folder)) seeds.push_back(std::move(seed));
   return seeds;
@@ -151,6 +167,7 @@ std::vector<Seed> compile_seeds() {
   return {{"small", bytes_of(scene::write_scene(whole))},
           {"cord", bytes_of(scene::write_scene(cord))},
           {"pad", bytes_of(scene::write_scene(pad))},
+          {"sutures", bytes_of(with_sutures(pad))},
           {"shapes", bytes_of(scene::write_scene(shapes))}};
 }
 

@@ -32,6 +32,7 @@ class NeedleDriver {
   sim::StepReport step() {
     const sim::StepReport report = sim::step(m_model, input, state, work);
     flags |= report.flags;
+    if (suture().bite_count == 0) before_entry = suture().peak;
     return report;
   }
   void rest(double seconds) {
@@ -101,6 +102,7 @@ class NeedleDriver {
   sim::Work work;
   sim::Input input;
   std::uint32_t flags = 0;
+  double before_entry = 0;  ///< the most that the needle did to tissue until it was pierced first [N]
 };
 
 }  // namespace trocar

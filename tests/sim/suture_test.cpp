@@ -53,8 +53,9 @@ TEST(Suture, GoesThroughBothLipsOfASlitByAnEntryAndAnExitEach) {
 }
 
 TEST(Suture, PiercesNoSoonerThanAtItsTissuesForceAndSoonAfterThat) {
-  EXPECT_GT(driven().suture().peak, 0.6);
-  EXPECT_LT(driven().suture().peak, 0.8);
+  const double bears = box().objects.sutures.organs[0].puncture;
+  EXPECT_GT(driven().before_entry, 0.95 * bears);  // a tick before
+  EXPECT_LT(driven().before_entry, 1.15 * bears);  // its force is not all along the way that it is driven
 }
 
 TEST(Suture, OutOfThePadTheTipStandsBeyondTheNearMark) {
