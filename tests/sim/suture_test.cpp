@@ -33,6 +33,20 @@ TEST(Suture, HeldFromTheStartStaysInTheJaws) {
   EXPECT_LT(length(d.suture().needle.x - before), 0.0005);
 }
 
+TEST(Suture, ItsThreadLeavesTheSwageAsTheWireEnds) {
+  NeedleDriver d(box(), right_hand());
+  const auto apart = [&] {
+    const suture::NeedleModel& m = d.model().needle;
+    const Vec3d leaves = normalised(d.suture().thread.x[1] - d.suture().thread.x[0]);
+    return dot(leaves, -suture::needle_direction(m, d.suture().needle, m.length));
+  };
+  EXPECT_GT(apart(), 0.98);
+  double most = 0;
+  for (int i = 0; i < 300; ++i) d.step(), most = std::max(most, d.suture().strain);
+  EXPECT_GT(apart(), 0.98);
+  EXPECT_LT(most, 1);  // [N]: it has not been thrown about
+}
+
 TEST(Suture, LetGoFallsWithItsThread) {
   NeedleDriver d(box(), right_hand());
   d.input.tools[right_hand()].handle = 0;

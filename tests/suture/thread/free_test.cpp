@@ -196,6 +196,16 @@ TEST(Thread, ScratchMayBeLostBetweenTicksAndTheSameTicksGiveTheSameBits) {
   EXPECT_EQ(one.value(), two.value());
 }
 
+TEST(Thread, LaidBackwardsInAHoldTurnsRoundToItsDirection) {
+  const ThreadModel m = build({.stuff = find_thread("3-0", "PDS")->stuff, .length = 0.05});
+  ThreadState s = laid(m, straight({}, {1, 0, 0}, 1));
+  take_hold(m, s, 0, 0);
+  ThreadWork w = make_work(m);
+  const Hold hold[1] = {{.direction = {-1, 0, 0}}};
+  for (int k = 0; k < 200; ++k) advance(m, {.holds = hold}, {}, s, w);
+  EXPECT_LT(normalised(s.x[1] - s.x[0]).x, -0.98);
+}
+
 TEST(Thread, RefusesWhatIsNotANumberAndStaysAsItWas) {
   const ThreadModel m = build({.stuff = find_thread("3-0", "PDS")->stuff, .length = 0.05});
   ThreadState s = laid(m, straight({}, {1, 0, 0}, 1));
