@@ -22,6 +22,7 @@ class CutFold final : public Skill {
 
  private:
   enum Phase { kReach, kEnter, kClose, kOpen, kBack };
+  static constexpr double kBefore = 0.024;  // [m] out of the fold, from where the blades go straight in
 
   void start(Operator& op, int) override {
     m_bites = m_vain = 0;
@@ -37,10 +38,11 @@ class CutFold final : public Skill {
       if (m_columns.s(c) >= m_to && m_columns.whole(op.model(), op.state(), c)) m_column = c;
     m_vain = before == m_column && before >= 0 ? m_vain + 1 : 0;
     m_inner = m_column;
-    while (m_inner > 0 && m_columns.s(m_inner - 1) >= m_to &&
-           m_columns.s(m_column) - m_columns.s(m_inner - 1) <= m_bite)
-      --m_inner;
+    while (m_inner > 0 && goes_on(m_inner - 1) && m_columns.s(m_column) - m_columns.s(m_inner - 1) <= m_bite) --m_inner;
   }
+  /// The last column is cut alone, with the blades' tips just beyond it: what the strand comes out of lies behind.
+  bool is_last(int column) const { return column == 0 || m_columns.s(column - 1) < m_to; }
+  bool goes_on(int column) const { return m_columns.s(column) >= m_to && !is_last(column); }
 
   Vec3d at(Operator& op, int column) const { return m_columns.point(op.model(), op.state(), column, m_away); }
   Vec3d middle(Operator& op) const { return 0.5 * (at(op, m_column) + at(op, m_inner)); }
@@ -52,11 +54,12 @@ class CutFold final : public Skill {
     return normalised(far - near, {0, 1, 0});
   }
 
+  /// To where it lay before the blades touched it: what they push they would never catch up with.
   bool aim(Operator& op, double back, double speed) const {
     // a bite in vain is made again a little deeper, then a little less deep
-    constexpr double kInside = 0.62, kElsewhere[] = {0, -0.12, 0.12, -0.24};
-    const double share = kInside + kElsewhere[m_vain % 4];
-    return op.aim(m_hand, middle(op), across(op), share * op.tool(m_hand).jaw_length, back, speed);
+    constexpr double kInside = 0.62, kAtTips = 0.88, kElsewhere[] = {0, -0.12, 0.12, -0.24};
+    const double share = m_at_last ? kAtTips : kInside + kElsewhere[m_vain % 4];
+    return op.aim(m_hand, m_at, m_across, share * op.tool(m_hand).jaw_length, back, speed);
   }
 
   Progress work(Operator& op) override {
@@ -86,7 +89,9 @@ class CutFold final : public Skill {
   }
 
   Progress reach(Operator& op) {
-    constexpr double kBefore = 0.012;  // [m]
+    m_at = middle(op);
+    m_across = across(op);
+    m_at_last = is_last(m_column);
     const bool open = op.arms().grip(m_hand, 0, 0.4);
     if ((aim(op, kBefore, pace::kTravel) && open) || m_in_phase > 8) go(kEnter);
     return Progress::working;
@@ -96,7 +101,7 @@ class CutFold final : public Skill {
   Progress back(Operator& op) {
     Arms::Arm& arm = op.arm(m_hand);
     if (m_in_phase < 1.5 * sim::kTick) m_from = arm.tip;
-    const bool away = op.arms().move(m_hand, m_from + 0.012 * normalised(arm.port - m_from), pace::kCareful);
+    const bool away = op.arms().move(m_hand, m_from + kBefore * normalised(arm.port - m_from), pace::kCareful);
     if (!away && m_in_phase < 3) return Progress::working;
     look(op);
     if (m_column < 0) return Progress::done;
@@ -109,7 +114,8 @@ class CutFold final : public Skill {
   FoldColumns m_columns;
   double m_away, m_to, m_bite;
   int m_most, m_bites = 0, m_vain = 0, m_column = -1, m_inner = -1;
-  Vec3d m_from;
+  Vec3d m_from, m_at, m_across{0, 1, 0};
+  bool m_at_last = false;
 };
 
 std::string lacks_fold(const sim::Model& model, const Given& given) {
