@@ -64,7 +64,8 @@ class CutFold final : public Skill {
 
   Progress work(Operator& op) override {
     constexpr int kInVain = 8;
-    if (m_phase <= kEnter && m_column < 0) return Progress::done;
+    constexpr double kLooks = 0.2;  // [s] at what has been divided
+    if (m_column < 0) return m_in_phase > kLooks ? Progress::done : Progress::working;
     if (m_vain >= kInVain) return fail("the blades do not take it");
     if (m_column >= 0) op.want(middle(op));
     op.want(op.arm(m_hand).tip);
@@ -104,7 +105,7 @@ class CutFold final : public Skill {
     const bool away = op.arms().move(m_hand, m_from + kBefore * normalised(arm.port - m_from), pace::kCareful);
     if (!away && m_in_phase < 3) return Progress::working;
     look(op);
-    if (m_column < 0) return Progress::done;
+    if (m_column < 0) return go(kReach), Progress::working;
     if (++m_bites >= m_most) return fail("it is not divided yet");
     go(kReach);
     return Progress::working;
