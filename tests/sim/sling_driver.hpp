@@ -141,7 +141,8 @@ class SlingDriver {
   double handle = 1;
   std::array<int, 64> events{};
   std::uint32_t flags = 0;
-  double most = 0;  ///< tension in the first thread so far [N]
+  std::size_t in_hand = 0;  ///< which of the scene's slings
+  double most = 0;          ///< tension in its thread so far [N]
 };
 
 }  // namespace trocar

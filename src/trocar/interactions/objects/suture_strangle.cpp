@@ -150,12 +150,33 @@ class Strangling {
       a.bears = size_t(a.strand) < m_models.strangles.size() ? m_models.strangles[size_t(a.strand)] : a.bears;
       for (int n = 0; n < loop_nodes(); ++n) press_node(i, a, n);
     }
+    for (std::int32_t i = 0; i < m_sling.around_count; ++i)
+      if (has_sunk_in(m_bodies.strands[size_t(m_sling.around[size_t(i)].strand)], m_sling.around[size_t(i)])) carry(i);
   }
 
  private:
   int loop_nodes() const noexcept {
     if (!m_sling.computed()) return 0;
     return std::min(m_model.thread.nodes, suture::place_at(m_model.thread, m_sling.knot).element + 1);
+  }
+
+  /// What has sunk in goes where the strand goes. Planes that moved in the solve would have to push it there, and as a
+  /// skin hardens, those before it push too hard and those behind it let go.
+  void carry(std::int32_t number) noexcept {
+    const int count = loop_nodes();
+    for (int n = 0; n < count; ++n) {
+      suture::SkinContact& plane = m_work.skins[size_t(n)];
+      if (m_work.sling.on[size_t(n)] != number || plane.node != n) continue;
+      m_state.thread.x[size_t(n)] += m_dt * plane.velocity;
+      plane.velocity = {};
+    }
+    if (m_sling.stage != SlingState::left) return;
+    const SlingAround& a = m_sling.around[size_t(number)];
+    const tissue::StrandState& s = m_bodies.strand_states[size_t(a.strand)];
+    const size_t e = size_t(a.element);
+    const Vec3d velocity = s.v[e] + a.w * (s.v[e + 1] - s.v[e]);
+    for (int n = count; n <= m_sling.parted && n < m_model.thread.nodes; ++n)
+      m_state.thread.x[size_t(n)] += m_dt * velocity;
   }
 
   /// Middle of the loop, and how far it reaches.
