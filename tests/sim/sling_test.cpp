@@ -188,6 +188,28 @@ TEST(Sling, AKeyframeShowsWhatItsLoopsLieAround) {
   EXPECT_EQ(before, after);
 }
 
+TEST(Sling, GoesWhereItsStrandGoesWithoutDrag) {
+  for (const bool across : {false, true}) {
+    SlingDriver d = left();
+    const std::vector<Vec3d> from = d.state.strands[0].x;
+    const Vec3d along = d.tangent(0, kPlace), way = across ? any_perpendicular(along) : along;
+    const double place = place_of(d), speed = 0.1;
+    double pull = 0;
+    for (int tick = 0; tick < 200; ++tick) {
+      for (size_t n = 0; n < from.size(); ++n) {
+        d.state.strands[0].x[n] = from[n] + speed * tick * sim::kTick * way;
+        d.state.strands[0].v[n] = speed * way;
+      }
+      d.step();
+      ASSERT_EQ(d.sling().around_count, 1);
+      pull = std::max(pull, length(d.sling().around[0].pull));
+    }
+    EXPECT_NEAR(place_of(d), place, 1e-4);
+    EXPECT_LT(pull, 0.05);  // [N]
+    EXPECT_NEAR(d.sling().tension, left().sling().tension, 0.1);
+  }
+}
+
 TEST(Sling, ItsInstrumentIsNotExchangedWhileTheLoopLiesAroundSomething) {
   SlingDriver d = closed();
   const std::int32_t had = d.state.tools[size_t(right_hand())].instrument;

@@ -1,5 +1,5 @@
-// The appendicectomy: how the exercise is read, what it counts of loops and of the mesentery, and what its cuts are told
-// to be. States are written by hand.
+// The appendicectomy: how the exercise is read, what it counts of loops and of the mesentery, and what its cuts are
+// told to be. States are written by hand.
 #include <gtest/gtest.h>
 
 #include <trocar/training/events/registry.hpp>

@@ -231,8 +231,7 @@ class Strangling {
     for (std::size_t i = 0; i < m_states.size(); ++i) {
       const SlingState& other = m_states[i].sling;
       if (i == m_index || !m_models.list[i].sling.there()) continue;
-      const double room = 0.5 * kBesideNext *
-                          (m_model.thread.stuff.diameter + m_models.list[i].thread.stuff.diameter);
+      const double room = 0.5 * kBesideNext * (m_model.thread.stuff.diameter + m_models.list[i].thread.stuff.diameter);
       for (std::int32_t k = 0; k < other.around_count; ++k) {
         const SlingAround& a = other.around[size_t(k)];
         if (a.strand != mine.strand || !(a.squeeze > kHoldsFrom)) continue;

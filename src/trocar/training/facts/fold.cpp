@@ -28,16 +28,17 @@ std::string no_fold(const sim::Model& model, const Arguments& a) {
 
 }  // namespace
 
-const Fact kFoldWhole{"fold.whole_mm",
-                      {{"of", ArgumentKind::body, "a fold that hangs on a strand"},
-                       {"between_mm", ArgumentKind::range, "stretch of that strand, from its beginning", true, 0, 1000}},
-                      0,
-                      1000,
-                      "Along how much of that stretch the fold still ties the strand to its root, uncut from border to "
-                      "border.",
-                      anywhere,
-                      &remembering<FoldWhole>,
-                      false,
-                      &no_fold};
+const Fact kFoldWhole{
+    "fold.whole_mm",
+    {{"of", ArgumentKind::body, "a fold that hangs on a strand"},
+     {"between_mm", ArgumentKind::range, "stretch of that strand, from its beginning", true, 0, 1000}},
+    0,
+    1000,
+    "Along how much of that stretch the fold still ties the strand to its root, uncut from border to "
+    "border.",
+    anywhere,
+    &remembering<FoldWhole>,
+    false,
+    &no_fold};
 
 }  // namespace trocar::training

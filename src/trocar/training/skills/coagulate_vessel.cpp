@@ -9,8 +9,9 @@
 namespace trocar::training {
 namespace {
 
-/// What carries a vessel (as a rule the one that bleeds, where it bleeds) between bipolar jaws: held, coagulated until it is sealed, let
-/// go. Who has taken what lies beside it, or nothing, draws back and comes again there, or a little deeper.
+/// What carries a vessel (as a rule the one that bleeds, where it bleeds) between bipolar jaws: held, coagulated until
+/// it is sealed, let go. Who has taken what lies beside it, or nothing, draws back and comes again there, or a little
+/// deeper.
 class CoagulateVessel final : public Skill {
  public:
   CoagulateVessel(const sim::Model& model, const Given& given)
@@ -146,13 +147,15 @@ std::string coagulate_vessel_lacks(const sim::Model& model, const Given& given) 
 const SkillKind kCoagulateVessel{
     "coagulate_vessel",
     "coagulate the place that bleeds",
-    {hand_parameter("that has bipolar forceps"), number_parameter("for_s", "the pedal is pressed at most; 4", 0, 60),
+    {hand_parameter("that has bipolar forceps"),
+     number_parameter("for_s", "the pedal is pressed at most; 4", 0, 60),
      number_parameter("inside_share", "of the jaws' length: how far from their hinge the vessel shall lie; 0.75", 0, 1),
      number_parameter("to", "how far the handle closes; 0.95", 0, 1),
      {"vessel", ArgumentKind::vessel, "which; none: the one that bleeds, where it bleeds", false},
      number_parameter("share", "where along that vessel; 0.5", 0, 1)},
     60,
-    "Takes what carries the artery that bleeds, or a vessel that is named, between bipolar jaws, presses the blue pedal "
+    "Takes what carries the artery that bleeds, or a vessel that is named, between bipolar jaws, presses the blue "
+    "pedal "
     "until it is sealed, opens, draws back.",
     coagulate_vessel_lacks,
     &making<CoagulateVessel>};

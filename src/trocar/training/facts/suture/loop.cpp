@@ -109,14 +109,14 @@ const Fact kLoopsCount{"loops.count",
                        "How many loops lie around it that close its lumen and whose tails have been cut.",
                        needs_sling,
                        &stateless<count>};
-const Fact kLoopsAt{"loops.at_mm",
-                    {{"of", ArgumentKind::strand, "which tube"},
-                     {"nth", ArgumentKind::number, "1: of those loops the first from its beginning", true, 1,
-                      sim::kMostLoops}},
-                    0,
-                    1000,
-                    "Where that loop lies, from the tube's beginning. Unknown while there are fewer.",
-                    needs_sling,
-                    &stateless<nth_at>};
+const Fact kLoopsAt{
+    "loops.at_mm",
+    {{"of", ArgumentKind::strand, "which tube"},
+     {"nth", ArgumentKind::number, "1: of those loops the first from its beginning", true, 1, sim::kMostLoops}},
+    0,
+    1000,
+    "Where that loop lies, from the tube's beginning. Unknown while there are fewer.",
+    needs_sling,
+    &stateless<nth_at>};
 
 }  // namespace trocar::training

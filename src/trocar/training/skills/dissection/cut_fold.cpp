@@ -64,7 +64,7 @@ class CutFold final : public Skill {
 
   Progress work(Operator& op) override {
     constexpr int kInVain = 8;
-    constexpr double kLooks = 0.2;  // [s] at what has been divided
+    constexpr double kLooks = 0.2, kUnseen = 3.5;  // [s] at what has been divided; to wait for the camera
     if (m_column < 0) return m_in_phase > kLooks ? Progress::done : Progress::working;
     if (m_vain >= kInVain) return fail("the blades do not take it");
     if (m_column >= 0) op.want(middle(op));
@@ -74,8 +74,8 @@ class CutFold final : public Skill {
         return reach(op);
       case kEnter: {
         const bool there = aim(op, 0, pace::kCareful);
-        m_steady = there ? m_steady + sim::kTick : 0;
-        if (m_steady > 0.1 || m_in_phase > 5) go(kClose);
+        m_steady = there && (op.sees_tip(m_hand) || m_in_phase > kUnseen) ? m_steady + sim::kTick : 0;
+        if (m_steady > 0.1 || m_in_phase > kUnseen + 2) go(kClose);
         return Progress::working;
       }
       case kClose:
