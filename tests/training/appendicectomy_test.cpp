@@ -48,8 +48,7 @@ Argument range(double low, double high) { return {true, -1, low, high, {}, {}}; 
 
 TEST(Appendicectomy, IsReadWithItsDemonstration) {
   const Exercise exercise = read_exercise(TROCAR_SOURCE_DIR "/scenes/appendix/appendicectomy.json");
-  const Demonstration shown = read_demonstration(exercise, fossa(), 0);
-  const Performer performer(fossa(), shown);
+  const Performer performer(fossa(), read_demonstration(exercise, fossa(), 0));
   EXPECT_FALSE(performer.done());
   Monitor monitor(exercise, fossa());
   EXPECT_FALSE(monitor.finished());

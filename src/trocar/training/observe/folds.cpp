@@ -56,7 +56,8 @@ double FoldColumns::whole_between(const sim::Model& model, const sim::State& sta
   double sum = 0;
   const double half = count() > 1 ? 0.5 * std::fabs(s(1) - s(0)) : 0;
   for (int c = 0; c < count(); ++c) {
-    const double width = std::min(to, s(c) + half) - std::max(from, s(c) - half);
+    const double begins = c == 0 ? s(c) : s(c) - half, ends = c + 1 == count() ? s(c) : s(c) + half;
+    const double width = std::min(to, ends) - std::max(from, begins);
     if (width > 0 && s(c) >= from && s(c) <= to && whole(model, state, c)) sum += width;
   }
   return sum;
