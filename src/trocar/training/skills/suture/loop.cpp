@@ -119,7 +119,8 @@ class CloseLoop final : public Skill {
       : m_hand(given.hand()),
         m_strand(given("of").index),
         m_at(given.number("at_mm", 0.01)),
-        m_to(given.number("close_to", 0.4)) {}
+        m_to(given.number("close_to", 0.4)),
+        m_leads(given.says("lead_back", "yes")) {}
 
  private:
   static constexpr double kDraws = 0.25, kLies = 0.4, kSettles = 0.8, kLongest = 12;  // of the handle, [N], [s]
@@ -144,7 +145,7 @@ class CloseLoop final : public Skill {
     if (!g->lies_around(m_strand)) return fail("the loop does not lie around it");
     if (g->fed > Around::kTouches)
       m_around.look(op, m_strand, m_at);
-    else
+    else if (m_leads)
       lead_back(op, *g);
     op.want(m_around.at);
     op.want(op.arm(m_hand).tip);
@@ -161,6 +162,7 @@ class CloseLoop final : public Skill {
 
   int m_hand, m_strand;
   double m_at, m_to, m_ended = 0, m_shift = 0;
+  bool m_leads;
   Around m_around;
 };
 
@@ -266,16 +268,18 @@ const SkillKind kPutLoopOver{"put_loop_over",
                              "Opens the loop above the free end of a strand and leads it down over it.",
                              lacks_sling,
                              &making<PutLoopOver>};
-const SkillKind kCloseLoop{"close_loop",
-                           "close the loop",
-                           {hand_parameter("that has the sling"),
-                            {"of", ArgumentKind::strand, "what it lies around"},
-                            number_parameter("at_mm", "where, from its beginning; 10", 0, 1000),
-                            number_parameter("close_to", "how far the handle closes; 0.4", 0.1, 1)},
-                           25,
-                           "Draws the loop closed, the knot at the place, until it closes the lumen.",
-                           lacks_sling,
-                           &making<CloseLoop>};
+const SkillKind kCloseLoop{
+    "close_loop",
+    "close the loop",
+    {hand_parameter("that has the sling"),
+     {"of", ArgumentKind::strand, "what it lies around"},
+     number_parameter("at_mm", "where, from its beginning; 10", 0, 1000),
+     number_parameter("close_to", "how far the handle closes; 0.4", 0.1, 1),
+     word_parameter("lead_back", "whether the knot is led against what slides off; no", {"yes", "no"})},
+    25,
+    "Draws the loop closed, the knot at the place, until it closes the lumen.",
+    lacks_sling,
+    &making<CloseLoop>};
 const SkillKind kLeaveLoop{
     "leave_loop",
     "leave the loop",
