@@ -33,12 +33,13 @@ class SlingDriver {
         work(sim::make_work(m_model)),
         input(other.input),
         handle(other.handle),
-        events(other.events) {}
+        events(other.events),
+        in_hand(other.in_hand) {}
 
   Vec3d port() const { return m_model.tool(state, size_t(m_hand)).port; }
-  const interactions::SutureModel& model(size_t i = 0) const { return m_model.objects.sutures.list[i]; }
-  const interactions::SutureState& suture(size_t i = 0) const { return state.objects.sutures[i]; }
-  const interactions::SlingState& sling(size_t i = 0) const { return suture(i).sling; }
+  const interactions::SutureModel& model() const { return m_model.objects.sutures.list[in_hand]; }
+  const interactions::SutureState& suture() const { return state.objects.sutures[in_hand]; }
+  const interactions::SlingState& sling() const { return suture().sling; }
   Vec3d tip() const { return m_tip; }
   Vec3d axis() const { return sling().mouth.axis; }
   /// Of the loop's middle.
@@ -140,7 +141,8 @@ class SlingDriver {
   double handle = 1;
   std::array<int, 64> events{};
   std::uint32_t flags = 0;
-  double most = 0;  ///< tension in the first thread so far [N]
+  std::size_t in_hand = 0;  ///< which of the scene's slings
+  double most = 0;          ///< tension in its thread so far [N]
 };
 
 }  // namespace trocar

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/sim/recording/keyframe.hpp>
+#include <trocar/training/observe/loops.hpp>
 #include <trocar/training/observe/lumen_check.hpp>
 
 #include "shipped.hpp"
@@ -34,22 +35,41 @@ const SlingDriver& closed() {
   return done;
 }
 /// The handle opened, the tube 30 mm back, the tail cut between knot and mouth.
+void leave(SlingDriver& d) {
+  d.grip(0, 0.5);
+  d.rest(0.5);
+  d.move(d.tip() + 0.03 * normalised(d.port() - d.tip()), 0.02);
+  d.rest(0.5);
+  suture::cut(d.model().thread, d.state.objects.sutures[d.in_hand].thread, 0.5 * (d.sling().knot + d.sling().fed));
+  d.rest(0.5);
+}
 const SlingDriver& left() {
   static const SlingDriver done = [] {
     SlingDriver d = closed();
-    d.grip(0, 0.5);
-    d.rest(0.5);
-    d.move(d.tip() + 0.03 * normalised(d.port() - d.tip()), 0.02);
-    d.rest(0.5);
-    suture::cut(d.model().thread, d.state.objects.sutures[0].thread, 0.5 * (d.sling().knot + d.sling().fed));
-    d.rest(0.5);
+    leave(d);
     return d;
   }();
   return done;
 }
-double place_of(const SlingDriver& d) {
-  const interactions::SlingAround& a = d.sling().around[0];
+double place_of(const SlingDriver& d, size_t sling) {
+  const interactions::SlingAround& a = d.state.objects.sutures[sling].sling.around[0];
   return interactions::arc_at(box().strand_bodies[0], {a.element, a.w});
+}
+double place_of(const SlingDriver& d) { return place_of(d, 0); }
+/// A second loop, which the hand has taken at its trocar, 2.5 mm beside the first.
+const SlingDriver& beside() {
+  static const SlingDriver done = [] {
+    SlingDriver d = left();
+    d.grip(1, 0.3);
+    d.move(d.port() + 0.008 * normalised(d.tip() - d.port()), 0.06);
+    d.rest(0.2);
+    d.in_hand = 1;
+    d.put_over(0, kEnd, kPlace + 0.0025);
+    d.draw_closed(0, kPlace + 0.0025, 0.4, 6);
+    leave(d);
+    return d;
+  }();
+  return done;
 }
 double cover_of(const SlingDriver& d) {
   double cover = 0;
@@ -139,6 +159,55 @@ TEST(Sling, SlipsOffAStumpOfTwoMillimetresByItself) {
   const SlingDriver d = with_stump(0.002);
   EXPECT_EQ(d.told(sim::Event::loop_slipped), 1);
   EXPECT_EQ(d.sling().around_count, 0);
+}
+
+TEST(Sling, ASecondOneIsTakenAtTheTrocarAndBothHoldBesideEachOther) {
+  const SlingDriver& d = beside();
+  ASSERT_EQ(d.state.objects.sutures[0].sling.stage, interactions::SlingState::left);
+  ASSERT_EQ(d.state.objects.sutures[1].sling.stage, interactions::SlingState::left);
+  EXPECT_EQ(d.told(sim::Event::loop_slipped), 0);
+  EXPECT_EQ(d.told(sim::Event::loop_loosened), 0);
+  const training::SecuredLoops both = training::secured_loops(box(), d.state, 0);
+  ASSERT_EQ(both.count, 2);
+  EXPECT_LT(place_of(d, 0), place_of(d, 1));  // neither has gone over the other
+  EXPECT_GT(both.at[1] - both.at[0], d.model().thread.stuff.diameter);
+  EXPECT_NEAR(both.at[0], kPlace, 0.002);
+  training::LumenCheck check(box(), 0, 0.98);
+  check.update(box(), d.state);
+  EXPECT_TRUE(check.occluded());
+}
+
+TEST(Sling, AKeyframeShowsWhatItsLoopsLieAround) {
+  const sim::State& was = beside().state;
+  sim::State read = sim::initial_state(box());
+  ASSERT_TRUE(sim::restore_display(box(), sim::display_bytes(box(), was), read));
+  std::vector<double> before, after;
+  sim::visit_loops(box(), was, [&](const sim::LoopClosure& loop) { before.push_back(loop.radius); });
+  sim::visit_loops(box(), read, [&](const sim::LoopClosure& loop) { after.push_back(loop.radius); });
+  ASSERT_EQ(before.size(), 2u);
+  EXPECT_EQ(before, after);
+}
+
+TEST(Sling, GoesWhereItsStrandGoesWithoutDrag) {
+  for (const bool across : {false, true}) {
+    SlingDriver d = left();
+    const std::vector<Vec3d> from = d.state.strands[0].x;
+    const Vec3d along = d.tangent(0, kPlace), way = across ? any_perpendicular(along) : along;
+    const double place = place_of(d), speed = 0.1;
+    double pull = 0;
+    for (int tick = 0; tick < 200; ++tick) {
+      for (size_t n = 0; n < from.size(); ++n) {
+        d.state.strands[0].x[n] = from[n] + speed * tick * sim::kTick * way;
+        d.state.strands[0].v[n] = speed * way;
+      }
+      d.step();
+      ASSERT_EQ(d.sling().around_count, 1);
+      pull = std::max(pull, length(d.sling().around[0].pull));
+    }
+    EXPECT_NEAR(place_of(d), place, 1e-4);
+    EXPECT_LT(pull, 0.05);  // [N]
+    EXPECT_NEAR(d.sling().tension, left().sling().tension, 0.1);
+  }
 }
 
 TEST(Sling, ItsInstrumentIsNotExchangedWhileTheLoopLiesAroundSomething) {

@@ -380,7 +380,10 @@ void Suture::shown(const Models&, States_& states, F&& f) {
   for (auto& s : states) {
     f(&s.needle.x, 1), f(&s.needle.q, 1), f(&s.broken, 1);
     f(s.thread.alive.data(), s.thread.alive.size());
-    if (s.sling.fed > 0) f(&s.sling.stage, 1), f(&s.sling.parted, 1), f(&s.sling.fed, 1), f(&s.sling.knot, 1);
+    if (s.sling.fed > 0) {
+      f(&s.sling.stage, 1), f(&s.sling.parted, 1), f(&s.sling.fed, 1), f(&s.sling.knot, 1);
+      if (s.sling.computed()) f(&s.sling.around_count, 1), f(s.sling.around.data(), s.sling.around.size());
+    }
     if (s.thread.x.empty()) continue;
     Vec3d middle = s.thread.x[s.thread.x.size() / 2];
     f(&middle, 1);

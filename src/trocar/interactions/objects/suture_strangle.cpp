@@ -24,6 +24,8 @@ constexpr double kMostSunk = 0.93;        // of the depth at which a strand is c
 constexpr double kKnot = 0.0015;          // [m] that a knot at the mouth keeps a strand off
 constexpr double kKnotPushes = 12000;     // [N/m] with which it does
 constexpr double kLeastDepth = 1e-5;      // [m] at which a law's secant is taken
+constexpr double kBesideNext = 1.2;       // thicknesses of both threads from one loop's middle to the next one's
+constexpr double kOffNext = 1;            // tangent of the slope that keeps two loops apart, at its steepest        [d]
 
 /// Where a point is beside a strand's middle line.
 struct Beside {
@@ -70,14 +72,16 @@ int passes_through(Vec3d p, Vec3d q, Vec3d a, Vec3d b, Vec3d c, double& w) noexc
 
 class Strangling {
  public:
-  Strangling(const SutureModels& models, const SutureModel& m, const TissueBodies& bodies, double dt, SutureState& s,
-             SutureWork& w, TissueLoads loads) noexcept
+  Strangling(const SutureModels& models, std::size_t index, const TissueBodies& bodies, double dt,
+             Suture::States& states, SutureWork& w, TissueLoads loads) noexcept
       : m_models(models),
-        m_model(m),
+        m_states(states),
+        m_index(index),
+        m_model(models.list[index]),
         m_bodies(bodies),
         m_dt(dt),
-        m_state(s),
-        m_sling(s.sling),
+        m_state(states[index]),
+        m_sling(m_state.sling),
         m_work(w),
         m_loads(loads) {}
 
@@ -132,7 +136,7 @@ class Strangling {
       SlingAround found;
       for (std::int32_t k = 0; k < had; ++k)
         if (before[size_t(k)].strand == std::int32_t(i)) found = before[size_t(k)];
-      const bool tight = found.strand >= 0 && found.squeeze > kHoldsFrom;
+      const bool tight = found.strand >= 0 && found.squeeze > kHoldsFrom && has_sunk_in(m_bodies.strands[i], found);
       found.strand = std::int32_t(i);
       if (tight ? sits(i, found) : passes(i, found)) m_sling.around[size_t(m_sling.around_count++)] = found;
     }
@@ -146,12 +150,33 @@ class Strangling {
       a.bears = size_t(a.strand) < m_models.strangles.size() ? m_models.strangles[size_t(a.strand)] : a.bears;
       for (int n = 0; n < loop_nodes(); ++n) press_node(i, a, n);
     }
+    for (std::int32_t i = 0; i < m_sling.around_count; ++i)
+      if (has_sunk_in(m_bodies.strands[size_t(m_sling.around[size_t(i)].strand)], m_sling.around[size_t(i)])) carry(i);
   }
 
  private:
   int loop_nodes() const noexcept {
     if (!m_sling.computed()) return 0;
     return std::min(m_model.thread.nodes, suture::place_at(m_model.thread, m_sling.knot).element + 1);
+  }
+
+  /// What has sunk in goes where the strand goes. Planes that moved in the solve would have to push it there, and as a
+  /// skin hardens, those before it push too hard and those behind it let go.
+  void carry(std::int32_t number) noexcept {
+    const int count = loop_nodes();
+    for (int n = 0; n < count; ++n) {
+      suture::SkinContact& plane = m_work.skins[size_t(n)];
+      if (m_work.sling.on[size_t(n)] != number || plane.node != n) continue;
+      m_state.thread.x[size_t(n)] += m_dt * plane.velocity;
+      plane.velocity = {};
+    }
+    if (m_sling.stage != SlingState::left) return;
+    const SlingAround& a = m_sling.around[size_t(number)];
+    const tissue::StrandState& s = m_bodies.strand_states[size_t(a.strand)];
+    const size_t e = size_t(a.element);
+    const Vec3d velocity = s.v[e] + a.w * (s.v[e + 1] - s.v[e]);
+    for (int n = count; n <= m_sling.parted && n < m_model.thread.nodes; ++n)
+      m_state.thread.x[size_t(n)] += m_dt * velocity;
   }
 
   /// Middle of the loop, and how far it reaches.
@@ -198,6 +223,26 @@ class Strangling {
     return net != 0;
   }
 
+  /// Where another loop has sunk in beside this one, the groove's side leads away from that: threads lie side by side.
+  /// @param at  where on the strand the node lies [m]
+  double slope_off_next(const StrandBody& body, const SlingAround& mine, double at) const noexcept {
+    double slope = 0;
+    const double here = arc_at(body, {mine.element, mine.w});
+    for (std::size_t i = 0; i < m_states.size(); ++i) {
+      const SlingState& other = m_states[i].sling;
+      if (i == m_index || !m_models.list[i].sling.there()) continue;
+      const double room = 0.5 * kBesideNext * (m_model.thread.stuff.diameter + m_models.list[i].thread.stuff.diameter);
+      for (std::int32_t k = 0; k < other.around_count; ++k) {
+        const SlingAround& a = other.around[size_t(k)];
+        if (a.strand != mine.strand || !(a.squeeze > kHoldsFrom)) continue;
+        const double there = arc_at(body, {a.element, a.w});
+        const double side = here > there || (here == there && i < m_index) ? 1 : -1;
+        slope += side * kOffNext * std::clamp((room - side * (at - there)) / room, 0.0, 1.0);
+      }
+    }
+    return slope;
+  }
+
   /// The plane that a node lies on there, such that it presses as the law says.
   void press_node(std::int32_t number, const SlingAround& a, int n) noexcept {
     const StrandBody& body = m_bodies.strands[size_t(a.strand)];
@@ -216,7 +261,9 @@ class Strangling {
     const double piece = m_model.thread.spacing * (n == 0 ? 0.5 : 1.0);
     const FreeEnd end = free_end(body, s, at.place);
     const Vec3d along = normalised(s.x[e + 1] - s.x[e]);
-    const Vec3d normal = normalised(at.out + (end.side * slope_to_end(radius, std::max(0.0, depth), end.away)) * along);
+    const double slope = end.side * slope_to_end(radius, std::max(0.0, depth), end.away) +
+                         slope_off_next(body, a, arc_at(body, at.place));
+    const Vec3d normal = normalised(at.out + slope * along);
     const Vec3d velocity = s.v[e] + at.place.w * (s.v[e + 1] - s.v[e]);
     on = number;
     m_work.sling.stiff[size_t(n)] = piece * law.slope;
@@ -249,6 +296,8 @@ class Strangling {
   }
 
   const SutureModels& m_models;
+  const Suture::States& m_states;
+  std::size_t m_index;
   const SutureModel& m_model;
   const TissueBodies& m_bodies;
   double m_dt;
@@ -309,7 +358,7 @@ void strangle(const SutureModels& models, const TissueBodies& bodies, std::uint6
   for (size_t i = 0; i < states.size(); ++i) {
     const SutureModel& m = models.list[i];
     if (!m.sling.there()) continue;
-    Strangling strangling(models, m, bodies, dt, states[i], work.list[i], loads);
+    Strangling strangling(models, i, bodies, dt, states, work.list[i], loads);
     strangling.bear();
     if ((tick + i) % kFindsEvery == 0) strangling.find();
     strangling.press();

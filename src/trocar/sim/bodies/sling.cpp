@@ -87,7 +87,7 @@ void watch(StepContext& c, SlingState& g) noexcept {
   BodyId body;
   for (std::int32_t k = 0; k < g.around_count; ++k) {
     SlingAround& a = g.around[std::size_t(k)];
-    if (a.squeeze > kTightFrom) is |= kWasTight;
+    if (a.squeeze > kTightFrom && has_sunk_in(c.model.strand_bodies[std::size_t(a.strand)], a)) is |= kWasTight;
     if (cover_at(c, a) >= kLoopCloses) {
       if (!(g.was_closed & kWasClosed))
         tell(c, Event::loop_tightened, std::max(0, g.hand), BodyId::strand(std::size_t(a.strand)));

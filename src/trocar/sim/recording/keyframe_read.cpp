@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <trocar/fluids/shown_fluids.hpp>
@@ -88,6 +89,21 @@ void take_fluids(Source& in, const Model& model, fluids::FluidsState& s) {
   if (in.good) in.at += size_t(read);
 }
 
+/// Do loops lie around strands that are there?
+bool loops_are_sound(const Model& model, const State& s) {
+  for (const interactions::SutureState& suture : s.objects.sutures) {
+    const interactions::SlingState& g = suture.sling;
+    if (g.around_count < 0 || g.around_count > interactions::kMostAround) return false;
+    for (std::int32_t k = 0; k < g.around_count; ++k) {
+      const interactions::SlingAround& a = g.around[size_t(k)];
+      const bool there = a.strand >= 0 && size_t(a.strand) < model.strand_bodies.size();
+      if (!there || a.element < 0 || a.element + 1 >= model.strand_bodies[size_t(a.strand)].nodes()) return false;
+      if (!std::isfinite(a.radius) || !(a.w >= 0 && a.w <= 1)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes, State& state) {
@@ -143,7 +159,7 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   in.take(s.joints.data(), s.joints.size());
   in.take(s.ports.data(), s.ports.size());
   if (s.injection.there()) take_injection(in, s.injection);
-  if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
+  if (!in.good || in.at != bytes.size() || !sound(model, s) || !loops_are_sound(model, s)) return false;
   if (model.wet.there) lay_floor(model, s);
   state = std::move(s);
   return true;

@@ -5,6 +5,7 @@
 #include <trocar/training/facts/needs.hpp>
 #include <trocar/training/observe/hands.hpp>
 #include <trocar/training/observe/liquid.hpp>
+#include <trocar/training/observe/loops.hpp>
 
 namespace trocar::training {
 namespace {
@@ -72,6 +73,25 @@ Value cut_to_clip(const Moment& moment, const Happening& h) {
   return nearest;
 }
 
+Value between_loops(const Moment& moment, const Happening& h) {
+  const interactions::Cut& cut = cut_of(moment, h);
+  if (cut.strand < 0) return false;
+  const SecuredLoops loops = secured_loops(moment.model, moment.state, cut.strand);
+  return loops.count > 1 && loops.at[0] < cut.s && loops.at[size_t(loops.count) - 1] > cut.s;
+}
+
+Value cut_to_loop(const Moment& moment, const Happening& h) {
+  const interactions::Cut& cut = cut_of(moment, h);
+  Value nearest = kUnknown;
+  if (cut.strand < 0) return nearest;
+  const SecuredLoops loops = secured_loops(moment.model, moment.state, cut.strand);
+  for (int i = 0; i < loops.count; ++i) {
+    const double off = std::fabs(loops.at[size_t(i)] - cut.s);
+    if (!nearest.known || off < nearest.number) nearest = off;
+  }
+  return nearest;
+}
+
 std::vector<Attribute> cut_attributes() {
   return {
       {"s_mm", "where on the strand, from its beginning; unknown on other bodies",
@@ -93,6 +113,9 @@ std::vector<Attribute> cut_attributes() {
        0, 1, true},
       {"between_clips", "clips sit on the strand on both sides of the cut", between_clips, 0, 1, true},
       {"to_clip_mm", "from the strand's nearest clip; unknown without any", cut_to_clip, 0, kLongest},
+      {"between_loops", "loops with their tails cut close the strand on both sides of the cut", between_loops, 0, 1,
+       true},
+      {"to_loop_mm", "from the nearest of such loops; unknown without any", cut_to_loop, 0, kLongest},
   };
 }
 

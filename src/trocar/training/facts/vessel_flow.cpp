@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
 
+#include <trocar/training/facts/needs.hpp>
 #include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/bleeder.hpp>
 
 namespace trocar::training {
 namespace {
@@ -28,7 +30,13 @@ class VesselFlow final : public Observer {
   int m_samples = 0;
 };
 
+Value sealed(const Moment& moment, const Arguments& a) { return vessel_sealed(moment.state, a[0].index); }
+
 std::string_view needs_vessels(const sim::Model& model) { return model.vessels.there() ? "" : "vessels"; }
+
+std::string_view needs_vessels_and_energy(const sim::Model& model) {
+  return model.vessels.there() ? needs_energy(model) : needs_vessels(model);
+}
 
 }  // namespace
 
@@ -40,5 +48,14 @@ const Fact kVesselFlow{"vessel.flow_mL_min",
                        "below 0.",
                        needs_vessels,
                        &remembering<VesselFlow>};
+
+const Fact kVesselSealed{"vessel.sealed",
+                         {{"of", ArgumentKind::vessel, "which"}},
+                         0,
+                         1,
+                         "Heat has closed it somewhere, so that it bears three times a systolic pressure.",
+                         needs_vessels_and_energy,
+                         &stateless<sealed>,
+                         true};
 
 }  // namespace trocar::training

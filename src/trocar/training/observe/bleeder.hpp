@@ -22,13 +22,17 @@ inline bool bleeder_clipped(const sim::Model& model, const sim::State& state, bo
   });
 }
 
+/// Has heat closed this vessel for good, no farther along it than `s`?
+inline bool vessel_sealed(const sim::State& state, std::int32_t vessel, double s = 1) {
+  const auto seals = std::span(state.seals).first(size_t(state.seal_count));
+  return std::any_of(seals.begin(), seals.end(), [&](const interactions::VesselSeal& seal) {
+    return seal.vessel == vessel && seal.from <= s && holds(seal);
+  });
+}
+
 /// Has heat closed it for good, at the place or on the heart's side of it?
 inline bool bleeder_sealed(const sim::Model& model, const sim::State& state) {
-  const sim::Bleeder& b = model.vessels.bleeder;
-  const auto seals = std::span(state.seals).first(size_t(state.seal_count));
-  return std::any_of(seals.begin(), seals.end(), [&](const interactions::VesselSeal& s) {
-    return s.vessel == b.vessel && s.from <= b.s && holds(s);
-  });
+  return vessel_sealed(state, model.vessels.bleeder.vessel, model.vessels.bleeder.s);
 }
 
 /// Where a vessel bleeds by itself: what carries it there; none: nothing does.

@@ -23,6 +23,18 @@ std::optional<LoopSeen> loop_on(const sim::Model& model, const sim::State& state
   return nearest;
 }
 
+SecuredLoops secured_loops(const sim::Model& model, const sim::State& state, int strand) {
+  SecuredLoops found;
+  sim::visit_loops(model, state, [&](const sim::LoopClosure& loop) {
+    const interactions::SlingState& g = state.objects.sutures[size_t(loop.suture)].sling;
+    const bool counts = loop.strand == strand && g.stage == interactions::SlingState::left;
+    if (!counts || loop.cover < LoopSeen::kCloses || found.count == sim::kMostLoops) return;
+    found.at[size_t(found.count++)] = loop.s;
+  });
+  std::sort(found.at.begin(), found.at.begin() + found.count);
+  return found;
+}
+
 int sling_of_hand(const sim::State& state, int hand) {
   int left = -1;
   for (size_t i = 0; i < state.objects.sutures.size(); ++i) {

@@ -1,6 +1,7 @@
 // Loops of slings, as who judges them sees them.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include <trocar/sim/bodies/sling.hpp>
@@ -20,6 +21,12 @@ struct LoopSeen {
 };
 /// Of those around the strand the one nearest to `s` [m]; nothing where there is none.
 std::optional<LoopSeen> loop_on(const sim::Model& model, const sim::State& state, int strand, double s);
+/// Where loops lie around a strand that close it and whose tails have been cut, from its beginning [m].
+struct SecuredLoops {
+  std::array<double, sim::kMostLoops> at{};
+  int count = 0;
+};
+SecuredLoops secured_loops(const sim::Model& model, const sim::State& state, int strand);
 /// The sling that this hand holds, or, where it holds none, the last one that it left; -1: neither.
 int sling_of_hand(const sim::State& state, int hand);
 

@@ -9,12 +9,15 @@
 namespace trocar::training {
 namespace {
 
-/// What carries the artery that bleeds between bipolar jaws, where it bleeds: held, coagulated until it is sealed, let
-/// go. Who has taken what lies beside it, or nothing, draws back and comes again there, or a little deeper.
+/// What carries a vessel (as a rule the one that bleeds, where it bleeds) between bipolar jaws: held, coagulated until
+/// it is sealed, let go. Who has taken what lies beside it, or nothing, draws back and comes again there, or a little
+/// deeper.
 class CoagulateVessel final : public Skill {
  public:
-  CoagulateVessel(const sim::Model&, const Given& given)
+  CoagulateVessel(const sim::Model& model, const Given& given)
       : m_hand(given.hand()),
+        m_vessel(given("vessel").given ? given("vessel").index : model.vessels.bleeder.vessel),
+        m_s(given("vessel").given ? given.number("share", 0.5) : model.vessels.bleeder.s),
         m_longest(given.number("for_s", 4)),
         m_share(given.number("inside_share", 0.75)),
         m_closed(given.number("to", 0.95)) {}
@@ -33,7 +36,7 @@ class CoagulateVessel final : public Skill {
 
   Progress work(Operator& op) override {
     op.want(op.arm(m_hand).tip);
-    op.want(bleeding(op));
+    op.want(place(op));
     switch (m_phase) {
       case kReach:
         return reach(op);
@@ -53,7 +56,7 @@ class CoagulateVessel final : public Skill {
   }
 
   Progress reach(Operator& op) {
-    m_carrier = carrier_at(op, bleeder(op).vessel, bleeder(op).s);
+    m_carrier = carrier_at(op, m_vessel, m_s);
     if (op.arms().grip(m_hand, 0, 0.5) && aim(op, reach::kBefore, pace::kTravel)) go(kEnter);
     if (m_in_phase > 15) give_up("it did not get there");
     return Progress::working;
@@ -77,7 +80,7 @@ class CoagulateVessel final : public Skill {
   double from_jaws(Operator& op) const {
     constexpr double kAcross = 0.3;  // less, and the jaws lie along it
     const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), size_t(m_hand));
-    const VesselCarrier now = carrier_at(op, bleeder(op).vessel, bleeder(op).s);
+    const VesselCarrier now = carrier_at(op, m_vessel, m_s);
     const double across = dot(now.along, interactions::direction_from_jaw(shape, {0, 1, 0}));
     if (std::fabs(across) < kAcross) return 0;
     return interactions::to_jaw(shape, now.place).y / across;
@@ -85,7 +88,7 @@ class CoagulateVessel final : public Skill {
 
   Progress press(Operator& op) {
     constexpr double kSpare = 0.2;  // [s] after it has sealed
-    m_sealed_for += bleeder_sealed(op.model(), op.state()) ? sim::kTick : 0;
+    m_sealed_for += sealed(op) ? sim::kTick : 0;
     op.arm(m_hand).coagulating = m_in_phase < m_longest && m_sealed_for < kSpare;
     if (!op.arm(m_hand).coagulating) go(kOpen);
     return Progress::working;
@@ -97,7 +100,7 @@ class CoagulateVessel final : public Skill {
     const bool away = op.arms().move(m_hand, m_carrier.place + kAway * normalised(arm.port - arm.tip), pace::kCareful);
     if (!away && m_in_phase < 4) return Progress::working;
     if (m_again) return m_again = false, go(kReach), Progress::working;
-    return bleeder_sealed(op.model(), op.state()) ? Progress::done : fail(m_lost);
+    return sealed(op) ? Progress::done : fail(m_lost);
   }
 
   /// Opens and draws back a little; gives up after so many times.
@@ -118,10 +121,11 @@ class CoagulateVessel final : public Skill {
     return op.aim(m_hand, m_carrier.place + m_shift * m_carrier.along, m_carrier.along, inside, back, speed);
   }
 
-  static const sim::Bleeder& bleeder(Operator& op) { return op.model().vessels.bleeder; }
-  static Vec3d bleeding(Operator& op) { return op.vessel_spot(bleeder(op).vessel, bleeder(op).s).place; }
+  Vec3d place(Operator& op) const { return op.vessel_spot(m_vessel, m_s).place; }
+  bool sealed(const Operator& op) const { return vessel_sealed(op.state(), m_vessel, m_s); }
 
-  int m_hand;
+  int m_hand, m_vessel;
+  double m_s;  ///< 0 to 1 along it
   double m_longest, m_share, m_closed;
   int m_taken = 0;  ///< how often something else, or nothing
   bool m_again = false;
@@ -134,7 +138,7 @@ class CoagulateVessel final : public Skill {
 
 std::string coagulate_vessel_lacks(const sim::Model& model, const Given& given) {
   if (!model.energy.there) return "there is no current";
-  if (model.vessels.bleeder.vessel < 0) return "no vessel opens by itself";
+  if (!given("vessel").given && model.vessels.bleeder.vessel < 0) return "no vessel opens by itself";
   return lacks_tool(model, given.hand(), &interactions::Abilities::bipolar);
 }
 
@@ -143,12 +147,16 @@ std::string coagulate_vessel_lacks(const sim::Model& model, const Given& given) 
 const SkillKind kCoagulateVessel{
     "coagulate_vessel",
     "coagulate the place that bleeds",
-    {hand_parameter("that has bipolar forceps"), number_parameter("for_s", "the pedal is pressed at most; 4", 0, 60),
+    {hand_parameter("that has bipolar forceps"),
+     number_parameter("for_s", "the pedal is pressed at most; 4", 0, 60),
      number_parameter("inside_share", "of the jaws' length: how far from their hinge the vessel shall lie; 0.75", 0, 1),
-     number_parameter("to", "how far the handle closes; 0.95", 0, 1)},
+     number_parameter("to", "how far the handle closes; 0.95", 0, 1),
+     {"vessel", ArgumentKind::vessel, "which; none: the one that bleeds, where it bleeds", false},
+     number_parameter("share", "where along that vessel; 0.5", 0, 1)},
     60,
-    "Takes what carries the artery that bleeds between bipolar jaws, presses the blue pedal until it is sealed, opens, "
-    "draws back.",
+    "Takes what carries the artery that bleeds, or a vessel that is named, between bipolar jaws, presses the blue "
+    "pedal "
+    "until it is sealed, opens, draws back.",
     coagulate_vessel_lacks,
     &making<CoagulateVessel>};
 

@@ -1,13 +1,16 @@
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
+#include <trocar/training/observe/loops.hpp>
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
 
 namespace trocar::training {
 namespace {
 
-/// Scissors around a strand, closed in view. Half way between the two clips that are nearest to each other, unless a
-/// place is given.
+/// Scissors around a strand, closed in view. Half way between two clips, or two loops of thread, unless a place is
+/// given.
 class CutAt final : public Skill {
  public:
   CutAt(const sim::Model& model, const Given& given)
@@ -99,19 +102,24 @@ class CutAt final : public Skill {
     return fail(m_lost ? m_lost : "nothing was cut");
   }
 
+  /// Where clips and loops sit on it, from its beginning [m].
+  std::vector<double> closures(Operator& op) const {
+    std::vector<double> at;
+    for (int i = 0; i < op.state().clip_count; ++i)
+      if (op.state().clips[size_t(i)].strand == m_strand) at.push_back(op.state().clips[size_t(i)].s);
+    const SecuredLoops loops = secured_loops(op.model(), op.state(), m_strand);
+    at.insert(at.end(), loops.at.begin(), loops.at.begin() + loops.count);
+    return at;
+  }
+
   double place(Operator& op) const {
     if (m_fixed >= 0 && m_beyond < 0) return m_fixed;
-    double outermost = 0;
-    for (int i = 0; i < op.state().clip_count; ++i) {
-      const interactions::Clip& a = op.state().clips[size_t(i)];
-      if (a.strand != m_strand) continue;
-      outermost = std::max(outermost, a.s);
-      for (int j = i + 1; j < op.state().clip_count && m_beyond < 0; ++j) {
-        const interactions::Clip& b = op.state().clips[size_t(j)];
-        if (b.strand == m_strand && m_apart.holds(std::fabs(a.s - b.s))) return 0.5 * (a.s + b.s);
-      }
-    }
-    return m_beyond >= 0 ? outermost + m_beyond : 0.5 * m_length;
+    const std::vector<double> at = closures(op);
+    if (m_beyond >= 0) return m_beyond + (at.empty() ? 0 : *std::max_element(at.begin(), at.end()));
+    for (size_t i = 0; i < at.size(); ++i)
+      for (size_t j = i + 1; j < at.size(); ++j)
+        if (m_apart.holds(std::fabs(at[i] - at[j]))) return 0.5 * (at[i] + at[j]);
+    return 0.5 * m_length;
   }
 
   int m_hand, m_strand;
@@ -135,7 +143,7 @@ const SkillKind kCutAt{
     "cut",
     {hand_parameter("that has the scissors"),
      {"of", ArgumentKind::strand, "what is cut"},
-     range_parameter("apart_mm", "half way between two clips that are so far apart", 0, 1000),
+     range_parameter("apart_mm", "half way between two clips or loops that are so far apart", 0, 1000),
      number_parameter("at_mm", "or: just there, from its beginning", 0, 1000),
      number_parameter("beyond_clip_mm", "or: so far beyond the outermost clip", 0, 1000),
      number_parameter("inside_share", "of the blades' length: how far from their hinge the strand shall lie; 0.82", 0,

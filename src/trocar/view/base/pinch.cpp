@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/interactions/verbs/cut.hpp>
+#include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/model/host_views.hpp>
 #include <trocar/view/base/mesh_buffer.hpp>
 #include <trocar/view/base/pinch.hpp>
@@ -94,6 +95,25 @@ std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::
   return presses;
 }
 
+std::vector<LoopPress> loops_on(int strand, const sim::Model& model, const sim::State& state) {
+  std::vector<LoopPress> presses;
+  sim::visit_loops(model, state, [&](const sim::LoopClosure& loop) {
+    if (loop.strand != strand) return;
+    const interactions::StrandBody& body = model.strand_bodies[std::size_t(strand)];
+    const interactions::StrandPlace place = place_at(body, loop.s);
+    LoopPress press;
+    press.radius = body.model.radius[std::size_t(place.element)];
+    if (!(loop.radius < press.radius)) return;
+    press.centre = point_at(body, state.strands[std::size_t(strand)], place);
+    press.along = tangent_at(body, state.strands[std::size_t(strand)], place);
+    press.within = std::max(0.0, loop.radius);
+    press.half = 0.5 * model.objects.sutures.list[std::size_t(loop.suture)].thread.stuff.diameter;
+    press.s = loop.s;
+    presses.push_back(press);
+  });
+  return presses;
+}
+
 std::vector<JawPress> jaws_on(BodyId body, const sim::Model& model, const sim::State& state) {
   std::vector<JawPress> presses;
   for (std::size_t t = 0; t < model.hands.size(); ++t) {
@@ -126,6 +146,25 @@ Vec3d pressed(Vec3d p, const ClipPress& press) {
   if (z > press.low) spread = std::max(spread, press.low + 0.5 * rim);  // no farther than the bend and the tips
   if (z < press.high) spread = std::min(spread, press.high - 0.5 * rim);
   return p + (flattened - x) * press.open + (spread - z) * press.axis;
+}
+
+/// The thread lies half buried in a groove, beside which the tube is gathered like a purse.
+Vec3d pressed(Vec3d p, const LoopPress& press) {
+  constexpr double kBuried = 0.6;  // of half of the thread
+  const Vec3d d = p - press.centre;
+  const double off = dot(d, press.along), fade = 1.2 * press.radius;
+  const double beside = std::fabs(off) - press.half;
+  if (beside > fade) return p;
+  const Vec3d out = d - off * press.along;
+  const double away = length(out);
+  if (away > 2 * press.radius || away < 1e-6) return p;
+  const double near = 1 - std::clamp(beside / fade, 0.0, 1.0), amount = near * near * (1.5 - 0.5 * near);
+  const Vec3d side = any_perpendicular(press.along), over = cross(press.along, side);
+  const double angle = std::atan2(dot(out, over), dot(out, side)) + (off > 0 ? 0.7 : 0);
+  const double gathers = std::sin(5 * angle + 1) + 0.6 * std::sin(7 * angle + 2.4);
+  const double bulge = 4 * near * (1 - near) * kPinchBulge + kGathers * gathers * smooth(0.05, 0.7, near) * (1 - near);
+  const double left = (press.within + kBuried * press.half) / press.radius;
+  return p + ((1 + bulge) * (1 - amount) + amount * std::min(1.0, left) - 1) * out;
 }
 
 Vec3d pressed(Vec3d p, const JawPress& press) {

@@ -19,6 +19,14 @@ struct ClipPress {
   double stump[2] = {0, 0};          ///< way to a cut end against and along the normal [m]; 0: there is none near
 };
 
+/// A loop of thread that has sunk in around a tube.
+struct LoopPress {
+  Vec3d centre, along;            ///< of the tube there
+  double within = 0, radius = 0;  ///< radius within the loop; of the tube [m]
+  double half = 0;                ///< of the thread's thickness [m]
+  double s = 0;                   ///< where on its strand [m]
+};
+
 /// Closed jaws that hold something.
 struct JawPress {
   interactions::ToolShape shape;
@@ -40,7 +48,11 @@ std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::
 /// Jaws that hold that body.
 std::vector<JawPress> jaws_on(BodyId body, const sim::Model& model, const sim::State& state);
 
+/// Loops that have sunk into a strand.
+std::vector<LoopPress> loops_on(int strand, const sim::Model& model, const sim::State& state);
+
 Vec3d pressed(Vec3d p, const ClipPress& press);
+Vec3d pressed(Vec3d p, const LoopPress& press);
 Vec3d pressed(Vec3d p, const JawPress& press);
 
 }  // namespace trocar::view

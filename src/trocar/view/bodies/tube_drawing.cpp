@@ -19,6 +19,7 @@ constexpr double kBlanched = 0.0030;    // [m] from a clip's middle: blood is pr
 constexpr double kCongested = 0.0058;   // [m] ... and stands beside that
 constexpr double kShade = 0.0014;       // [m] beside a clip's legs, where little light comes
 constexpr double kGathered = 0.0028;    // [m] from its middle: there it lies in small folds that run to the legs
+constexpr double kLoopStep = 0.0005;    // [m] of a loop's way along a tube, after which its rows are laid anew
 constexpr double kBloodied = 0.0026;    // [m] beside a cut
 constexpr int kTubeFlesh = 20;          // of Paint's blood: a raw face has less where it is muscle and lining
 constexpr double kSealedBleeds = 0.35;  // of what smears an open end: blood on the edge of one that a clip closes
@@ -42,7 +43,8 @@ double oozes(double angle) { return smooth(0.1, 0.9, std::sin(angle + 1)); }
 }  // namespace
 
 bool TubeDrawing::Layout::same(const Layout& other) const {
-  return pieces == other.pieces && same_bytes(clips, other.clips) && same_bytes(nicks, other.nicks);
+  return pieces == other.pieces && same_bytes(clips, other.clips) && same_bytes(nicks, other.nicks) &&
+         loops == other.loops;
 }
 
 TubeDrawing::TubeDrawing(const sim::Model& model, int strand, const Detail& detail, const WallSurface* walls)
@@ -90,6 +92,8 @@ TubeDrawing::Layout TubeDrawing::layout_of(const sim::State& state) const {
     if (state.clips[std::size_t(i)].strand == m_index) layout.clips.push_back(state.clips[std::size_t(i)]);
   for (const Cut& cut : cuts)
     if (cut.strand == m_index && cut.fraction < interactions::kThrough) layout.nicks.push_back(cut);
+  for (const LoopPress& loop : loops_on(m_index, *m_model, state))
+    layout.loops.push_back(kLoopStep * std::round(loop.s / kLoopStep));
   return layout;
 }
 
@@ -135,8 +139,9 @@ void TubeDrawing::burn(const sim::State& state) {
   }
 }
 
-/// A clip presses the piece that it sits on, not what was cut off beside it.
-void TubeDrawing::press(const ClipPress& clip) {
+/// A clip or a loop presses the piece that it sits on, not what was cut off beside it.
+template <class Press>
+void TubeDrawing::press_piece(const Press& clip) {
   for (std::size_t i = 0; i < m_rows.size(); ++i) {
     const StrandPiece& piece = m_layout.pieces[std::size_t(m_rows[i].piece)];
     if (clip.s < piece.from || clip.s > piece.to) continue;
@@ -149,7 +154,8 @@ void TubeDrawing::press(const ClipPress& clip) {
 bool TubeDrawing::press(const sim::State& state) {
   const std::vector<ClipPress> clips = clips_on(m_index, *m_model, state);
   const std::vector<JawPress> jaws = jaws_on(BodyId::strand(std::size_t(m_index)), *m_model, state);
-  for (const ClipPress& clip : clips) press(clip);
+  for (const ClipPress& clip : clips) press_piece(clip);
+  for (const LoopPress& loop : loops_on(m_index, *m_model, state)) press_piece(loop);
   for (const JawPress& held : jaws)
     for (Vec3f& p : m_buffer.positions) p = vec_cast<float>(pressed(vec_cast<double>(p), held));
   return !jaws.empty();
@@ -157,17 +163,19 @@ bool TubeDrawing::press(const sim::State& state) {
 
 Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint own) const {
   Paint p = own;
-  for (const Clip& clip : layout.clips) {
-    const double d = std::fabs(s - clip.s);
-    const double pale = 0.21 * clip.cover * smooth(kBlanched, 0.0012, d);
+  const auto press_out = [&](double at, double cover) {
+    const double d = std::fabs(s - at);
+    const double pale = 0.21 * cover * smooth(kBlanched, 0.0012, d);
     p.burn = std::max(p.burn, to_byte(pale));
     const double red = smooth(0.0018, kBlanched, d) * smooth(kCongested, kBlanched, d);
-    p.blood = std::max(p.blood, to_byte(0.19 * clip.cover * red * (0.75 + 0.35 * ragged(m_index, angle))));
+    p.blood = std::max(p.blood, to_byte(0.19 * cover * red * (0.75 + 0.35 * ragged(m_index, angle))));
     const double shade = smooth(0.5 * kClipLegWidth + kShade, 0.4 * kClipLegWidth, d);
     const double gathered =
-        smooth(kGathered, 0.5 * kClipLegWidth, d) * std::max(0.0, ragged(0.37, angle + (s > clip.s ? 0.8 : 0)));
-    p.openness = std::uint8_t(p.openness * (1 - clip.cover * std::min(0.9, 0.88 * shade + 0.7 * gathered)));
-  }
+        smooth(kGathered, 0.5 * kClipLegWidth, d) * std::max(0.0, ragged(0.37, angle + (s > at ? 0.8 : 0)));
+    p.openness = std::uint8_t(p.openness * (1 - cover * std::min(0.9, 0.88 * shade + 0.7 * gathered)));
+  };
+  for (const Clip& clip : layout.clips) press_out(clip.s, clip.cover);
+  for (const double loop : layout.loops) press_out(loop, 1);
   for (const StrandPiece& piece : layout.pieces) {
     if (own.blood > 0) {  // a raw face has its own
       // Its pale flesh is hardly smeared: blood is on the edge and in the lumen.

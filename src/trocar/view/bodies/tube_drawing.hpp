@@ -78,6 +78,7 @@ class TubeDrawing {
     std::vector<StrandPiece> pieces;
     std::vector<interactions::Clip> clips;
     std::vector<interactions::Cut> nicks;  ///< cuts that went only part of the way
+    std::vector<double> loops;             ///< about where loops have sunk in [m]
     bool same(const Layout& other) const;
   };
   Layout layout_of(const sim::State& state) const;
@@ -100,7 +101,8 @@ class TubeDrawing {
   std::size_t nearest_first(double s) const;  ///< first vertex of the baked row nearest to s
   void place(const StrandCurve& curve, std::vector<Vec3f>& positions) const;
   bool press(const sim::State& state);  ///< true where jaws hold it
-  void press(const ClipPress& clip);
+  template <class Press>
+  void press_piece(const Press& press);
   Paint paint_at(const Layout& layout, double s, double angle, Paint own) const;
   double radius_at(double s) const;
   double outline(double s, double angle) const;

@@ -29,9 +29,12 @@ std::vector<double> TubeDrawing::stations(const Layout& layout, const StrandPiec
   const double step = m_relief->spiral > 0 ? std::min(kTubeStep, m_relief->spiral_size / kAlongTurn) : kTubeStep;
   const int steps = std::max(2, int(std::ceil((piece.to - piece.from) / step)));
   for (int i = 0; i <= steps; ++i) at.push_back(piece.from + (piece.to - piece.from) * i / steps);
-  for (const Clip& clip : layout.clips)
+  const auto finely = [&](double s) {
     for (double d = -kNearClip; d <= kNearClip; d += kFineStep)
-      if (clip.s + d > piece.from + 1e-5 && clip.s + d < piece.to - 1e-5) at.push_back(clip.s + d);
+      if (s + d > piece.from + 1e-5 && s + d < piece.to - 1e-5) at.push_back(s + d);
+  };
+  for (const Clip& clip : layout.clips) finely(clip.s);
+  for (const double loop : layout.loops) finely(loop);
   for (double d = kFineStep; d < kNearCut; d += kFineStep) {
     if (piece.cut_start && piece.from + d < piece.to) at.push_back(piece.from + d);
     if (piece.cut_end && piece.to - d > piece.from) at.push_back(piece.to - d);
@@ -227,8 +230,10 @@ void TubeDrawing::join(const std::vector<std::size_t>& rows, std::uint32_t strid
 std::vector<std::size_t> TubeDrawing::rows_apart(double distance) const {
   const auto plain = [](const TubeRow& r) { return r.radius > 0 && r.along == 0 && r.out == 0 && !r.crease; };
   const auto clipped = [this](double s) {
+    const auto near = [s](double at) { return std::fabs(at - s) < kNearClip; };
     return std::any_of(m_layout.clips.begin(), m_layout.clips.end(),
-                       [s](const Clip& clip) { return std::fabs(clip.s - s) < kNearClip; });
+                       [&near](const Clip& clip) { return near(clip.s); }) ||
+           std::any_of(m_layout.loops.begin(), m_layout.loops.end(), near);
   };
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < m_rows.size(); ++i) {

@@ -1,4 +1,5 @@
 // Loops of slings on strands.
+#include <algorithm>
 #include <cmath>
 
 #include <trocar/training/facts/needs.hpp>
@@ -41,6 +42,16 @@ Value pull(const Moment& m, const Arguments& a) {
 Value tension(const Moment& m, const Arguments& a) {
   const auto loop = on_strand(m, a);
   return loop ? loop->tension : 0.0;
+}
+Value count(const Moment& m, const Arguments& a) {
+  const SecuredLoops loops = secured_loops(m.model, m.state, a[0].index);
+  const auto end = loops.at.begin() + loops.count;
+  return double(std::count_if(loops.at.begin(), end, [&](double s) { return !a[1].given || a[1].holds(s); }));
+}
+Value nth_at(const Moment& m, const Arguments& a) {
+  const SecuredLoops loops = secured_loops(m.model, m.state, a[0].index);
+  const int n = int(std::lround(a[1].number()));
+  return n <= loops.count ? Value(loops.at[size_t(n) - 1]) : kUnknown;
 }
 Value to_mark(const Moment& m, const Arguments& a) {
   const sim::MarkModel& mark = mark_of(m.model, a);
@@ -90,5 +101,22 @@ const Fact kLoopPull{
     needs_sling,   &stateless<pull>};
 const Fact kLoopTension{"loop.tension_N", strand_parameter(), 0, 1000, "Tension of a loop around it.",
                         needs_sling,      &stateless<tension>};
+const Fact kLoopsCount{"loops.count",
+                       {{"of", ArgumentKind::strand, "which tube"},
+                        {"within_mm", ArgumentKind::range, "a stretch of it; none: all of it", false, 0, 1000}},
+                       0,
+                       sim::kMostLoops,
+                       "How many loops lie around it that close its lumen and whose tails have been cut.",
+                       needs_sling,
+                       &stateless<count>};
+const Fact kLoopsAt{
+    "loops.at_mm",
+    {{"of", ArgumentKind::strand, "which tube"},
+     {"nth", ArgumentKind::number, "1: of those loops the first from its beginning", true, 1, sim::kMostLoops}},
+    0,
+    1000,
+    "Where that loop lies, from the tube's beginning. Unknown while there are fewer.",
+    needs_sling,
+    &stateless<nth_at>};
 
 }  // namespace trocar::training

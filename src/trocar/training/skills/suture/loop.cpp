@@ -62,6 +62,7 @@ class PutLoopOver final : public Skill {
       : m_hand(given.hand()),
         m_strand(given("of").index),
         m_at(given.number("at_mm", 0.01)),
+        m_thread(given.number("thread_mm", 1)),
         m_end(model.strand_bodies[std::size_t(m_strand)].length() - 0.001) {}
 
  private:
@@ -91,7 +92,8 @@ class PutLoopOver final : public Skill {
       if (op.arms().move(m_hand, over + kOnto * end.along, pace::kTravel)) go(kDown);
     } else {
       face(op, m_hand, here.along);
-      const bool there = op.arms().move(m_hand, here.mouth(port, loop_of(op, m_hand)), pace::kTravel);
+      narrow(op, *g);
+      const bool there = op.arms().move(m_hand, here.mouth(port, g->fed), pace::kTravel);
       m_s = std::max(m_at, m_s - pace::kCareful * sim::kTick);
       if (there && m_s <= m_at)
         return g->lies_around(m_strand) ? Progress::done : fail("the loop does not lie around it");
@@ -99,8 +101,15 @@ class PutLoopOver final : public Skill {
     return Progress::working;
   }
 
+  /// Draws it to as much thread as it shall have when it comes down; then the hand only holds it.
+  void narrow(Operator& op, const SlingState& g) const {
+    constexpr double kDrawn = 0.2, kHeld = 0.06, kWithin = 0.02;  // of the handle; [m] of the end: still being put over
+    if (m_thread >= loop_of(op, m_hand) || !g.lies_around(m_strand) || m_s > m_end - kWithin) return;
+    op.arms().grip(m_hand, g.fed > m_thread ? kDrawn : kHeld, 1.5);
+  }
+
   int m_hand, m_strand;
-  double m_at, m_end, m_s = 0;
+  double m_at, m_thread, m_end, m_s = 0;
 };
 
 /// Draws it closed; the mouth comes after it, so that the knot stands at the place.
@@ -110,23 +119,38 @@ class CloseLoop final : public Skill {
       : m_hand(given.hand()),
         m_strand(given("of").index),
         m_at(given.number("at_mm", 0.01)),
-        m_to(given.number("close_to", 0.4)) {}
+        m_to(given.number("close_to", 0.4)),
+        m_leads(given.says("lead_back", "yes")) {}
 
  private:
   static constexpr double kDraws = 0.25, kLies = 0.4, kSettles = 0.8, kLongest = 12;  // of the handle, [N], [s]
 
   void start(Operator& op, int) override {
     m_around.look(op, m_strand, m_at);
-    m_ended = 0;
+    m_ended = m_shift = 0;
+  }
+  /// Where the loop slides off the place while it closes, the knot is led the other way.
+  void lead_back(const Operator& op, const SlingState& g) {
+    constexpr double kGain = 2, kMost = 0.004;  // [1/s] [m]
+    for (std::int32_t i = 0; i < g.around_count; ++i) {
+      const interactions::SlingAround& a = g.around[std::size_t(i)];
+      if (a.strand != m_strand) continue;
+      const double lies = interactions::arc_at(op.model().strand_bodies[std::size_t(m_strand)], {a.element, a.w});
+      m_shift = std::clamp(m_shift + kGain * (m_at - lies) * sim::kTick, -kMost, kMost);
+    }
   }
   Progress work(Operator& op) override {
     const SlingState* g = sling_in(op, m_hand);
     if (!g) return fail("there is no loop in the tube");
     if (!g->lies_around(m_strand)) return fail("the loop does not lie around it");
-    if (g->fed > Around::kTouches) m_around.look(op, m_strand, m_at);
+    if (g->fed > Around::kTouches)
+      m_around.look(op, m_strand, m_at);
+    else if (m_leads)
+      lead_back(op, *g);
     op.want(m_around.at);
     op.want(op.arm(m_hand).tip);
-    op.arms().move(m_hand, m_around.mouth(op.arm(m_hand).port, g->fed), pace::kTravel);
+    const Vec3d mouth = m_around.mouth(op.arm(m_hand).port, g->fed) + m_shift * m_around.along;
+    op.arms().move(m_hand, mouth, pace::kTravel);
     const bool lies = g->tension > kLies;
     op.arms().grip(m_hand, lies ? m_to : std::min(m_to, kDraws), lies ? 2.0 : 0.8);
     const auto loop = loop_on(op.model(), op.state(), m_strand, m_at);
@@ -137,7 +161,8 @@ class CloseLoop final : public Skill {
   }
 
   int m_hand, m_strand;
-  double m_at, m_to, m_ended = 0;
+  double m_at, m_to, m_ended = 0, m_shift = 0;
+  bool m_leads;
   Around m_around;
 };
 
@@ -237,21 +262,24 @@ const SkillKind kPutLoopOver{"put_loop_over",
                              "put the loop over",
                              {hand_parameter("that has the sling"),
                               {"of", ArgumentKind::strand, "what has a free end"},
-                              number_parameter("at_mm", "how far down, from its beginning; 10", 0, 1000)},
+                              number_parameter("at_mm", "how far down, from its beginning; 10", 0, 1000),
+                              number_parameter("thread_mm", "of thread in the loop when it is down; all", 30, 300)},
                              25,
                              "Opens the loop above the free end of a strand and leads it down over it.",
                              lacks_sling,
                              &making<PutLoopOver>};
-const SkillKind kCloseLoop{"close_loop",
-                           "close the loop",
-                           {hand_parameter("that has the sling"),
-                            {"of", ArgumentKind::strand, "what it lies around"},
-                            number_parameter("at_mm", "where, from its beginning; 10", 0, 1000),
-                            number_parameter("close_to", "how far the handle closes; 0.4", 0.1, 1)},
-                           25,
-                           "Draws the loop closed, the knot at the place, until it closes the lumen.",
-                           lacks_sling,
-                           &making<CloseLoop>};
+const SkillKind kCloseLoop{
+    "close_loop",
+    "close the loop",
+    {hand_parameter("that has the sling"),
+     {"of", ArgumentKind::strand, "what it lies around"},
+     number_parameter("at_mm", "where, from its beginning; 10", 0, 1000),
+     number_parameter("close_to", "how far the handle closes; 0.4", 0.1, 1),
+     word_parameter("lead_back", "whether the knot is led against what slides off; no", {"yes", "no"})},
+    25,
+    "Draws the loop closed, the knot at the place, until it closes the lumen.",
+    lacks_sling,
+    &making<CloseLoop>};
 const SkillKind kLeaveLoop{
     "leave_loop",
     "leave the loop",

@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/training/observe/folds.hpp>
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// A fold divided along the strand that it carries, bite by bite from its far end on.
+class CutFold final : public Skill {
+ public:
+  CutFold(const sim::Model& model, const Given& given)
+      : m_hand(given.hand()),
+        m_fold(int(given("of").body().index())),
+        m_columns(model, m_fold),
+        m_away(given.number("away_mm", 0.005)),
+        m_to(given.number("to_mm", 0)),
+        m_bite(given.number("bite_mm", 0.008)),
+        m_most(int(given.number("most", 40))) {}
+
+ private:
+  enum Phase { kReach, kEnter, kClose, kOpen, kBack };
+  static constexpr double kBefore = 0.024;  // [m] out of the fold, from where the blades go straight in
+
+  void start(Operator& op, int) override {
+    m_bites = m_vain = 0;
+    m_column = -1;
+    look(op);
+  }
+
+  /// The last column that is whole, and how many before it the blades shall reach over.
+  void look(Operator& op) {
+    const int before = m_column;
+    m_column = -1;
+    for (int c = 0; c < m_columns.count(); ++c)
+      if (m_columns.s(c) >= m_to && m_columns.whole(op.model(), op.state(), c)) m_column = c;
+    m_vain = before == m_column && before >= 0 ? m_vain + 1 : 0;
+    m_inner = m_column;
+    while (m_inner > 0 && goes_on(m_inner - 1) && m_columns.s(m_column) - m_columns.s(m_inner - 1) <= m_bite) --m_inner;
+  }
+  /// The last column is cut alone, with the blades' tips just beyond it: what the strand comes out of lies behind.
+  bool is_last(int column) const { return column == 0 || m_columns.s(column - 1) < m_to; }
+  bool goes_on(int column) const { return m_columns.s(column) >= m_to && !is_last(column); }
+
+  Vec3d at(Operator& op, int column) const { return m_columns.point(op.model(), op.state(), column, m_away); }
+  Vec3d middle(Operator& op) const { return 0.5 * (at(op, m_column) + at(op, m_inner)); }
+  /// From the strand to the root: the blades close across that.
+  Vec3d across(Operator& op) const {
+    constexpr double kBeside = 0.003;  // [m]
+    const Vec3d near = m_columns.point(op.model(), op.state(), m_column, m_away - kBeside);
+    const Vec3d far = m_columns.point(op.model(), op.state(), m_column, m_away + kBeside);
+    return normalised(far - near, {0, 1, 0});
+  }
+
+  /// To where it lay before the blades touched it: what they push they would never catch up with.
+  bool aim(Operator& op, double back, double speed) const {
+    // a bite in vain is made again a little deeper, then a little less deep
+    constexpr double kInside = 0.62, kAtTips = 0.88, kElsewhere[] = {0, -0.12, 0.12, -0.24};
+    const double share = m_at_last ? kAtTips : kInside + kElsewhere[m_vain % 4];
+    return op.aim(m_hand, m_at, m_across, share * op.tool(m_hand).jaw_length, back, speed);
+  }
+
+  Progress work(Operator& op) override {
+    constexpr int kInVain = 8;
+    constexpr double kLooks = 0.2, kUnseen = 3.5;  // [s] at what has been divided; to wait for the camera
+    if (m_column < 0) return m_in_phase > kLooks ? Progress::done : Progress::working;
+    if (m_vain >= kInVain) return fail("the blades do not take it");
+    if (m_column >= 0) op.want(middle(op));
+    op.want(op.arm(m_hand).tip);
+    switch (m_phase) {
+      case kReach:
+        return reach(op);
+      case kEnter: {
+        const bool there = aim(op, 0, pace::kCareful);
+        m_steady = there && (op.sees_tip(m_hand) || m_in_phase > kUnseen) ? m_steady + sim::kTick : 0;
+        if (m_steady > 0.1 || m_in_phase > kUnseen + 2) go(kClose);
+        return Progress::working;
+      }
+      case kClose:
+        if (op.arms().grip(m_hand, 1, 0.5)) go(kOpen);
+        return Progress::working;
+      case kOpen:
+        if (op.arms().grip(m_hand, 0, 0.4)) go(kBack);
+        return Progress::working;
+      default:
+        return back(op);
+    }
+  }
+
+  Progress reach(Operator& op) {
+    m_at = middle(op);
+    m_across = across(op);
+    m_at_last = is_last(m_column);
+    const bool open = op.arms().grip(m_hand, 0, 0.4);
+    if ((aim(op, kBefore, pace::kTravel) && open) || m_in_phase > 8) go(kEnter);
+    return Progress::working;
+  }
+
+  /// Out of what was cut before the next bite is looked for.
+  Progress back(Operator& op) {
+    Arms::Arm& arm = op.arm(m_hand);
+    if (m_in_phase < 1.5 * sim::kTick) m_from = arm.tip;
+    const bool away = op.arms().move(m_hand, m_from + kBefore * normalised(arm.port - m_from), pace::kCareful);
+    if (!away && m_in_phase < 3) return Progress::working;
+    look(op);
+    if (m_column < 0) return go(kReach), Progress::working;
+    if (++m_bites >= m_most) return fail("it is not divided yet");
+    go(kReach);
+    return Progress::working;
+  }
+
+  int m_hand, m_fold;
+  FoldColumns m_columns;
+  double m_away, m_to, m_bite;
+  int m_most, m_bites = 0, m_vain = 0, m_column = -1, m_inner = -1;
+  Vec3d m_from, m_at, m_across{0, 1, 0};
+  bool m_at_last = false;
+};
+
+std::string lacks_fold(const sim::Model& model, const Given& given) {
+  if (!FoldColumns::there(model, given("of").body())) return "no fold that hangs on a strand";
+  return lacks_tool(model, given.hand(), &interactions::Abilities::cut);
+}
+
+}  // namespace
+
+const SkillKind kCutFold{
+    "cut_fold",
+    "divide the fold",
+    {hand_parameter("that has the scissors"),
+     {"of", ArgumentKind::body, "a fold that hangs on a strand"},
+     number_parameter("away_mm", "how far from the strand's surface; 5", 0, 100),
+     number_parameter("to_mm", "up to where along the strand, from its beginning; 0", 0, 1000),
+     number_parameter("bite_mm", "how far each closing of the blades shall reach; 8", 1, 30),
+     number_parameter("most", "bites in one go; 40", 1, 200)},
+    240,
+    "Divides a fold along the strand that it carries, bite by bite from its far end towards the strand's beginning.",
+    lacks_fold,
+    &making<CutFold>};
+
+}  // namespace trocar::training
