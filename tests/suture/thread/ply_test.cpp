@@ -103,7 +103,7 @@ TEST(ThreadTwist, APlysPullBelongsToItsAngleAndItsRadiusAndItsTurnsAreKept) {  /
     return twist / kTurn + writhe(s.x);
   };
   const double before = turns();
-  const double wound = 4;  // turns
+  const double wound = 14;  // turns
   const int winding = int(30 * kTurn * wound);
   std::uint32_t flags = 0;
   for (int k = 1; k <= winding + 1500; ++k) {
@@ -120,8 +120,12 @@ TEST(ThreadTwist, APlysPullBelongsToItsAngleAndItsRadiusAndItsTurnsAreKept) {  /
   const double expected = sine * sine * sine * (std::cos(ply.angle) * std::tan(2 * ply.angle) - 0.5 * sine);
   say("K10, angle of the ply [deg]", ply.angle * 360 / kTurn, "radius " + std::to_string(1000 * ply.radius) + " mm");
   expect_ratio("K10, F R^2 / B of a ply", pull * ply.radius * ply.radius / stuff.bend, expected, 0.07);
-  say("K10, turns kept, off by", turns() - before - wound, "allowed 0.1");
-  EXPECT_NEAR(turns() - before, wound, 0.1);
+  // While it is still wide the loop may swing over an end of the thread, which takes two turns each time: the writhe is
+  // that of ends that go on for ever, the thread's do not.
+  const double off = turns() - before - wound, swung = 2 * std::round(0.5 * off);
+  say("K10, turns kept, off by", off - swung, "allowed 0.1; swung over an end: " + std::to_string(swung));
+  EXPECT_NEAR(off, swung, 0.1);
+  EXPECT_LE(std::fabs(swung), 2);
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ struct TyingSetup {
   double loop_radius = 0.0045;
   double solve_motion = 0.08;
   int most_solves = 64;
+  Vec3d gravity{0, 0, -9.81};  ///< [m/s^2] along the post: a loop that has become loose slides down it
 };
 
 class Tying {
@@ -33,6 +34,7 @@ class Tying {
       : m(build({.stuff = setup.stuff,
                  .length = setup.length,
                  .spacing = setup.spacing * setup.stuff.diameter,
+                 .gravity = setup.gravity,
                  .most_solves = setup.most_solves,
                  .solve_motion = setup.solve_motion})),
         w(make_work(m)),

@@ -2,6 +2,7 @@
 
 #include <trocar/numerics/portable.hpp>
 #include <trocar/suture/thread/chain.hpp>
+#include <trocar/suture/thread/contacts.hpp>
 #include <trocar/suture/thread/spin.hpp>
 
 namespace trocar::suture {
@@ -26,6 +27,18 @@ void add_friction(const ThreadModel& m, const Touch& touch, bool both, ThreadWor
     w.spin_diagonal[e] += sides * touch.rub_stiffness * dot(g, g);
     w.spin[e] -= touch.rub_stiffness * dot(g, touch.strain);
   }
+}
+
+/// A bend that stays is fixed in the thread's material: it resists being turned about the axis away from how the thread
+/// is bent there. Both elements beside the node turn it by half.
+void add_bend(const ThreadModel& m, const ThreadState& s, int i, ThreadWork& w) {
+  const double yield = m.stuff.yield_curvature * m.spacing;
+  if (!(yield > 0)) return;
+  const double k = m.stuff.bend / m.spacing * kept_share(yield, s.bend[i].z);
+  const double moment = k * dot(w.bend_now[i], cross(w.node_along[i], w.bend_rest[i]));
+  const double stiffness = 0.25 * std::fabs(k * dot(w.bend_now[i], w.bend_rest[i]));
+  w.spin_diagonal[i - 1] += stiffness, w.spin_diagonal[i] += stiffness, w.spin_off[i - 1] += stiffness;
+  w.spin[i - 1] += 0.5 * moment, w.spin[i] += 0.5 * moment;
 }
 
 void move_strain(const ThreadModel& m, bool both, const ThreadWork& w, Touch& touch) {
@@ -57,6 +70,7 @@ void relax_spin(const ThreadModel& m, std::span<const SpinHold> holds, int self,
     if (!s.alive[i - 1] || !s.alive[i]) continue;
     w.spin_diagonal[i - 1] += c, w.spin_diagonal[i] += c, w.spin_off[i - 1] -= c;
     w.spin[i - 1] += c * s.twist[i], w.spin[i] -= c * s.twist[i];
+    add_bend(m, s, i, w);
   }
   for (const SpinHold& hold : holds) {
     const int e = hold.element;
@@ -95,19 +109,22 @@ void relax_spin(const ThreadModel& m, std::span<const SpinHold> holds, int self,
     }
 }
 
-void push_twist(const ThreadModel& m, const ThreadState& s, ThreadWork& w) noexcept {
+void add_twist(const ThreadModel& m, const ThreadState& s, ThreadWork& w) noexcept {
   const double c = m.stuff.twist / m.spacing;
   for (int i = 1; i + 1 < m.nodes; ++i) {
-    if (!s.alive[i - 1] || !s.alive[i] || s.twist[i] == 0) continue;
+    if (!s.alive[i - 1] || !s.alive[i]) continue;
     const Vec3d d = s.x[i] - s.x[i - 1], e = s.x[i + 1] - s.x[i];
     const double ld = length(d), le = length(e), turn = ld * le + dot(d, e);
     const Vec3d binormal = (2 / (turn > 0.02 * ld * le ? turn : 0.02 * ld * le)) * cross(d, e);
-    // d twist / d x at the three nodes [Bergou et al. 08]
-    const Vec3d before = (0.5 / ld) * binormal, after = (-0.5 / le) * binormal;
-    const double moment = c * s.twist[i];
-    w.system.push(i - 1, -moment * before);
-    w.system.push(i, moment * (before + after));
-    w.system.push(i + 1, -moment * after);
+    // d twist / d x along the binormal, directors carried along without spin [Bergou et al. 10]
+    const std::int32_t nodes[3] = {i - 1, i, i + 1};
+    const double g[3] = {-0.5 / ld, 0.5 / ld - 0.5 / le, 0.5 / le};
+    const Vec3d f = -c * s.twist[i] * binormal;
+    for (int j = 0; j < 3; ++j) w.system.push(nodes[j], g[j] * f);
+    // In a knot spin gives way at once, and nodes that met this stiffness in each solve would creep.
+    if (w.system.touches(i - 1) || w.system.touches(i) || w.system.touches(i + 1)) continue;
+    const double size2 = dot(binormal, binormal);
+    if (size2 > 0) w.system.add_term(nodes, g, 3, along_and_across(c * size2, 0, (1 / std::sqrt(size2)) * binormal));
   }
 }
 

@@ -14,11 +14,12 @@ struct SpinHold {
 /// Twist at the nodes from the directors, near what it was.
 void measure_twist(const ThreadModel& m, ThreadState& s, const ThreadWork& w) noexcept;
 
-/// Turns all elements about themselves towards equilibrium of twist, friction and holds; friction's strains follow.
+/// Turns all elements about themselves towards equilibrium of twist, bends that stay, friction and holds; friction's
+/// strains follow.
 void relax_spin(const ThreadModel& m, std::span<const SpinHold> holds, int self, int touching, ThreadState& s,
                 ThreadWork& w) noexcept;
 
-/// What twist does to the nodes, on the right side of the equations.
-void push_twist(const ThreadModel& m, const ThreadState& s, ThreadWork& w) noexcept;
+/// What twist does to the nodes, and the stiffness that goes with it, into the equations.
+void add_twist(const ThreadModel& m, const ThreadState& s, ThreadWork& w) noexcept;
 
 }  // namespace trocar::suture

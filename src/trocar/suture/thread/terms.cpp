@@ -190,7 +190,7 @@ void add_terms(Tick& t) noexcept {
   add_inertia(t);
   add_stretch(t);
   add_bending(t);
-  push_twist(t.m, t.s, t.w);
+  add_twist(t.m, t.s, t.w);
   add_self(t);
   add_obstacles(t);
   add_skins(t);
