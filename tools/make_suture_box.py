@@ -87,7 +87,7 @@ def scene():
         "variation": {"regions": [{"around": "pad", "near_mm": 60, "far_mm": 110, "shift_mm": 1.5}],
                       "stiffness": 0.2},
         "instruments": ["../instruments/needle_holder.json", "../instruments/grasper.json",
-                        "../instruments/scissors.json"],
+                        "../instruments/scissors.json", "../instruments/clip_applier.json"],
         "ports": [{"name": "middle", "position_mm": [0, 0, 0], "diameter_mm": 10},
                   {"name": "right", "position_mm": [85, 70, 0], "diameter_mm": 10},
                   {"name": "left", "position_mm": [-85, 70, 0], "diameter_mm": 10}],

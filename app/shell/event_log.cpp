@@ -41,8 +41,7 @@ Json clips(const sim::Model& model, const sim::State& state) {
   Json out = Json::array();
   for (int i = 0; i < state.clip_count; ++i) {
     const interactions::Clip& c = state.clips[size_t(i)];
-    const bool strand = c.strand >= 0 && size_t(c.strand) < model.strands.size();
-    out.push_back({{"on", strand ? model.strands[size_t(c.strand)].name : ""},
+    out.push_back({{"on", c.body().exists() ? sim::name_of(model, c.body()) : ""},
                    {"s_mm", 1000 * c.s},
                    {"off_square_rad", c.theta},
                    {"cover", c.cover},

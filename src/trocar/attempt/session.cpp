@@ -156,7 +156,7 @@ namespace {
 
 /// The body that an event is about: clips and cuts stand in the State's books.
 BodyId body_of(const sim::Event& e, const sim::State& s) {
-  if (e.kind == sim::Event::clipped) return BodyId::maybe(BodyKind::strand, s.clips[size_t(e.index)].strand);
+  if (e.kind == sim::Event::clipped) return s.clips[size_t(e.index)].body();
   if (e.kind == sim::Event::cut) return s.cuts[size_t(e.index)].body();
   return e.body();
 }

@@ -64,12 +64,19 @@ struct Clip {
   double reach = 0;               ///< from the legs' bend to the strand's centre, along the axis [m]
   double length = 0;              ///< of its legs [m]
   std::uint64_t tick = 0;
-  std::int32_t strand = -1;  ///< -1: on a vessel, or dropped
+  std::int32_t strand = -1;  ///< -1: on a vessel or a thread, or dropped
   std::int32_t tool = 0;
   std::int32_t tips_visible = 0;  ///< jaw tips in view when it closed, 0..2
-  std::int32_t vessel = 0;        ///< above 0: no strand lay between the legs, but this vessel + 1; s, axes are on it
+  std::int32_t vessel = 0;  ///< above 0: no strand lay between the legs, but this vessel + 1; s, axes are on it. Below
+                            ///< 0: neither, but the thread of the suture -vessel - 1, which knows where it is now
 
   bool dropped() const noexcept { return strand < 0 && vessel == 0; }
+  bool on_thread() const noexcept { return strand < 0 && vessel < 0; }
+  std::int32_t suture() const noexcept { return -vessel - 1; }
+  /// The strand or the suture that it is on.
+  BodyId body() const noexcept {
+    return on_thread() ? BodyId::maybe(BodyKind::suture, suture()) : BodyId::maybe(BodyKind::strand, strand);
+  }
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>

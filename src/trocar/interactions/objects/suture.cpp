@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/interactions/objects/suture.hpp>
+#include <trocar/interactions/objects/suture_clip.hpp>
 #include <trocar/interactions/objects/suture_sling_step.hpp>
 
 namespace trocar::interactions {
@@ -17,7 +18,24 @@ bool finite_all(const SutureState& s) noexcept {
   const auto fine = [](Vec3d v) { return finite(v) && length(v) < kMostNear; };
   if (!fine(s.needle.x) || !fine(s.needle.v) || !fine(s.needle.w)) return false;
   if (!std::isfinite(s.needle.q.w + s.needle.q.x + s.needle.q.y + s.needle.q.z)) return false;
+  for (int k = 0; k < s.thread.clip_count; ++k) {
+    const suture::ThreadClip& c = s.thread.clips[size_t(k)];
+    if (c.count < 1 || c.count > suture::kMostClipped || !fine(c.at) || !fine(c.axis_now) || !fine(c.open_now))
+      return false;
+  }
   return std::all_of(s.thread.x.begin(), s.thread.x.end(), fine);
+}
+
+/// Clips that both have are seen on their way.
+void blend_clips(const suture::ThreadState& a, const suture::ThreadState& b, double f, suture::ThreadState& out) {
+  for (int k = 0; k < out.clip_count; ++k) {
+    suture::ThreadClip& c = out.clips[size_t(k)];
+    const suture::ThreadClip *from = suture::clip_of(a, c.number), *to = suture::clip_of(b, c.number);
+    if (!from || !to) continue;
+    c.at = from->at + f * (to->at - from->at);
+    c.axis_now = normalised(from->axis_now + f * (to->axis_now - from->axis_now), to->axis_now);
+    c.open_now = normalised(from->open_now + f * (to->open_now - from->open_now), to->open_now);
+  }
 }
 
 /// A place of the needle's surface that jaws hold, own frame.
@@ -147,10 +165,12 @@ void Suture::touch(const Models& models, const States&, const ObjectHand& hand, 
   if (models.list.empty()) return;
   const ToolShape& shape = hand.touching.shape;
   const Hold* held = hand.state.holds > 0 && hand.state.hold[0].body.is(kKind) ? &hand.state.hold[0] : nullptr;
+  const double at_clip = hand.tool.jaw_length - 0.5 * hand.tool.clip_length;
+  const bool closing = shape.half_opening(at_clip) < kClipGathers;
   for (int part = kShaft; part < end_of(shape) && all.rods.size() < all.rods.capacity(); part = next(part)) {
     SutureRod rod{hand.touching.before.rod(part), shape.rod(part), {Owner::tool_contact, hand.touching.tool, 0}};
     rod.slot = hand.touching.tool * kRodSlots + (part < kToolParts ? part : kToolParts + part - kFirstLink);
-    rod.cuts = is_jaw(part) && hand.tool.can().cut;
+    rod.astride = is_jaw(part) && (hand.tool.can().cut || (hand.tool.can().set_clips && closing));
     if (held && is_jaw(part)) {
       rod.held = std::int32_t(held->body.index());
       rod.holds_needle = on_needle(models.list[size_t(rod.held)], held->element);
@@ -211,6 +231,7 @@ void Suture::blend(const States& a, const States& b, double f, States& out) noex
     out[i].needle.q = slerp(a[i].needle.q, b[i].needle.q, f);
     for (size_t n = 0; n < out[i].thread.x.size(); ++n)
       out[i].thread.x[n] = a[i].thread.x[n] + f * (b[i].thread.x[n] - a[i].thread.x[n]);
+    blend_clips(a[i].thread, b[i].thread, f, out[i].thread);
   }
 }
 

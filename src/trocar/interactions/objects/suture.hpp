@@ -184,7 +184,7 @@ struct SutureRod {
   std::int32_t slot = 0;   ///< of a thread's obstacles
   std::int32_t held = -1;  ///< the suture that its jaws hold
   bool holds_needle = false;
-  bool cuts = false;  ///< a blade, which thread lies between
+  bool astride = false;  ///< a blade, or a leg that has all but closed: thread lies between
 };
 /// What a hand's jaws do to a thread: the mean of the places between them.
 struct SuturePinch {
@@ -378,7 +378,12 @@ void Suture::shown(const Models&, States_& states, F&& f) {
   constexpr bool kWrites = std::is_const_v<States_>;
   constexpr double kStep = 1e-5, kMost = 32000;  // [m], steps
   for (auto& s : states) {
-    f(&s.needle.x, 1), f(&s.needle.q, 1), f(&s.broken, 1);
+    // one number for both: keyframes of threads without clips are what they were before there were any
+    std::int32_t broken_and_clips = s.broken + 2 * s.thread.clip_count;
+    f(&s.needle.x, 1), f(&s.needle.q, 1), f(&broken_and_clips, 1);
+    const std::int32_t clips = std::clamp(broken_and_clips / 2, 0, std::int32_t(s.thread.clips.size()));
+    if constexpr (!kWrites) s.broken = broken_and_clips & 1, s.thread.clip_count = clips;
+    f(s.thread.clips.data(), std::size_t(clips));
     f(s.thread.alive.data(), s.thread.alive.size());
     if (s.sling.fed > 0) {
       f(&s.sling.stage, 1), f(&s.sling.parted, 1), f(&s.sling.fed, 1), f(&s.sling.knot, 1);

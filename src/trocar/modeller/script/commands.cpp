@@ -165,6 +165,8 @@ Command use() {
         for (int i = strand_clips; i < state.clip_count; ++i)
           if (const int strand = state.clips[std::size_t(i)].strand; strand >= 0)
             clipped.push_back(model.strands[std::size_t(strand)].name);
+          else if (const BodyId body = state.clips[std::size_t(i)].body(); body.exists())
+            clipped.push_back(sim::name_of(model, body));
         for (int i = vessel_clips; i < state.vessel_clip_count; ++i)
           clipped.push_back(fmt::format("{}, {:.0f} % of its width",
                                         model.vessels.list[std::size_t(state.vessel_clips[std::size_t(i)].vessel)].name,

@@ -1,3 +1,4 @@
+#include <trocar/interactions/objects/suture_clip.hpp>
 #include <trocar/interactions/objects/suture_on_tissue.hpp>
 #include <trocar/interactions/objects/suture_stitch.hpp>
 #include <trocar/sim/bodies/sling.hpp>
@@ -53,6 +54,13 @@ bool cut_threads(StepContext& c, std::size_t hand) noexcept {
   return has_sutures(c) &&
          interactions::cut_threads(interactions::part_of<Suture>(c.model.objects), c.model.tool(c.state, hand),
                                    c.work.shapes[hand], interactions::part_of<Suture>(c.state.objects)) > 0;
+}
+
+void clip_threads(StepContext& c, std::size_t hand, int clip) noexcept {
+  if (!has_sutures(c)) return;
+  interactions::clip_thread(interactions::part_of<Suture>(c.model.objects), c.model.tool(c.state, hand),
+                            c.work.shapes[hand], clip, interactions::part_of<Suture>(c.state.objects),
+                            c.state.clips[std::size_t(clip)]);
 }
 
 void slip_in_jaws(StepContext& c, std::size_t hand) noexcept {

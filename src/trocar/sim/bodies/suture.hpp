@@ -11,6 +11,8 @@ void rest_sutures(StepContext& context) noexcept;
 void sew(StepContext& context) noexcept;
 /// Blades that have just closed part the thread between them. @return was there one?
 bool cut_threads(StepContext& context, std::size_t hand) noexcept;
+/// A clip that has closed on nothing else: on thread?
+void clip_threads(StepContext& context, std::size_t hand, int clip) noexcept;
 /// After forces at instruments are known: a needle turns in jaws, a thread slips through them.
 void slip_in_jaws(StepContext& context, std::size_t hand) noexcept;
 

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include <trocar/interactions/verbs/clip.hpp>
+#include <trocar/sim/bodies/suture.hpp>
 #include <trocar/sim/bodies/vessel_wounds.hpp>
 #include <trocar/sim/bodies/views.hpp>
 #include <trocar/sim/model/seen.hpp>
@@ -17,6 +18,7 @@ void Clipping::work(StepContext& c, std::size_t t) noexcept {
   if (fired) {
     const int clip = s.clip_count - 1;
     clip_vessels(c, t, clip);
+    if (s.clips[size_t(clip)].dropped()) clip_threads(c, t, clip);
     tell(c, s.clips[size_t(clip)].dropped() ? Event::dropped_clip : Event::clipped, int(t), clip);
   } else if (tool.clips_left < clips) {
     c.report.flags |= StepReport::kBookFull;
@@ -25,7 +27,8 @@ void Clipping::work(StepContext& c, std::size_t t) noexcept {
 
 bool Clipping::sound(const Model& model, const interactions::Clip& clip) noexcept {
   return clip.strand >= -1 && clip.strand < std::int32_t(model.strands.size()) && std::isfinite(clip.s) &&
-         clip.vessel >= 0 && clip.vessel <= std::int32_t(model.vessels.list.size());
+         clip.vessel >= -std::int32_t(model.objects.sutures.list.size()) &&
+         clip.vessel <= std::int32_t(model.vessels.list.size());
 }
 
 }  // namespace trocar::sim

@@ -47,7 +47,7 @@ class BlockSystem {
   explicit BlockSystem(int nodes);
 
   void open() noexcept;
-  /// These nodes (at most 4, ascending) are coupled with each other.
+  /// These nodes (ascending) are coupled with each other.
   void couple(const std::int32_t* nodes, int count) noexcept;
   /// Chooses the order and empties the equations.
   void arrange() noexcept;

@@ -5,7 +5,7 @@
 
 #include <trocar/core/field_hash.hpp>
 #include <trocar/suture/thread/chain.hpp>
-#include <trocar/suture/thread/thread.hpp>
+#include <trocar/suture/thread/tick.hpp>
 
 namespace trocar::suture {
 namespace {
@@ -62,6 +62,7 @@ ThreadState laid(const ThreadModel& m, std::span<const Vec3d> path) {
   s.holds.resize(std::size_t(m.holds)), s.obstacles.resize(std::size_t(m.obstacles));
   s.skins.resize(std::size_t(m.skins)), s.passages.resize(std::size_t(m.passages));
   s.ties.resize(std::size_t(m.ties));
+  s.clips.resize(kMostThreadClips);
   s.self.resize(std::size_t(m.contacts)), s.touch.resize(std::size_t(m.contacts));
 
   // Nodes are set one chord after the other, so that elements have their rest length.
@@ -151,7 +152,9 @@ void untie(ThreadState& state, int slot) noexcept {
 }
 void cut(const ThreadModel& m, ThreadState& state, double s) noexcept {
   if (!(s >= 0 && s <= m.length)) return;
-  state.alive[std::size_t(place_at(m, s).element)] = 0;
+  const int element = place_at(m, s).element;
+  spare_clips(m, element, state);
+  state.alive[std::size_t(element)] = 0;
   state.calm = 0;
 }
 

@@ -15,13 +15,26 @@ double passage_friction(const Tick& t, const Passage& p) {
   return p.friction < 0 ? t.m.stuff.friction_tissue : p.friction;
 }
 
-/// A hold or a passage whose thread has slipped beyond its bound holds another place of it; returns how far.
-double slip_along(const Tick& t, Vec3d off, Vec3d d, double bound, double& s, double& reached) {
+/// What a hold or a passage bears along the thread.
+struct Bears {
+  double bound = 0;      ///< strain by friction [m]
+  double stiffness = 0;  ///< [N/m]
+  double half = 0;       ///< width of it and of a clip that comes to it [m]
+};
+/// Where the thread has slipped beyond that another place of it is there. A clip that comes to it is a stop, which
+/// slides along the thread when its friction on it is overcome. Returns how far the thread has gone.
+double slip_along(const Tick& t, Vec3d off, Vec3d d, const Bears& bears, double& s, double& reached) {
   const double along = dot(off, d);
   reached = std::fabs(along);
-  if (!(reached > bound)) return 0;
+  if (!(reached > bears.bound)) return 0;
   const double stretched = t.w.length[place_at(t.m, s).element] / t.m.spacing;
-  const double slipped = (along > 0 ? along - bound : along + bound) / stretched;
+  double slipped = (along > 0 ? along - bears.bound : along + bears.bound) / stretched;
+  if (t.s.clip_count > 0) {
+    const double way = std::fabs(slipped), free = way_to_clip(t.s, s, -slipped, bears.half);
+    const double more = free < way ? std::max(0.0, way - free - kClipHolds / bears.stiffness / stretched) : 0.0;
+    slipped = along > 0 ? free + more : -(free + more);
+    push_clips(t.s, s, -slipped, bears.half);
+  }
   s -= slipped;
   return slipped;
 }
@@ -150,7 +163,8 @@ void move_slots(Tick& t, double share, const ThreadReactions& out) noexcept {
     if (!is_zero(hold.side)) h.side = normalised(h.side + (share * t.part) * (hold.side - h.side), h.side);
     if (!(hold.friction_limit > 0)) continue;
     const Vec3d d = t.w.along[place_at(t.m, h.s).element];
-    const double slipped = slip_along(t, point_at(t.m, t.s, h.s) - h.seen, d, hold.friction_limit / k, h.s, h.reached);
+    const double slipped = slip_along(t, point_at(t.m, t.s, h.s) - h.seen, d,
+                                      {hold.friction_limit / k, k, kClipHalfWidth + kHolderHalfWidth}, h.s, h.reached);
     if (n < int(out.holds.size())) out.holds[n].slipped += slipped;
     if (!(h.s >= 0 && h.s <= t.m.length)) h = {};
   }
@@ -161,7 +175,8 @@ void move_slots(Tick& t, double share, const ThreadReactions& out) noexcept {
     const Vec3d d = passage_direction(t, n, place_at(t.m, p.s).element);
     const Vec3d off = smooth_place(t.m, p.s).of(t.s.x) - p.seen;
     p.press = t.drive.passages[n].stiffness * length(off - dot(off, d) * d);
-    const double slipped = slip_along(t, off, d, passage_bound(t, n), p.s, p.reached);
+    const double slipped =
+        slip_along(t, off, d, {passage_bound(t, n), t.drive.passages[n].stiffness, kClipHalfWidth}, p.s, p.reached);
     if (n < int(out.passages.size())) out.passages[n].slipped += slipped;
     if (!(p.s >= 0 && p.s <= t.m.length)) p = {};
   }

@@ -89,6 +89,7 @@ bool solve_once(Tick& t, const ThreadReactions& out) {
   settle_touches(t);
   flow(t);
   move_slots(t, share, out);
+  settle_clips(t);
   t.left *= 1 - share * t.part;
   return true;
 }
@@ -159,6 +160,7 @@ ThreadReport advance(const ThreadModel& m, const ThreadDrive& drive, const Threa
       break;
     }
   }
+  if (!report.asleep) pose_clips(m, s);
   if (!report.asleep) s.calm = calm && still(s) ? s.calm + 1 : 0;
   report_reactions(t, reactions);
   report_loads(t, report);

@@ -105,7 +105,9 @@ void add_holds(Tick& t) {
     const ThreadPlace at = place_at(t.m, h.s);
     const Vec3d d = t.w.along[at.element];
     const bool given = n < int(t.drive.holds.size());
-    const double limit = given ? t.drive.holds[n].friction_limit : 0;
+    const double rubs = given ? t.drive.holds[n].friction_limit : 0;
+    const Vec3d off = point_at(t.m, t.s, h.s) - h.seen;
+    const double limit = rubs > 0 ? rubs + clip_stops(t.s, h.s, -dot(off, d), kClipHalfWidth + kHolderHalfWidth) : 0;
     const double along = limit > 0 ? k * kept_share(limit / k, h.reached) : k;
     const Symmetric stiff = along_and_across(along, k, d);
     add_spring(t, at, stiff, stiff * (hold_target(t, n) - point_at(t.m, t.s, h.s)));
@@ -129,9 +131,11 @@ void add_passages(Tick& t) {
     if (!p.active) continue;
     const double k = t.drive.passages[n].stiffness;
     const ThreadPlace at = place_at(t.m, p.s);
-    const double along = k * kept_share(passage_bound(t, n), p.reached);
-    const Symmetric stiff = along_and_across(along, k, passage_direction(t, n, at.element));
     const SmoothPlace smooth = smooth_place(t.m, p.s);
+    const Vec3d d = passage_direction(t, n, at.element);
+    const double stops = clip_stops(t.s, p.s, -dot(smooth.of(t.s.x) - p.seen, d), kClipHalfWidth);
+    const double along = k * kept_share(passage_bound(t, n) + stops / k, p.reached);
+    const Symmetric stiff = along_and_across(along, k, d);
     t.w.system.add_term(smooth.nodes, smooth.c, 3, stiff);
     const Vec3d f = stiff * (passage_target(t, n) - smooth.of(t.s.x));
     for (int j = 0; j < 3; ++j) t.w.system.push(smooth.nodes[j], smooth.c[j] * f);
@@ -183,6 +187,7 @@ void couple_touching(Tick& t) noexcept {
     const std::int32_t nodes[4] = {a, a + 1, b, b + 1};
     if (tie.active && b > a + 1) t.w.system.couple(nodes, 4);
   }
+  couple_clips(t);
   t.w.system.arrange();
 }
 
@@ -197,6 +202,7 @@ void add_terms(Tick& t) noexcept {
   add_holds(t);
   add_passages(t);
   add_ties(t);
+  add_clips(t);
 }
 
 }  // namespace trocar::suture

@@ -21,6 +21,7 @@
 #include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/numerics/vec3.hpp>
+#include <trocar/suture/thread/clips.hpp>
 #include <trocar/suture/thread/rub.hpp>
 #include <trocar/suture/thread/sizes.hpp>
 #include <trocar/suture/thread/thread_work.hpp>
@@ -109,7 +110,7 @@ struct PassageState {
         v("press", s.press);
   }
 };
-/// Two places of the thread that are pinched together, as in a clip.
+/// Two places of the thread that are kept as they lie to each other, whatever pulls: of a knot that is none.
 struct TieState {
   std::int32_t active = 0;
   double s = 0, t = 0;    ///< [m]
@@ -132,6 +133,8 @@ struct ThreadState {
   std::vector<SkinState> skins;
   std::vector<PassageState> passages;
   std::vector<TieState> ties;
+  std::vector<ThreadClip> clips;  ///< (kMostThreadClips)
+  std::int32_t clip_count = 0;
   std::int32_t self_count = 0, touch_count = 0;
   std::vector<ElementRub> self;   ///< (contacts) thread on thread, ordered by (a, b)
   std::vector<ElementRub> touch;  ///< (contacts) thread on obstacles, ordered by (a, b)
@@ -141,9 +144,10 @@ struct ThreadState {
   static void fields(S& s, V&& v) {
     v("x", s.x), v("v", s.v), v("director", s.director), v("twist", s.twist), v("bend", s.bend), v("alive", s.alive),
         v("holds", s.holds), v("obstacles", s.obstacles), v("skins", s.skins), v("passages", s.passages),
-        v("ties", s.ties), v("self_count", s.self_count), v("touch_count", s.touch_count),
-        v("self", s.self, core::first(s.self_count)), v("touch", s.touch, core::first(s.touch_count)),
-        v("calm", s.calm);
+        v("ties", s.ties), v("clip_count", s.clip_count, core::only_if(s.clip_count > 0)),
+        v("clips", s.clips, core::FieldNote{.hashed = s.clip_count > 0, .first = s.clip_count}),
+        v("self_count", s.self_count), v("touch_count", s.touch_count), v("self", s.self, core::first(s.self_count)),
+        v("touch", s.touch, core::first(s.touch_count)), v("calm", s.calm);
   }
 };
 
@@ -251,6 +255,13 @@ void close_passage(ThreadState& state, int slot) noexcept;
 /// Pinches s and t together as they lie.
 void tie(const ThreadModel& model, ThreadState& state, int slot, double s, double t) noexcept;
 void untie(ThreadState& state, int slot) noexcept;
+/// A clip closes on the thread at these places, in their order along its legs.
+/// @param axis, open  unit: along its legs from their bend on, and the way they close, as it lies now
+/// @return false where there is no thread, or no room for another clip
+bool set_clip(const ThreadModel& model, ThreadState& state, std::int32_t number, std::span<const double> places,
+              Vec3d axis, Vec3d open) noexcept;
+/// Null: it has come off.
+const ThreadClip* clip_of(const ThreadState& state, std::int32_t number) noexcept;
 /// Parts the thread at s: in the middle of the element there.
 void cut(const ThreadModel& model, ThreadState& state, double s) noexcept;
 

@@ -94,6 +94,22 @@ void report_reactions(const Tick& t, const ThreadReactions& out) noexcept;
 void couple_touching(Tick& t) noexcept;
 void add_terms(Tick& t) noexcept;
 
+// ---- clips.cpp: clips on the thread ------------------------------------------------------------------------------
+
+/// An element that is about to be parted lets its clips stay on what is beside it.
+void spare_clips(const ThreadModel& m, int element, ThreadState& state) noexcept;
+void couple_clips(Tick& t) noexcept;
+void add_clips(Tick& t) noexcept;
+/// How much of its `way` along the thread something goes until it comes to a clip, and what the clip there bears.
+/// @param half  width of both [m]
+double way_to_clip(const ThreadState& s, double from, double way, double half) noexcept;
+double clip_stops(const ThreadState& s, double from, double way, double half) noexcept;
+/// What goes `way` takes the clips along that it comes to.
+void push_clips(ThreadState& s, double from, double way, double half) noexcept;
+/// After a solve: thread has slipped through clips, and some have come off its ends.
+void settle_clips(Tick& t) noexcept;
+void pose_clips(const ThreadModel& m, ThreadState& s) noexcept;
+
 // ---- rubbing.cpp: friction after a solve ------------------------------------------------------------------------
 
 /// What the solve says of its touches; `share` of its motion was taken.

@@ -1,8 +1,9 @@
-// A clip that has closed: on a strand or a vessel, or on nothing.
+// A clip that has closed: on a strand, a vessel or a thread, or on nothing.
 #include <algorithm>
 #include <cmath>
 #include <span>
 
+#include <trocar/interactions/objects/suture_clip.hpp>
 #include <trocar/interactions/verbs/clip.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/events/registry.hpp>
@@ -19,10 +20,11 @@ const interactions::Clip& clip_of(const Moment& moment, const Happening& h) {
 }
 
 Happening happening(const Moment& moment, const interactions::Clip& clip, int number) {
-  Happening h{clip.tool, BodyId::maybe(BodyKind::strand, clip.strand),          number,
-              nullptr,   tip_of(moment.model, moment.state, size_t(clip.tool)), {}};
+  Happening h{clip.tool, clip.body(), number, nullptr, tip_of(moment.model, moment.state, size_t(clip.tool)), {}};
   h.where = h.tip;
   if (clip.strand < 0) {
+    if (clip.on_thread())
+      h.name = &interactions::part_of<interactions::Suture>(moment.model.objects).list[h.body.index()].name;
     if (clip.vessel > 0) h.name = &moment.model.vessels.list[size_t(clip.vessel - 1)].name;
     return h;
   }
@@ -67,12 +69,17 @@ Value to_mark(const Moment& moment, const Happening& h) {
   return nearest;
 }
 
+/// The clip as it sits on a thread; null: on none.
+const suture::ThreadClip* on_thread(const Moment& moment, const Happening& h) {
+  return interactions::thread_clip(moment.state.objects.sutures, clip_of(moment, h), h.number);
+}
+
 /// From the clip to the nearest one that was there before.
 Value clip_to_clip(const Moment& moment, const Happening& h) {
   Value nearest = kUnknown;
   for (int i = 0; i < h.number; ++i) {
     const interactions::Clip& other = moment.state.clips[size_t(i)];
-    if (!h.body.exists() || h.body != BodyId::maybe(BodyKind::strand, other.strand)) continue;
+    if (!h.body.exists() || h.body != other.body()) continue;
     const double off = std::fabs(other.s - clip_of(moment, h).s);
     if (!nearest.known || off < nearest.number) nearest = off;
   }
@@ -81,7 +88,7 @@ Value clip_to_clip(const Moment& moment, const Happening& h) {
 
 std::vector<Attribute> clip_attributes() {
   return {
-      {"s_mm", "where on the strand, from its beginning; unknown on a bare vessel",
+      {"s_mm", "where on the strand or the thread, from its beginning; unknown on a bare vessel",
        [](const Moment& m, const Happening& h) { return !h.body.exists() ? kUnknown : Value(clip_of(m, h).s); }, 0,
        kLongest},
       {"angle_deg", "off the cross-section",
@@ -89,8 +96,8 @@ std::vector<Attribute> clip_attributes() {
       {"cover", "share of the cross-section between the legs",
        [](const Moment& m, const Happening& h) -> Value { return clip_of(m, h).cover; }, 0, 1},
       {"to_mark_mm", "along the strand to the nearest stripe around it; unknown without any", to_mark, 0, kLongest},
-      {"to_clip_mm", "along the strand to the nearest clip that was there before; unknown without any", clip_to_clip, 0,
-       kLongest},
+      {"to_clip_mm", "along the strand or the thread to the nearest clip that was there before; unknown without any",
+       clip_to_clip, 0, kLongest},
       {"closing_s", "how long the jaws took from half open",
        [](const Moment& m, const Happening& h) { return h.foreseen ? kUnknown : Value(clip_of(m, h).closing_time); }, 0,
        3600},
@@ -117,6 +124,14 @@ std::vector<Attribute> clip_attributes() {
          return c ? Value(on_hearts_side(m.model.vessels.bleeder, c->s)) : kUnknown;
        },
        0, 1, true},
+      {"on_thread", "it closed on thread, where there was no strand and no vessel between its legs",
+       [](const Moment& m, const Happening& h) { return Value(clip_of(m, h).on_thread()); }, 0, 1, true},
+      {"stretches", "of thread between its legs; 0 on tissue",
+       [](const Moment& m, const Happening& h) {
+         const suture::ThreadClip* c = on_thread(m, h);
+         return Value(c ? double(c->count) : 0.0);
+       },
+       0, suture::kMostClipped, false, true},
   };
 }
 
@@ -145,7 +160,7 @@ bool foresee(const Moment& moment, int hand, Foreseen& out) {
 const EventKind kClipped{"clipped",
                          {},
                          clip_attributes(),
-                         "A clip closed on a strand or a vessel.",
+                         "A clip closed on a strand, a vessel or a thread.",
                          needs_applier,
                          &noticing<Clips<false>>,
                          true,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/interactions/objects/suture_clip.hpp>
 #include <trocar/interactions/verbs/cut.hpp>
 #include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/model/host_views.hpp>
@@ -84,6 +85,21 @@ ClipPress press_of(const Clip& clip, const sim::Model& model, const sim::State& 
   press.high = leg_length(clip) - clip.reach;
   press.s = clip.s;
   if (clip.strand >= 0) find_stumps(clip, dot(press.normal, frame.tangent) > 0, state, press);
+  return press;
+}
+
+ClipPress press_on_thread(const Clip& clip, int number, const sim::State& state) {
+  const suture::ThreadClip* sits = interactions::thread_clip(state.objects.sutures, clip, number);
+  ClipPress press;
+  if (!sits) return press;
+  press.centre = sits->at;
+  press.axis = normalised(sits->axis_now);
+  press.open = normalised(sits->open_now - dot(sits->open_now, press.axis) * press.axis, any_perpendicular(press.axis));
+  press.normal = cross(press.axis, press.open);
+  press.radius = kClipHalfGap;
+  press.low = -clip.reach;
+  press.high = leg_length(clip) - clip.reach;
+  press.s = sits->s[0];
   return press;
 }
 

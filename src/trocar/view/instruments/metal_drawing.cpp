@@ -37,6 +37,7 @@ bool in_fold(const interactions::Clip& clip, const sim::Model& model) {
   const auto hangs_there = [&](const auto& fold) {
     return fold.strand == clip.strand && clip.s >= fold.from && clip.s <= fold.to;
   };
+  if (clip.on_thread()) return false;
   return clip.strand < 0 || std::any_of(model.drawn_folds.begin(), model.drawn_folds.end(), hangs_there) ||
          std::any_of(model.membranes.begin(), model.membranes.end(), hangs_there);
 }
@@ -144,7 +145,8 @@ void MetalDrawing::list_clips(const sim::State& state, const FirstParts& first, 
     if (c.dropped() || c.strand >= int(model.strands.size()) || c.vessel > int(model.vessels.list.size())) continue;
     if (m_clips.empty()) continue;
     const auto known = m_clips.find(c.length), mesh = known == m_clips.end() ? m_clips.begin() : known;
-    const ClipPress at = press_of(c, model, state);
+    const ClipPress at = c.on_thread() ? press_on_thread(c, i, state) : press_of(c, model, state);
+    if (!(at.radius > 0)) continue;
     const Mat3f turn =
         Mat3f::from_columns(vec_cast<float>(at.open), vec_cast<float>(at.normal), vec_cast<float>(at.axis));
     DrawItem drawn = item({}, *m_titanium, first.clips);

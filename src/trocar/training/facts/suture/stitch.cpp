@@ -15,6 +15,7 @@ Value passages(const Moment& moment, const Arguments& a) { return double(passage
 Value peak(const Moment& moment, const Arguments&) { return suture_of(moment.state).peak; }
 Value strain(const Moment& moment, const Arguments&) { return suture_of(moment.state).strain; }
 Value torn(const Moment& moment, const Arguments&) { return double(suture_of(moment.state).torn); }
+Value clips(const Moment& moment, const Arguments&) { return double(suture_of(moment.state).thread.clip_count); }
 Value broken(const Moment& moment, const Arguments&) { return suture_of(moment.state).broken != 0; }
 Value harmed(const Moment& moment, const Arguments&) {
   const interactions::SutureState& s = suture_of(moment.state);
@@ -86,6 +87,9 @@ const Fact kSutureTorn{"suture.torn_out", {}, 0, 32, "How many stitches were tor
                        &stateless<torn>};
 const Fact kSutureBroken{"suture.broken",    {},  0, 1, "The thread was pulled apart.", needs_thread,
                          &stateless<broken>, true};
+const Fact kSutureClips{
+    "suture.clips",   {}, 0, suture::kMostThreadClips, "How many clips sit on the thread.", needs_thread,
+    &stateless<clips>};
 const Fact kSutureHarmed{
     "suture.harmed",    {},  0, 1, "A stitch was pulled at with more than its tissue bears unharmed.", needs_suture,
     &stateless<harmed>, true};

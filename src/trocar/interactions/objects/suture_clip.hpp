@@ -1,0 +1,23 @@
+// A clip applier closes on thread: what of it lies between the legs is clipped. The clip is part of that thread's State
+// from then on (suture/thread/clips.hpp); its record in the book of clips says how it was set.
+#pragma once
+
+#include <trocar/interactions/objects/suture.hpp>
+#include <trocar/interactions/verbs/clip.hpp>
+
+namespace trocar::interactions {
+
+/// How far closing legs gather thread before them; what lies nearer to their middle than that is between them [m].
+inline constexpr double kClipGathers = 0.0008;
+
+/// Of all threads that with most stretches between the legs.
+/// @param clip  has closed on nothing else; out: its place on the thread, and which
+/// @param number  of the clip in the State's book
+/// @return is there any thread between its legs?
+bool clip_thread(const SutureModels& models, const ToolModel& tool, const ToolShape& shape, std::int32_t number,
+                 Suture::States& states, Clip& clip) noexcept;
+
+/// A clip of the book as it sits on its thread; null: on none, or it has come off.
+const suture::ThreadClip* thread_clip(const Suture::States& states, const Clip& clip, std::int32_t number) noexcept;
+
+}  // namespace trocar::interactions
