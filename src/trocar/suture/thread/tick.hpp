@@ -21,6 +21,7 @@ struct Tick {
   int near = 0, self = 0, touching = 0;  ///< how many pairs are near, touch each other, touch obstacles
   double reach = 0;                      ///< that the near pairs were found with [m]
   double moved = 0;                      ///< by a node since then, at most [m]
+  double closest = 1e9;                  ///< axes of elements that touched, in any solve so far [m]
   bool full = false;                     ///< more touch than are remembered
 
   bool given_hold(int k) const { return k < int(drive.holds.size()); }
