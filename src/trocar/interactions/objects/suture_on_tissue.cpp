@@ -285,8 +285,7 @@ class Resting {
       const SutureRod& rod = m_all.rods[i];
       const bool held = rod.held == std::int32_t(m_index);
       if (m_model.has_needle() && !(held && rod.holds_needle)) at_rod(int(i), rod);
-      if (m_model.has_thread() && !is_own_mouth(m_model, m_state, rod))
-        keep_off(rod, held && !rod.holds_needle);
+      if (m_model.has_thread() && !is_own_mouth(m_model, m_state, rod)) keep_off(rod, held && !rod.holds_needle);
     }
     if (m_model.has_thread() && m_model.has_needle()) keep_off_needle();
   }

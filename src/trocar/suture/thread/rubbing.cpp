@@ -6,16 +6,14 @@
 namespace trocar::suture {
 namespace {
 
-/// What the solve says of a touch: its press, which bounds its friction. What it does to others is what its springs do
-/// where the motion that was taken leaves them: of a solution that was not taken they would know nothing.
+/// What the solve says of a touch: its press, its friction, and what of the motion was taken.
 void end_touch(Touch& touch, Vec3d motion, double share) {
   const double apart = dot(motion, touch.normal);
   const Vec3d along = motion - apart * touch.normal;
   const double before = touch.press;
   touch.press = std::max(0.0, before - touch.stiffness * apart);
+  touch.force = touch.press * touch.normal - touch.rub_stiffness * (touch.strain + along);
   touch.strain += share * along;
-  touch.force =
-      std::max(0.0, before - share * touch.stiffness * apart) * touch.normal - touch.rub_stiffness * touch.strain;
 }
 
 void remember(const Touch* touches, int count, std::vector<ElementRub>& rubs, std::int32_t& kept) {

@@ -26,6 +26,16 @@ double slip_along(const Tick& t, Vec3d off, Vec3d d, double bound, double& s, do
   return slipped;
 }
 
+/// A solve that was not taken in full says how hard the thread would press had it gone all of its way.
+void keep_to_what_pulls(const Tick& t, std::span<ObstacleReaction> presses) {
+  for (int o = 0; o < std::min(t.m.obstacles, int(presses.size())); ++o) {
+    const double force = length(presses[o].force);
+    if (!(force > 0)) continue;
+    const double most = most_press(t, o);
+    if (force > most) presses[o].force *= most / force, presses[o].moment *= most / force;
+  }
+}
+
 }  // namespace
 
 bool all_finite(const ThreadDrive& d) noexcept {
@@ -234,6 +244,7 @@ void report_reactions(const Tick& t, const ThreadReactions& out) noexcept {
     const Vec3d at = seen.a + touch.t * (seen.b - seen.a) + t.drive.obstacles[touch.b].radius * touch.normal;
     out.obstacles[touch.b].moment += cross(at - seen.a, force);
   }
+  if (t.taken < 1) keep_to_what_pulls(t, out.obstacles);
   for (int n = 0; n < std::min({t.m.skins, int(out.skins.size()), int(t.drive.skins.size())}); ++n) {
     if (!t.given_skin(n)) continue;
     const Touch touch = skin_touch(t, n);

@@ -83,6 +83,7 @@ bool solve_once(Tick& t, const ThreadReactions& out) {
   for (int i = 0; i < t.m.nodes; ++i) t.w.delta[i] = t.w.system.unknown(i);
   const double share = share_of_step(t);
   if (!(share >= 0)) return false;
+  t.taken = share;
   end_touches(t, share);
   move_nodes(t, share);
   spin_after(t);

@@ -21,6 +21,7 @@ struct Tick {
   int near = 0, self = 0, touching = 0;  ///< how many pairs are near, touch each other, touch obstacles
   double reach = 0;                      ///< that the near pairs were found with [m]
   double moved = 0;                      ///< by a node since then, at most [m]
+  double taken = 1;                      ///< share of its motion that the last solve was taken with
   double closest = 1e9;                  ///< axes of elements that touched, in any solve so far [m]
   bool full = false;                     ///< more touch than are remembered
 
@@ -102,5 +103,10 @@ void end_touches(Tick& t, double share) noexcept;
 /// What friction's strains have beyond their bounds has slipped; the State remembers the rest.
 void settle_touches(Tick& t) noexcept;
 void settle(Touch& touch) noexcept;
+
+// ---- presses.cpp: what it can do to obstacles -------------------------------------------------------------------
+
+/// The most that the thread can press on an obstacle with, by what pulls and holds it [N].
+double most_press(const Tick& t, int obstacle) noexcept;
 
 }  // namespace trocar::suture
