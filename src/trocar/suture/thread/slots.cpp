@@ -93,11 +93,17 @@ double motion_left(const Tick& t) noexcept {
   return most;
 }
 
+/// Where something lags far behind, an obstacle that has less far to go does not wait for it: thread would lie in it.
 void set_obstacle_moves(Tick& t) noexcept {
   for (int o = 0; o < t.m.obstacles; ++o) {
     const bool given = t.given_obstacle(o) && t.s.obstacles[o].active;
-    t.w.obstacle_moves[2 * o] = given ? t.part * (t.drive.obstacles[o].a - t.s.obstacles[o].a) : Vec3d{};
-    t.w.obstacle_moves[2 * o + 1] = given ? t.part * (t.drive.obstacles[o].b - t.s.obstacles[o].b) : Vec3d{};
+    const Vec3d a = given ? t.drive.obstacles[o].a - t.s.obstacles[o].a : Vec3d{};
+    const Vec3d b = given ? t.drive.obstacles[o].b - t.s.obstacles[o].b : Vec3d{};
+    const double way = std::max(length(a), length(b));
+    const double own = way > t.catches_up ? t.catches_up / way : 1;
+    const double part = t.catches_up > 0 ? own : t.part;
+    t.w.obstacle_moves[2 * o] = part * a;
+    t.w.obstacle_moves[2 * o + 1] = part * b;
   }
 }
 

@@ -22,6 +22,7 @@ void choose_part(Tick& t) {
   const double needed = std::min(motion / (t.m.most_solves - t.solves), kMostMotion * t.m.stuff.diameter);
   const double most = std::max(wanted, needed);
   t.part = motion > most ? most / motion : 1;
+  t.catches_up = needed == kMostMotion * t.m.stuff.diameter ? needed : 0;
   t.h = t.m.tick * t.left * t.part;
   set_obstacle_moves(t);
 }

@@ -18,6 +18,8 @@ struct Tick {
   double left = 1;                       ///< share of the tick that is left
   double h = 0;                          ///< time of this solve [s]
   double part = 0;                       ///< share of what is left that this solve takes
+  double catches_up = 0;                 ///< what an obstacle may go in this solve where the tick is too short for
+                                         ///< all that moves [m]; 0: it is not
   int near = 0, self = 0, touching = 0;  ///< how many pairs are near, touch each other, touch obstacles
   double reach = 0;                      ///< that the near pairs were found with [m]
   double moved = 0;                      ///< by a node since then, at most [m]
