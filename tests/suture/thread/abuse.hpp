@@ -18,7 +18,7 @@ inline double least_distance(const ThreadModel& m, const std::vector<Vec3d>& x,
   for (const auto& [a, b] : pairs) {
     const Vec3d p = at(a), d = at(a + 1) - p, q = at(b), e = at(b + 1) - q, r = p - q;
     const double dd = dot(d, d), ee = dot(e, e), de = dot(d, e), det = dd * ee - de * de;
-    const auto clamp = [](double x) { return std::min(1.0, std::max(0.0, x)); };
+    const auto clamp = [](double w) { return std::min(1.0, std::max(0.0, w)); };
     double s = det > 1e-12 * dd * ee ? clamp((de * dot(e, r) - ee * dot(d, r)) / det) : 0;
     double t = (dot(e, r) + s * de) / ee;
     if (t < 0 || t > 1) t = clamp(t), s = clamp((t * de - dot(d, r)) / dd);
