@@ -26,7 +26,8 @@ double slip_along(const Tick& t, Vec3d off, Vec3d d, double bound, double& s, do
   return slipped;
 }
 
-/// A solve that was not taken in full says how hard the thread would press had it gone all of its way.
+/// A solve that was not taken in full says how hard the thread would press had it gone all of its way; and what holds
+/// it is strained by what is left of that.
 void keep_to_what_pulls(const Tick& t, std::span<ObstacleReaction> presses) {
   for (int o = 0; o < std::min(t.m.obstacles, int(presses.size())); ++o) {
     const double force = length(presses[o].force);
@@ -229,6 +230,8 @@ void report_reactions(const Tick& t, const ThreadReactions& out) noexcept {
     if (!h.active) continue;
     out.holds[n].force = k * (point_at(t.m, t.s, h.s) - h.seen);
     const ThreadPlace at = place_at(t.m, h.s);
+    const double force = length(out.holds[n].force), most = most_pull(t, at.element);
+    if (t.taken < 1 && force > most) out.holds[n].force *= most / force;
     if (n >= int(t.drive.holds.size()) || is_zero(t.drive.holds[n].direction)) continue;
     const Vec3d d = t.s.x[at.element + 1] - t.s.x[at.element];
     out.holds[n].moment = turn_stiffness(t.m) * cross(h.aim, d) * dot(h.aim, d);

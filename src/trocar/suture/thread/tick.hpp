@@ -108,6 +108,8 @@ void settle(Touch& touch) noexcept;
 
 // ---- presses.cpp: what it can do to obstacles -------------------------------------------------------------------
 
+/// The most that the thread can pull with at a place that holds it [N].
+double most_pull(const Tick& t, int element) noexcept;
 /// The most that the thread can press on an obstacle with, by what pulls and holds it [N].
 double most_press(const Tick& t, int obstacle) noexcept;
 
