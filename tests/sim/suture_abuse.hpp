@@ -45,8 +45,9 @@ class SutureAbuse {
   std::uint64_t bad_tick = 0;                ///< 0: none
   std::uint32_t flags = 0;
   int takes = 0, needle_takes = 0, cuts = 0, bites = 0, drawn_out = 0;
-  double most_force = 0;  ///< on any instrument [N]
-  std::string lost;       ///< what is not there any more
+  double most_force = 0;               ///< on any instrument [N]
+  int looks = 0, looks_at_organs = 0;  ///< the latter while the first solid is whole
+  std::string lost;                    ///< what is not there any more
 
   void tick() {
     for (size_t h = 0; h < m_hands.size(); ++h) act(h);
@@ -137,6 +138,7 @@ class SutureAbuse {
   }
 
   void look() {
+    ++looks, looks_at_organs += !is_open(0);
     for (size_t i = 0; i < m_model.objects.sutures.list.size(); ++i) {
       const interactions::SutureModel& m = m_model.objects.sutures.list[i];
       const interactions::SutureState& s = m_state.objects.sutures[i];
@@ -197,9 +199,16 @@ class SutureAbuse {
         low = 0;  // the swage is in tissue
     return arc > low - 0.002 && arc < high + 0.002;
   }
+  /// Scissors have cut it: what lies in the cut is in nothing, though skin is still drawn over it.
+  bool is_open(size_t solid) const {
+    for (int k = 0; k < m_state.cut_count; ++k)
+      if (m_state.cuts[size_t(k)].solid == std::int32_t(solid)) return true;
+    return false;
+  }
   /// Deeper than kDeep below the skin of a solid: by rays along z, and the nearest triangle.
   bool in_organ(Vec3d x) const {
     for (size_t b = 0; b < m_model.solids.size(); ++b) {
+      if (is_open(b)) continue;
       const tissue::Skin& skin = m_model.solids[b].skin;
       const std::vector<Vec3d>& p = skin_now(b);
       bool inside = false;

@@ -1,4 +1,6 @@
 // Needle and thread among tissue and instruments: the box trainer's pad with its slit.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <trocar/sim/recording/keyframe.hpp>
@@ -112,6 +114,90 @@ TEST(Suture, TurnsInJawsWhereItsTipIsPushedAside) {
   const interactions::ToolShape after = sim::shape_of(box(), d.state, size_t(right_hand()));
   EXPECT_GT(length(to_jaw(after, d.tip()) - was), 0.002);
   EXPECT_GT(d.state.tools[size_t(right_hand())].holds, 0);
+}
+
+/// Open scissors in the other hand, which the thread hangs before.
+struct Scissors {
+  NeedleDriver d{box(), right_hand()};
+  int hand = 1 - right_hand();
+  int node = 80;
+  std::int32_t number = 0;
+  double roll = 0;
+  Vec3d at, opens;
+
+  Scissors() {
+    const sim::HandModel& mine = box().hands[size_t(hand)];
+    const auto cuts = [](const interactions::ToolModel& m) { return m.can().cut; };
+    number = std::int32_t(std::find_if(mine.rack.begin(), mine.rack.end(), cuts) - mine.rack.begin());
+    at = d.suture().thread.x[size_t(node)];
+    go(at, 0.04);
+    d.rest(0.8);
+    // open across the thread, and over it along the shaft
+    const std::vector<Vec3d>& x = d.suture().thread.x;
+    at = x[size_t(node)];
+    const Vec3d along = normalised(x[size_t(node) + 2] - x[size_t(node) - 2]);
+    double least = 2;
+    for (int k = 0; k < 24; ++k) {
+      const kinematics::FulcrumPose pose = pose_of(at, 0.04, k * portable::pi / 24);
+      const Vec3d way = direction_from_jaw(shape_of(mine.rack[size_t(number)], pose, 1), {1, 0, 0});
+      if (std::fabs(dot(way, along)) < least) least = std::fabs(dot(way, along)), roll = pose.roll, opens = way;
+    }
+    for (int i = 0; i < 1400; ++i) {
+      at = d.suture().thread.x[size_t(node)];
+      go(at, std::max(0.0, 0.04 - std::max(0, i - 400) * 5e-5));
+      d.step();
+    }
+  }
+  interactions::ToolShape shape() const { return sim::shape_of(box(), d.state, size_t(hand)); }
+  kinematics::FulcrumPose pose_of(Vec3d to, double before, double turn) const {
+    const Vec3d port = box().hands[size_t(hand)].port;
+    return kinematics::inverse(port, to + (0.007 - before) * normalised(to - port), turn);
+  }
+  /// With its blades' middles to a place, or so much before it.
+  void go(Vec3d to, double before = 0) {
+    d.input.tools[hand] = sim::tool_input(pose_of(to, before, roll), d.input.tools[hand].handle, number);
+  }
+  /// How far thread's axis lies below a blade's surface at most [m].
+  double deepest() const {
+    double most = 0;
+    for (const int part : {interactions::kJawA, interactions::kJawB})
+      for (const Vec3d& x : d.suture().thread.x) {
+        const collision::Capsule rod = shape().rod(part);
+        most = std::max(most, rod.radius - length(x - collision::nearest_on_axis(rod, x)));
+      }
+    return most;
+  }
+};
+
+const Scissors& ready_scissors() {
+  static const Scissors ready;
+  return ready;
+}
+
+TEST(Suture, AnOpenBladePushesThreadAsideAndIsNotEntered) {
+  Scissors s = ready_scissors();
+  const Vec3d from = s.at;
+  double deepest = 0;
+  for (int i = 0; i < 1200; ++i) {
+    s.go(from - (0.01 * i * sim::kTick) * s.opens);
+    s.d.step();
+    deepest = std::max(deepest, s.deepest());
+  }
+  EXPECT_LT(dot(s.d.suture().thread.x[size_t(s.node)] - from, s.opens), -0.002);
+  EXPECT_LT(deepest, 0.25 * s.d.model().thread.stuff.diameter);
+}
+
+TEST(Suture, ThreadBetweenBladesStaysThereUntilTheyCutIt) {
+  Scissors s = ready_scissors();
+  const auto cuts = [&s] {
+    const auto& alive = s.d.suture().thread.alive;
+    return std::count(alive.begin(), alive.end(), 0);
+  };
+  ASSERT_EQ(cuts(), 0);
+  for (int i = 0; i < 400; ++i) s.d.input.tools[s.hand].handle = std::min(1.0f, 0.005f * float(i)), s.d.step();
+  ASSERT_EQ(cuts(), 1);
+  const auto& alive = s.d.suture().thread.alive;
+  EXPECT_NEAR(double(std::find(alive.begin(), alive.end(), 0) - alive.begin()), s.node, 12);
 }
 
 TEST(Suture, KeyframesHoldNeedleAndThread) {

@@ -1,8 +1,11 @@
 // What is cut parts, what is clipped stays together, what is laid has its length.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include <trocar/core/random.hpp>
 
 #include "figures.hpp"
 #include "tying.hpp"
@@ -76,6 +79,53 @@ TEST(ThreadParts, AShaftSweptThroughAThreadTakesItAlong) {
     EXPECT_GT(point_at(m, s, 0.06).x, shaft[0].a.x) << speed;
     EXPECT_EQ((flags & ThreadReport::kLagging) != 0, speed > 1) << speed;
   }
+}
+
+TEST(ThreadParts, AnObstacleDoesNotWaitForAnotherThatIsFarBehind) {
+  const ThreadModel m = build({.stuff = find_thread("3-0", "silk")->stuff, .length = 0.1, .most_solves = 6});
+  ThreadState s = laid(m, std::vector<Vec3d>{{0, 0, 0}, {0, 0, -1}});
+  ThreadWork w = make_work(m);
+  take_hold(m, s, 0, 0);
+  const Hold hold[1] = {};
+  Obstacle rods[2] = {{.present = true, .a = {-0.004, -0.1, -0.05}, .b = {-0.004, 0.1, -0.05}, .radius = 0.0025},
+                      {.present = true, .a = {0, 1, 0}, .b = {0, 1.1, 0}, .radius = 0.0025}};
+  double lag = 0, behind = 0;
+  for (int k = 0; k < 200; ++k) {
+    rods[0].a.x += 0.05 * m.tick, rods[0].b.x += 0.05 * m.tick;
+    rods[1].a.x += 5 * m.tick, rods[1].b.x += 5 * m.tick;
+    lag = std::max(lag, advance(m, {.holds = hold, .obstacles = rods}, {}, s, w).lag);
+    behind = std::max(behind, length(rods[0].a - s.obstacles[0].a));
+  }
+  EXPECT_GT(lag, 0.1);
+  EXPECT_LT(behind, 1e-4);
+}
+
+TEST(ThreadParts, AThreadThatCannotFollowPressesNoHarderThanItIsDrawn) {
+  Tying rig({.stuff = find_thread("3-0", "PDS")->stuff, .most_solves = 6});
+  rig.begin({1, 1});
+  rig.pull();
+  core::Random random(3);
+  Vec3d jerks[2];
+  const ThreadStuff& of = rig.m.stuff;
+  double most = 0;
+  int short_of = 0;
+  for (int k = 0; k < 600; ++k) {
+    if (k % 20 == 0)
+      for (Vec3d& v : jerks) v = {random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)};
+    for (int h = 0; h < 2; ++h) {
+      Vec3d& x = rig.holds[h].x;
+      x += rig.m.tick * jerks[h];
+      if (length(x) > 0.06) x *= 0.06 / length(x);
+    }
+    const ThreadReport report = rig.tick();
+    short_of += (report.flags & ThreadReport::kLagging) != 0;
+    // both ends of what lies round the post, in three pieces at most
+    const double pulls = 6 * (report.tension + of.bend * of.yield_curvature / rig.m.spacing);
+    most = std::max(most, length(rig.presses[0].force) / pulls);
+  }
+  EXPECT_GT(short_of, 100);
+  EXPECT_LT(most, 1);
+  say("a post's press over what pulls, at most", most, "1");
 }
 
 TEST(ThreadParts, SizesAreFoundByNameAndTheirFiguresGrowWithTheirDiameter) {

@@ -306,9 +306,11 @@ class Resting {
       touch(b, normalised(p - on, {0, 0, 1}), gap, {}, kHardStiffness, kSteelFriction, number);
     }
   }
-  /// Jaws that hold thread keep off all of it but what is between them.
+  /// Jaws that hold thread keep off all of it but what is between them. Blades are sunk into it by half its thickness:
+  /// where they meet, its axis has room between them, and it stays there until they cut it.
   void keep_off(const SutureRod& rod, bool holds) noexcept {
-    suture::Obstacle o{true, rod.now.a, rod.now.b, rod.now.radius, -1};
+    const double sunk = rod.cuts ? 0.5 * m_model.thread.stuff.diameter : 0;
+    suture::Obstacle o{true, rod.now.a, rod.now.b, std::max(0.0, rod.now.radius - sunk), -1};
     if (holds) {
       const SuturePinch& p = m_all.pinches[size_t(rod.tag.index)];
       const int room = int(kRoomAtPinch / m_model.thread.spacing) + 1;

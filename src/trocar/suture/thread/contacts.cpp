@@ -112,7 +112,8 @@ int find_near(const ThreadModel& m, const ThreadState& s, double reach, ThreadWo
   return count;
 }
 
-int find_touching(const ThreadModel& m, const ThreadState& s, int near, ThreadWork& w, bool& full) noexcept {
+int find_touching(const ThreadModel& m, const ThreadState& s, int near, ThreadWork& w, bool& full,
+                  double& closest) noexcept {
   const double thickness = m.stuff.diameter;
   const ElementRub* const first = s.self.data();
   const ElementRub* const last = first + s.self_count;
@@ -122,6 +123,7 @@ int find_touching(const ThreadModel& m, const ThreadState& s, int near, ThreadWo
     if (b - a < m.apart) continue;
     const Nearness at = nearness(s, a, b, kSoftness);
     if (at.distance - thickness >= kOnset * thickness) continue;
+    closest = std::min(closest, nearness(s, a, b, 0).distance);
     if (count == m.contacts) {
       full = true;
       break;
@@ -134,6 +136,12 @@ int find_touching(const ThreadModel& m, const ThreadState& s, int near, ThreadWo
     keep_bound(touch);
   }
   return count;
+}
+
+double closest_of(const ThreadState& s, int self, const ThreadWork& w) noexcept {
+  double closest = 1e9;
+  for (int k = 0; k < self; ++k) closest = std::min(closest, nearness(s, w.self[k].a, w.self[k].b, 0).distance);
+  return closest;
 }
 
 int find_obstacles(const ThreadModel& m, const ThreadState& s, std::span<const Obstacle> given, ThreadWork& w,

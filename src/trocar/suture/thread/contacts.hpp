@@ -9,8 +9,11 @@ namespace trocar::suture {
 int find_near(const ThreadModel& m, const ThreadState& s, double reach, ThreadWork& w) noexcept;
 
 /// Which of the first `near` of them touch, into work.self. Returns how many do; more than fit are left out and `full`
-/// is set.
-int find_touching(const ThreadModel& m, const ThreadState& s, int near, ThreadWork& w, bool& full) noexcept;
+/// is set. `closest` becomes no more than the least distance of axes of those that touch.
+int find_touching(const ThreadModel& m, const ThreadState& s, int near, ThreadWork& w, bool& full,
+                  double& closest) noexcept;
+/// Least distance of the axes of those first `self` that touched, as they lie now.
+double closest_of(const ThreadState& s, int self, const ThreadWork& w) noexcept;
 
 /// Elements that touch obstacles where those are seen, into work.touch. `radius` and `friction` of each come from
 /// `given`.

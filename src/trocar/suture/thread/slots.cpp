@@ -39,6 +39,17 @@ double slip_along(const Tick& t, Vec3d off, Vec3d d, const Bears& bears, double&
   return slipped;
 }
 
+/// A solve that was not taken in full says how hard the thread would press had it gone all of its way; and what holds
+/// it is strained by what is left of that.
+void keep_to_what_pulls(const Tick& t, std::span<ObstacleReaction> presses) {
+  for (int o = 0; o < std::min(t.m.obstacles, int(presses.size())); ++o) {
+    const double force = length(presses[o].force);
+    if (!(force > 0)) continue;
+    const double most = most_press(t, o);
+    if (force > most) presses[o].force *= most / force, presses[o].moment *= most / force;
+  }
+}
+
 }  // namespace
 
 bool all_finite(const ThreadDrive& d) noexcept {
@@ -96,11 +107,17 @@ double motion_left(const Tick& t) noexcept {
   return most;
 }
 
+/// Where something lags far behind, an obstacle that has less far to go does not wait for it: thread would lie in it.
 void set_obstacle_moves(Tick& t) noexcept {
   for (int o = 0; o < t.m.obstacles; ++o) {
     const bool given = t.given_obstacle(o) && t.s.obstacles[o].active;
-    t.w.obstacle_moves[2 * o] = given ? t.part * (t.drive.obstacles[o].a - t.s.obstacles[o].a) : Vec3d{};
-    t.w.obstacle_moves[2 * o + 1] = given ? t.part * (t.drive.obstacles[o].b - t.s.obstacles[o].b) : Vec3d{};
+    const Vec3d a = given ? t.drive.obstacles[o].a - t.s.obstacles[o].a : Vec3d{};
+    const Vec3d b = given ? t.drive.obstacles[o].b - t.s.obstacles[o].b : Vec3d{};
+    const double way = std::max(length(a), length(b));
+    const double own = way > t.catches_up ? t.catches_up / way : 1;
+    const double part = t.catches_up > 0 ? own : t.part;
+    t.w.obstacle_moves[2 * o] = part * a;
+    t.w.obstacle_moves[2 * o + 1] = part * b;
   }
 }
 
@@ -228,6 +245,8 @@ void report_reactions(const Tick& t, const ThreadReactions& out) noexcept {
     if (!h.active) continue;
     out.holds[n].force = k * (point_at(t.m, t.s, h.s) - h.seen);
     const ThreadPlace at = place_at(t.m, h.s);
+    const double force = length(out.holds[n].force), most = most_pull(t, at.element);
+    if (t.taken < 1 && force > most) out.holds[n].force *= most / force;
     if (n >= int(t.drive.holds.size()) || is_zero(t.drive.holds[n].direction)) continue;
     const Vec3d d = t.s.x[at.element + 1] - t.s.x[at.element];
     out.holds[n].moment = turn_stiffness(t.m) * cross(h.aim, d) * dot(h.aim, d);
@@ -249,6 +268,7 @@ void report_reactions(const Tick& t, const ThreadReactions& out) noexcept {
     const Vec3d at = seen.a + touch.t * (seen.b - seen.a) + t.drive.obstacles[touch.b].radius * touch.normal;
     out.obstacles[touch.b].moment += cross(at - seen.a, force);
   }
+  if (t.taken < 1) keep_to_what_pulls(t, out.obstacles);
   for (int n = 0; n < std::min({t.m.skins, int(out.skins.size()), int(t.drive.skins.size())}); ++n) {
     if (!t.given_skin(n)) continue;
     const Touch touch = skin_touch(t, n);

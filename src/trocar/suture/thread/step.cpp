@@ -22,6 +22,7 @@ void choose_part(Tick& t) {
   const double needed = std::min(motion / (t.m.most_solves - t.solves), kMostMotion * t.m.stuff.diameter);
   const double most = std::max(wanted, needed);
   t.part = motion > most ? most / motion : 1;
+  t.catches_up = needed == kMostMotion * t.m.stuff.diameter ? needed : 0;
   t.h = t.m.tick * t.left * t.part;
   set_obstacle_moves(t);
 }
@@ -52,7 +53,7 @@ double share_of_step(Tick& t) {
 }
 
 void find_contacts(Tick& t) {
-  t.self = find_touching(t.m, t.s, t.near, t.w, t.full);
+  t.self = find_touching(t.m, t.s, t.near, t.w, t.full, t.closest);
   t.touching = find_obstacles(t.m, t.s, t.drive.obstacles, t.w, t.full);
 }
 
@@ -83,6 +84,7 @@ bool solve_once(Tick& t, const ThreadReactions& out) {
   for (int i = 0; i < t.m.nodes; ++i) t.w.delta[i] = t.w.system.unknown(i);
   const double share = share_of_step(t);
   if (!(share >= 0)) return false;
+  t.taken = share;
   end_touches(t, share);
   move_nodes(t, share);
   spin_after(t);
@@ -106,11 +108,8 @@ void report_loads(const Tick& t, ThreadReport& report) {
     const double pull = tension(t.m, t.s, e);
     if (pull > report.tension) report.tension = pull, report.weakest = (e + 0.5) * t.m.spacing;
   }
-  for (int k = 0; k < t.self; ++k) {
-    const Touch& q = t.w.self[k];
-    const Vec3d between = (1 - q.s) * t.s.x[q.a] + q.s * t.s.x[q.a + 1] - (1 - q.t) * t.s.x[q.b] - q.t * t.s.x[q.b + 1];
-    report.sunk = std::max(report.sunk, 1 - length(between) / t.m.stuff.diameter);
-  }
+  const double closest = std::min(t.closest, closest_of(t.s, t.self, t.w));
+  report.sunk = std::max(0.0, 1 - closest / t.m.stuff.diameter);
   const double bears = t.self > 0 ? t.m.stuff.knotted_break_force : t.m.stuff.break_force;
   if (report.tension > bears) report.flags |= ThreadReport::kOverloaded;
   report.contacts = t.self;

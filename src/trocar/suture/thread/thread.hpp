@@ -232,7 +232,7 @@ struct ThreadReport {
   int contacts = 0;    ///< of thread on thread
   int coupled = 0;     ///< nodes whose equations are solved together
   double lag = 0;      ///< how far a hold or an obstacle is ahead of what the thread takes it to be [m]
-  double sunk = 0;     ///< of the deepest contact of thread on thread, as a share of the diameter
+  double sunk = 0;     ///< of the deepest contact of thread on thread in any solve, as a share of the diameter
   double tension = 0;  ///< largest [N]
   double weakest = 0;  ///< where that is [m]
   bool asleep = false;

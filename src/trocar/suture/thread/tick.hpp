@@ -18,9 +18,13 @@ struct Tick {
   double left = 1;                       ///< share of the tick that is left
   double h = 0;                          ///< time of this solve [s]
   double part = 0;                       ///< share of what is left that this solve takes
+  double catches_up = 0;                 ///< what an obstacle may go in this solve where the tick is too short for
+                                         ///< all that moves [m]; 0: it is not
   int near = 0, self = 0, touching = 0;  ///< how many pairs are near, touch each other, touch obstacles
   double reach = 0;                      ///< that the near pairs were found with [m]
   double moved = 0;                      ///< by a node since then, at most [m]
+  double taken = 1;                      ///< share of its motion that the last solve was taken with
+  double closest = 1e9;                  ///< axes of elements that touched, in any solve so far [m]
   bool full = false;                     ///< more touch than are remembered
 
   bool given_hold(int k) const { return k < int(drive.holds.size()); }
@@ -117,5 +121,12 @@ void end_touches(Tick& t, double share) noexcept;
 /// What friction's strains have beyond their bounds has slipped; the State remembers the rest.
 void settle_touches(Tick& t) noexcept;
 void settle(Touch& touch) noexcept;
+
+// ---- presses.cpp: what it can do to obstacles -------------------------------------------------------------------
+
+/// The most that the thread can pull with at a place that holds it [N].
+double most_pull(const Tick& t, int element) noexcept;
+/// The most that the thread can press on an obstacle with, by what pulls and holds it [N].
+double most_press(const Tick& t, int obstacle) noexcept;
 
 }  // namespace trocar::suture
