@@ -170,7 +170,8 @@ void Suture::touch(const Models& models, const States&, const ObjectHand& hand, 
   for (int part = kShaft; part < end_of(shape) && all.rods.size() < all.rods.capacity(); part = next(part)) {
     SutureRod rod{hand.touching.before.rod(part), shape.rod(part), {Owner::tool_contact, hand.touching.tool, 0}};
     rod.slot = hand.touching.tool * kRodSlots + (part < kToolParts ? part : kToolParts + part - kFirstLink);
-    rod.astride = is_jaw(part) && (hand.tool.can().cut || (hand.tool.can().set_clips && closing));
+    rod.cuts = is_jaw(part) && hand.tool.can().cut;
+    rod.astride = is_jaw(part) && hand.tool.can().set_clips && closing;
     if (held && is_jaw(part)) {
       rod.held = std::int32_t(held->body.index());
       rod.holds_needle = on_needle(models.list[size_t(rod.held)], held->element);

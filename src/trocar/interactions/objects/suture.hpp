@@ -184,7 +184,8 @@ struct SutureRod {
   std::int32_t slot = 0;   ///< of a thread's obstacles
   std::int32_t held = -1;  ///< the suture that its jaws hold
   bool holds_needle = false;
-  bool astride = false;  ///< a blade, or a leg that has all but closed: thread lies between
+  bool cuts = false;     ///< a blade, which thread lies between
+  bool astride = false;  ///< a leg of a clip that has all but closed: it does not push thread
 };
 /// What a hand's jaws do to a thread: the mean of the places between them.
 struct SuturePinch {

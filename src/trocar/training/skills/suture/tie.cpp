@@ -260,16 +260,18 @@ class PullThrow final : public Skill {
       return Progress::working;
     }
     const double tail = pull_of(op, m_hand), other = pull_of(op, m_with);
-    const double step = (std::max(tail, other) > 0.2 * m_pull ? kTight : kPace) * sim::kTick;
+    const bool taut = std::max({tail, other, strain_of(op)}) > 0.2 * m_pull;
+    const double step = (taut ? kTight : kPace) * sim::kTick;
     Vec3d stitch;
     if (!find_stitch(op, stitch)) return fail("the thread is in no tissue");
     const Vec3d above = stitch + kAbove * upwards(op);
     if (m_phase == kApart) {
       if (m_gone == 0) m_gone = std::max(0.0, dot(above - held_thread(op, m_with), m_dir));
       // the tail lies across the stitch and is kept short; the other hand does the way
-      const bool tail_there = tail >= m_pull || op.arms().move(m_hand, above + m_reach * m_dir, pace::kCareful);
+      const double speed = taut ? kTight : kPace;
+      const bool tail_there = tail >= m_pull || op.arms().move(m_hand, above + m_reach * m_dir, speed);
       if (tail_there && tail < m_pull && other >= m_pull) m_reach += step;
-      if (other < m_pull) m_gone += step, lead(op, m_with, above - m_gone * m_dir, pace::kCareful);
+      if (other < m_pull) m_gone += step, lead(op, m_with, above - m_gone * m_dir, speed);
       if (tail >= m_pull && other >= m_pull) go(kKeep);
       return m_gone > kFarthest ? fail("it does not come tight") : Progress::working;
     }
