@@ -170,10 +170,13 @@ class GraspTail final : public Skill {
 
  private:
   enum Phase { kAway, kReach, kEnter, kClose };
-  static constexpr double kInside = 0.7, kFeels = 0.3, kLongest = 4, kThere = 0.001;  // of the jaws' length, [s], [m]
+  static constexpr double kInside = 0.7, kFeels = 0.3, kLongest = 4, kThere = 0.001,
+                          kShift = 0.0015;  // of the jaws' length, [s], [m]
+  static constexpr int kMostAgain = 5;
 
   void start(Operator& op, int tries) override {
     m_beside = 0.0015 * (tries % 3);
+    m_shift = {0, 0, 0}, m_again = 0;
     if (m_with < 0) return go(kReach);
     m_offset = op.arm(m_with).tip - op.arm(m_hand).tip;
     m_offset += m_apart * normalised(op.arm(m_with).port - op.arm(m_with).tip);
@@ -192,7 +195,7 @@ class GraspTail final : public Skill {
     const Vec3d runs =
         normalised(suture::point_at(m.thread, s.thread, at + ahead) - suture::point_at(m.thread, s.thread, at - ahead));
     const Vec3d along = normalised(p - op.arm(m_hand).port);
-    const Vec3d tip = p + (1 - kInside) * op.tool(m_hand).jaw_length * along;
+    const Vec3d tip = p + m_shift + (1 - kInside) * op.tool(m_hand).jaw_length * along;
     op.want(p);
     op.want(op.arm(m_hand).tip);
     follow(op);
@@ -207,15 +210,53 @@ class GraspTail final : public Skill {
       if (op.arms().move(m_hand, tip, pace::kCareful) || m_in_phase > kLongest) go(kClose);
     } else {
       if (!op.arms().grip(m_hand, 1, 0.6) || m_in_phase < kFeels + 0.6) return Progress::working;
-      return held_of_suture(op.model(), op.state(), std::size_t(m_hand)) == 2 ? Progress::done
-                                                                              : fail("the jaws have not taken it");
+      Vec3d off;
+      if (has_tail(op, at) && !pinches_other(op, at, off)) return Progress::done;
+      if (++m_again > kMostAgain) return fail("the jaws have not taken the tail alone");
+      m_shift += kShift * off;
+      m_beside += m_again % 2 == 0 ? -0.003 : 0.005;
+      go(kReach);
     }
     return Progress::working;
   }
 
+  bool has_tail(const Operator& op, double at) const {
+    constexpr double kTail = 0.010;  // [m] of thread
+    if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 2) return false;
+    const suture::ThreadState& thread = suture_of(op.state()).thread;
+    return std::fabs(thread.holds[std::size_t(interactions::kFirstHandSlot + m_hand)].s - at) < kTail;
+  }
+  /// The closed jaws have thread between them that is not the tail; `off`: unit, away from it.
+  bool pinches_other(const Operator& op, double at, Vec3d& off) const {
+    constexpr double kTail = 0.012, kBetween = 0.002;  // [m] of thread that is the tail; beside the middle of the jaws
+    const interactions::SutureModel& m = suture_of(op.model());
+    const std::vector<Vec3d>& x = suture_of(op.state()).thread.x;
+    const Vec3d tip = op.arm(m_hand).tip, axis = normalised(tip - op.arm(m_hand).port);
+    double nearest = kBetween;
+    for (int i = 0; i * m.thread.spacing < at - kTail; ++i) {
+      const Vec3d from = x[std::size_t(i)] - tip;
+      const double ahead = dot(from, axis);
+      if (ahead > 0 || ahead < -kInside * op.tool(m_hand).jaw_length) continue;
+      const Vec3d beside = from - ahead * axis;
+      if (length(beside) >= nearest) continue;
+      nearest = length(beside);
+      off = normalised(m_from_other(op, i, beside), any_perpendicular(axis));
+    }
+    return nearest < kBetween;
+  }
+  /// Towards the tail's side of the jaws, seen from the other stretch.
+  Vec3d m_from_other(const Operator& op, int, Vec3d beside) const {
+    const interactions::SutureModel& m = suture_of(op.model());
+    const interactions::SutureState& s = suture_of(op.state());
+    const Vec3d tip = op.arm(m_hand).tip, axis = normalised(tip - op.arm(m_hand).port);
+    const Vec3d tail = suture::point_at(m.thread, s.thread, m.thread.length - 0.020) - tip;
+    return tail - dot(tail, axis) * axis - beside;
+  }
+
   int m_hand, m_with;
   double m_at, m_apart, m_open, m_beside = 0;
-  Vec3d m_offset;
+  int m_again = 0;
+  Vec3d m_offset, m_shift{0, 0, 0};
 };
 
 /// Off the jaws with what is wound round them, and apart until both pull.
@@ -232,12 +273,13 @@ class PullThrow final : public Skill {
         m_rest(given.number("for_s", 0.5)) {}
 
  private:
-  enum Phase { kOff, kApart, kKeep, kLoosen };
+  enum Phase { kLift, kOff, kApart, kKeep, kLoosen };
   static constexpr double kPace = 0.025, kTight = 0.004, kFarthest = 0.14, kGive = 0.002, kAbove = 0.012,
-                          kLongest = 4;  // [m/s], [m], [s]
+                          kLifted = 0.022, kGently = 0.15, kOffAt = 0.7, kLongest = 6;  // [m/s], [m], [s]
 
   void start(Operator& op, int) override {
-    m_far = op.tool_state(m_hand).depth - m_back;
+    m_offset = op.arm(m_with).tip - op.arm(m_hand).tip;
+    m_reach_now = m_reach, m_ahead_now = m_ahead;
     m_gone = 0;
     m_dir = normalised(m_way, {1, 0, 0});
   }
@@ -249,29 +291,40 @@ class PullThrow final : public Skill {
     if (!both_hold(op)) return fail("the jaws have lost the thread");
     op.want(op.arm(m_hand).tip);
     op.want(op.arm(m_with).tip);
+    Vec3d stitch;
+    if (!find_stitch(op, stitch)) return fail("the thread is in no tissue");
+    if (m_phase == kLift) {  // as far above the tissue as the tail lets it, so that there is room ahead of the jaws
+      const Vec3d up = upwards(op), home = op.arm(m_hand).port - stitch;
+      const Vec3d high = stitch + kLifted * (up + 0.3 * normalised(home - dot(home, up) * up));
+      const bool lifted = pull_of(op, m_hand) > kGently || op.arms().move(m_hand, high, pace::kCareful);
+      op.arms().move(m_with, op.arm(m_hand).tip + m_offset, 2 * pace::kTravel);
+      if (lifted || m_in_phase > kLongest) {
+        m_far = op.tool_state(m_hand).depth - m_back;
+        go(kOff);
+      }
+      return Progress::working;
+    }
     if (m_phase == kOff) {
       // the thread is led ahead of the jaws, along them, and these are drawn out of what is wound: pulled tight it
       // would not slide
       const Vec3d axis = normalised(op.arm(m_hand).tip - op.arm(m_hand).port);
-      const Vec3d ahead = above_tissue(op, op.arm(m_hand).tip + m_ahead * axis);
+      const Vec3d ahead = above_tissue(op, op.arm(m_hand).tip + m_ahead_now * axis);
       const bool led = lead(op, m_with, ahead, pace::kCareful);
+      if (led && pull_of(op, m_with) < m_pull) m_ahead_now += 0.5 * kPace * sim::kTick;  // what is wide comes off later
       const bool back = pull_of(op, m_hand) > m_pull || op.arms().move_to_depth(m_hand, m_far, pace::kTrack);
-      if ((led && back) || m_in_phase > kLongest) go(kApart);
-      return Progress::working;
+      if (led && back && std::fabs(wraps_around(op.model(), op.state(), m_hand)) < kOffAt) go(kApart);
+      return m_in_phase > kLongest ? fail("what is wound does not come off the jaws") : Progress::working;
     }
     const double tail = pull_of(op, m_hand), other = pull_of(op, m_with);
-    const bool taut = std::max({tail, other, strain_of(op)}) > 0.2 * m_pull;
-    const double step = (taut ? kTight : kPace) * sim::kTick;
-    Vec3d stitch;
-    if (!find_stitch(op, stitch)) return fail("the thread is in no tissue");
+    const auto pace_at = [&](double pull) { return pull > 0.2 * m_pull ? kTight : kPace; };
+    const double step = pace_at(other) * sim::kTick;
     const Vec3d above = stitch + kAbove * upwards(op);
     if (m_phase == kApart) {
       if (m_gone == 0) m_gone = std::max(0.0, dot(above - held_thread(op, m_with), m_dir));
       // the tail lies across the stitch and is kept short; the other hand does the way
-      const double speed = taut ? kTight : kPace;
-      const bool tail_there = tail >= m_pull || op.arms().move(m_hand, above + m_reach * m_dir, speed);
-      if (tail_there && tail < m_pull && other >= m_pull) m_reach += step;
-      if (other < m_pull) m_gone += step, lead(op, m_with, above - m_gone * m_dir, speed);
+      const bool tail_there = tail >= m_pull || op.arms().move(m_hand, above + m_reach_now * m_dir, pace_at(tail));
+      if (tail_there && tail < m_pull && other >= m_pull) m_reach_now += step;
+      if (other < m_pull) m_gone += step, lead(op, m_with, above - m_gone * m_dir, pace_at(other));
       if (tail >= m_pull && other >= m_pull) go(kKeep);
       return m_gone > kFarthest ? fail("it does not come tight") : Progress::working;
     }
@@ -289,8 +342,8 @@ class PullThrow final : public Skill {
 
   int m_hand, m_with;
   Vec3d m_way;
-  double m_pull, m_back, m_ahead, m_reach, m_rest, m_far = 0, m_gone = 0;
-  Vec3d m_dir;
+  double m_pull, m_back, m_ahead, m_reach, m_rest, m_reach_now = 0, m_ahead_now = 0, m_far = 0, m_gone = 0;
+  Vec3d m_dir, m_offset;
 };
 
 std::string lacks_thread(const sim::Model& model, const Given& given) {
