@@ -83,7 +83,7 @@ SlingDriver with_stump(double length) {
   int e = d.sling().around[0].element + 1;
   while (body.arc[size_t(e)] < place_of(d) + length - 0.00075) ++e;
   d.state.strands[0].alive[size_t(e)] = 0;
-  d.rest(1.5);
+  d.rest(6);
   return d;
 }
 

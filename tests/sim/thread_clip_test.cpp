@@ -207,14 +207,6 @@ TEST(ThreadClip, WithNothingBetweenItsJawsAClipIsDroppedAsBefore) {
   EXPECT_EQ(a.events[size_t(sim::Event::dropped_clip)], 1);
 }
 
-TEST(ThreadClip, LegsGatherThreadThatLiesBetweenThemAsTheyClose) {
-  Applier a;
-  a.lay(1, 0.0015, 0.006);
-  a.close();
-  ASSERT_TRUE(a.clip());
-  EXPECT_EQ(a.thread().clip_count, 1);
-}
-
 TEST(ThreadClip, ASecondOneFitsBesideTheFirst) {
   Applier a = closed(1);
   a.hold_as_it_lies();

@@ -108,7 +108,7 @@ void compile_sutures(const Description& d, sim::Model& model, std::vector<core::
     if (!kind) continue;
     suture::ThreadDescription thread = thread_of(s, kind->stuff, model);
     const std::int32_t own_hold = thread.holds;
-    if (s.sling.there) thread.holds += interactions::kSlingHolds;
+    if (s.sling.there) thread.holds += interactions::kSlingHolds, thread.shaped = true;
     m.thread = suture::build(thread);
     if (s.sling.there)
       compile_sling(s.sling, own_hold, m);

@@ -44,6 +44,7 @@ ThreadModel build(const ThreadDescription& d) {
   m.drag = d.drag;
   m.most_solves = d.most_solves;
   m.solve_motion = d.solve_motion * d.stuff.diameter;
+  m.shaped = d.shaped ? 1 : 0;
   m.contact_stiffness = 1.3 * d.stuff.knotted_break_force / d.stuff.diameter;
   // Around half a turn as tight as the thread's own thickness lets it be, 1.57 diameters of thread lie.
   m.apart = 2;

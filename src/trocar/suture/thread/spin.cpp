@@ -33,7 +33,7 @@ void add_friction(const ThreadModel& m, const Touch& touch, bool both, ThreadWor
 /// is bent there. Both elements beside the node turn it by half.
 void add_bend(const ThreadModel& m, const ThreadState& s, int i, ThreadWork& w) {
   const double yield = m.stuff.yield_curvature * m.spacing;
-  if (!(yield > 0)) return;
+  if (!(yield > 0) || m.shaped) return;
   const double k = m.stuff.bend / m.spacing * kept_share(yield, s.bend[i].z);
   const double moment = k * dot(w.bend_now[i], cross(w.node_along[i], w.bend_rest[i]));
   const double stiffness = 0.25 * std::fabs(k * dot(w.bend_now[i], w.bend_rest[i]));
@@ -110,6 +110,7 @@ void relax_spin(const ThreadModel& m, std::span<const SpinHold> holds, int self,
 }
 
 void add_twist(const ThreadModel& m, const ThreadState& s, ThreadWork& w) noexcept {
+  if (m.shaped) return;
   const double c = m.stuff.twist / m.spacing;
   for (int i = 1; i + 1 < m.nodes; ++i) {
     if (!s.alive[i - 1] || !s.alive[i]) continue;

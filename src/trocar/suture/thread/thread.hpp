@@ -38,6 +38,7 @@ struct ThreadDescription {
   int most_solves = 6;         ///< in a tick, about 1 ms for 334 nodes; beyond it the thread lags behind what holds it
   double solve_motion = 0.08;  ///< what holds and obstacles move in one solve where thread touches thread, at most,
                                ///< as a share of the diameter
+  bool shaped = false;         ///< bends that stay are set from outside, in space: spin feels no moment of them
   int holds = 4, obstacles = 12, skins = 256, passages = 8, ties = 4;  ///< slots
 };
 
@@ -51,6 +52,7 @@ struct ThreadModel {
   double drag = 0;  ///< [1/s]
   int most_solves = 0;
   double solve_motion = 0;       ///< [m]
+  std::int32_t shaped = 0;       ///< 1: bends that stay are set from outside, in space
   double contact_stiffness = 0;  ///< of a pair of elements pressed together [N/m]
   int apart = 2;                 ///< elements e and e + apart and later may touch
   std::int32_t holds = 0, obstacles = 0, skins = 0, passages = 0, ties = 0;  ///< slots
@@ -60,7 +62,7 @@ struct ThreadModel {
   static void fields(S& s, V&& v) {
     v("nodes", s.nodes), v("spacing", s.spacing), v("length", s.length), v("stuff", s.stuff), v("tick", s.tick),
         v("gravity", s.gravity), v("drag", s.drag), v("most_solves", s.most_solves), v("solve_motion", s.solve_motion),
-        v("contact_stiffness", s.contact_stiffness), v("apart", s.apart), v("holds", s.holds),
+        v("shaped", s.shaped), v("contact_stiffness", s.contact_stiffness), v("apart", s.apart), v("holds", s.holds),
         v("obstacles", s.obstacles), v("skins", s.skins), v("passages", s.passages), v("ties", s.ties),
         v("contacts", s.contacts);
   }
