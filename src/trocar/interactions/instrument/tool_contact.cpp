@@ -473,4 +473,13 @@ void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState&
   }
 }
 
+double from_bend(const ToolModel& model, double along) noexcept {
+  return along - (model.jaw_length - model.clip_length);
+}
+
+double leg_cover(double along, double radius, double length) noexcept {
+  const double from = std::max(0.0, along - radius), to = std::min(length, along + radius);
+  return std::clamp((to - from) / (2 * radius), 0.0, 1.0);
+}
+
 }  // namespace trocar::interactions

@@ -48,4 +48,10 @@ BetweenJaws between_jaws(const ToolModel& model, const ToolShape& shape, const S
 /// The same of anything straight with these ends.
 BetweenJaws between_jaws(const ToolModel& model, const ToolShape& shape, Vec3d a, Vec3d b, double radius) noexcept;
 
+/// How far a point `along` from the jaws' pivot is from the bend of the clip that lies between them [m].
+double from_bend(const ToolModel& model, double along) noexcept;
+
+/// Share of a tube of `radius` at `along` that lies between legs from 0 to `length`.
+double leg_cover(double along, double radius, double length) noexcept;
+
 }  // namespace trocar::interactions

@@ -2,8 +2,8 @@
 // from then on (suture/thread/clips.hpp); its record in the book of clips says how it was set.
 #pragma once
 
+#include <trocar/interactions/couplings/strand_body.hpp>
 #include <trocar/interactions/objects/suture.hpp>
-#include <trocar/interactions/verbs/clip.hpp>
 
 namespace trocar::interactions {
 

@@ -48,15 +48,6 @@ void store(double (&out)[3], Vec3d v, const StrandFrame& f) noexcept {
 }  // namespace
 
 // The clip sits at the end of the jaws.
-double from_bend(const ToolModel& model, double along) noexcept {
-  return along - (model.jaw_length - model.clip_length);
-}
-
-double leg_cover(double along, double radius, double length) noexcept {
-  const double from = std::max(0.0, along - radius), to = std::min(length, along + radius);
-  return std::clamp((to - from) / (2 * radius), 0.0, 1.0);
-}
-
 StrandPlace fit_clip(const ToolModel& model, const ToolShape& shape, const TissueView& view, Clip& clip) noexcept {
   const Catch c = caught(model, shape, view);
   clip.strand = c.strand;

@@ -24,10 +24,4 @@ bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int too
 /// @return where on the strand
 StrandPlace fit_clip(const ToolModel& model, const ToolShape& shape, const TissueView& view, Clip& clip) noexcept;
 
-/// How far a point `along` from the jaws' pivot is from the bend of the clip that lies between them [m].
-double from_bend(const ToolModel& model, double along) noexcept;
-
-/// Share of a tube of `radius` at `along` that lies between legs from 0 to `length`.
-double leg_cover(double along, double radius, double length) noexcept;
-
 }  // namespace trocar::interactions
