@@ -2,6 +2,7 @@
 // the arithmetic is plain.
 #include <gtest/gtest.h>
 
+#include <trocar/interactions/instrument/tool_contact.hpp>
 #include <trocar/interactions/verbs/clip.hpp>
 #include <trocar/numerics/portable.hpp>
 
