@@ -118,7 +118,7 @@ TEST(ThreadFriction, InTissueTensionsKeepToTheCapstanAndTheDrag) {
   const double back = 0.3, drag = 0.05;
   holds[0] = {.x = point_at(m, s, 0.02), .friction_limit = back};
   holds[1] = {.x = point_at(m, s, 0.05)};
-  Passage passage[1] = {{.x = {0, 0, 0}, .in = {1, 0, 0}, .out = {0, 1, 0}, .stiffness = 2000, .drag = drag}};
+  Passage passage[1] = {{.x = {0, 0, 0}, .stiffness = 2000, .drag = drag}};
   HoldReaction pulls[2];
   PassageReaction through[1];
   double sum = 0, slipped = 0;

@@ -18,7 +18,6 @@ constexpr double kDrawnBack = 0.0004;  // [m] that a tip is drawn out of its ent
 constexpr double kOffPath = 0.0015;    // [m] beside its old path the tip makes a new one
 constexpr double kFirm = 0.004;        // [m] of thread that is through a hole when it is as stiff as holes are
 constexpr double kThreadDrag = 0.01;   // [N] of a hole on the thread in it.                           Ours
-constexpr double kOutside = 0.0015;    // [m] of thread beyond a hole that shows where it comes from. Ours
 constexpr double kKept = 0.003;        // [m] of a bite's way the thread's holes are apart
 constexpr double kCutsThrough = 3;     // times the force that harms
 constexpr double kNeedleTorque =
@@ -328,46 +327,17 @@ class Sewing {
     }
   }
 
-  /// Holes lie from the oldest to the newest, and the thread's arc length rises from the needle on: it enters a hole
-  /// from the newer side and leaves it to the older one.
   void drive_passages() noexcept {
     for (suture::Passage& p : m_work.passages) p = {};
-    const SutureHole* older = nullptr;
-    int count = 0;
     for (int i = 0; i < m_state.hole_count; ++i) {
       const SutureHole& h = m_state.holes[size_t(i)];
       if (h.slot < 0) continue;
-      ++count;
       suture::Passage& p = m_work.passages[size_t(h.slot)];
       p.x = point_of(m_bodies, h.at);
       // as soft as about the wire at first: else the force would leap when the swage has passed
       p.stiffness = kAcrossWire + (kThreadHole - kAcrossWire) * std::min(1.0, double(h.arc) / kFirm);
       p.drag = kThreadDrag;
-      if (older) {
-        suture::Passage& before = m_work.passages[size_t(older->slot)];
-        const Vec3d way = normalised(before.x - p.x, {0, 0, 0});
-        p.out = way;
-        before.in = way;
-      } else {
-        p.out = outside(double(h.arc), kOutside);
-      }
-      older = &h;
     }
-    if (!older) return;
-    suture::Passage& newest = m_work.passages[size_t(older->slot)];
-    newest.in = -outside(double(older->arc), -kOutside);
-    if (!(newest.in == Vec3d{})) return;
-    newest.in = newest.out = count > 1 ? newest.out : Vec3d{};
-  }
-  /// The way of the thread that is outside beyond a hole. What bends over a hole's edge pulls along itself on both
-  /// sides: were the way within tissue taken for both, a thread that doubles back would be driven into its hole by its
-  /// own pull. Zero where the needle begins.
-  Vec3d outside(double s, double on) const noexcept {
-    const double to = std::clamp(s + on, 0.0, m_model.thread.length);
-    if (std::fabs(to - s) < m_model.thread.spacing) return {};
-    return normalised(
-        suture::point_at(m_model.thread, m_state.thread, to) - suture::point_at(m_model.thread, m_state.thread, s),
-        {0, 0, 0});
   }
 
   /// Of the thread on the swage. Where a solve was not taken in full, the spring that ties it there is strained by what

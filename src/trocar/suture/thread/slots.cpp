@@ -61,7 +61,7 @@ bool all_finite(const ThreadDrive& d) noexcept {
   for (const SkinContact& c : d.skins)
     if (c.node >= 0) add(c.point), add(c.normal), add(c.velocity), sum += std::fabs(c.stiffness + c.friction);
   for (const Passage& p : d.passages)
-    add(p.x), add(p.in), add(p.out), sum += std::fabs(p.stiffness) + std::fabs(p.drag) + std::fabs(p.friction);
+    add(p.x), sum += std::fabs(p.stiffness) + std::fabs(p.drag) + std::fabs(p.friction);
   return sum < 1e9;
 }
 
@@ -135,10 +135,13 @@ Vec3d passage_target(const Tick& t, int k) noexcept {
   return k < int(t.drive.passages.size()) ? p.seen + t.part * (t.drive.passages[k].x - p.seen) : p.seen;
 }
 
-/// The thread's direction where it goes through: given, or its own.
-Vec3d passage_direction(const Tick& t, int k, int element) noexcept {
-  const Passage& p = t.drive.passages[k];
-  return normalised(p.in + p.out, t.w.along[element]);
+/// That of the very curve on which the tissue's point is kept: what slides along another one would be driven by what
+/// presses it against its hole.
+Vec3d passage_direction(const Tick& t, int k) noexcept {
+  const SmoothPlace at = smooth_place(t.m, t.s.passages[k].s);
+  const Vec3d before = t.s.x[at.nodes[1]] - t.s.x[at.nodes[0]], after = t.s.x[at.nodes[2]] - t.s.x[at.nodes[1]];
+  const double u = at.c[2] - at.c[0];
+  return normalised((0.5 - u) * before + (0.5 + u) * after, t.w.along[at.nodes[0]]);
 }
 double passage_bound(const Tick& t, int k) noexcept {
   const Passage& p = t.drive.passages[k];
@@ -189,7 +192,7 @@ void move_slots(Tick& t, double share, const ThreadReactions& out) noexcept {
     PassageState& p = t.s.passages[n];
     if (!p.active) continue;
     p.seen += (share * t.part) * (t.drive.passages[n].x - p.seen);
-    const Vec3d d = passage_direction(t, n, place_at(t.m, p.s).element);
+    const Vec3d d = passage_direction(t, n);
     const Vec3d off = smooth_place(t.m, p.s).of(t.s.x) - p.seen;
     p.press = t.drive.passages[n].stiffness * length(off - dot(off, d) * d);
     const double slipped =

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kFreeMotion = 0.2;   ///< that a solve is asked to follow where nothing touches, in spacings
 constexpr double kMostMotion = 0.5;   ///< and at the very most, in diameters
+constexpr double kMostTurn = 0.3;     ///< that a solve may turn an element, about [rad]: it is linear
 constexpr int kCalmTicks = 200;       ///< after which a thread that is still sleeps
 constexpr double kStillSpeed = 1e-6;  ///< [m/s]
 constexpr double kForgotten = 0.02;   ///< share of a tick that is not worth another solve
@@ -39,6 +40,18 @@ void look_around(Tick& t) {
   t.moved = 0;
 }
 
+/// How far an element is turned, at most: it would be stretched by that.
+double fastest_turn(const Tick& t) {
+  double most = 0;
+  for (int e = 0; e + 1 < t.m.nodes; ++e) {
+    if (!t.s.alive[e]) continue;
+    const Vec3d apart = t.w.delta[e + 1] - t.w.delta[e];
+    const double along = dot(apart, t.w.along[e]);
+    most = std::max(most, (dot(apart, apart) - along * along) / (t.w.length[e] * t.w.length[e]));
+  }
+  return std::sqrt(most);
+}
+
 /// How much of a solution is taken: no node goes so far that it may have met what is not looked at, and nothing passes
 /// through anything.
 double share_of_step(Tick& t) {
@@ -49,7 +62,8 @@ double share_of_step(Tick& t) {
   const double room = 0.5 * (t.reach - t.m.stuff.diameter) - t.moved;
   double share = safe_share(t.m, t.s, t.near, t.drive.obstacles, t.w);
   if (share * most > room) share = room / most;
-  return share;
+  const double turn = fastest_turn(t);
+  return share * turn > kMostTurn ? kMostTurn / turn : share;
 }
 
 void find_contacts(Tick& t) {

@@ -130,9 +130,8 @@ void add_passages(Tick& t) {
     const PassageState& p = t.s.passages[n];
     if (!p.active) continue;
     const double k = t.drive.passages[n].stiffness;
-    const ThreadPlace at = place_at(t.m, p.s);
     const SmoothPlace smooth = smooth_place(t.m, p.s);
-    const Vec3d d = passage_direction(t, n, at.element);
+    const Vec3d d = passage_direction(t, n);
     const double stops = clip_stops(t.s, p.s, -dot(smooth.of(t.s.x) - p.seen, d), kClipHalfWidth);
     const double along = k * kept_share(passage_bound(t, n) + stops / k, p.reached);
     const Symmetric stiff = along_and_across(along, k, d);

@@ -183,8 +183,6 @@ struct SkinContact {
 /// friction of the force that turns it there (so tensions keep to T2 <= T1 e^(mu theta) + drag).
 struct Passage {
   Vec3d x{0, 0, 0};         ///< of the tissue's point, when the tick ends [m]
-  Vec3d in{0, 0, 0};        ///< zero, or unit: the thread enters along it, in the sense of rising s ...
-  Vec3d out{0, 0, 0};       ///< ... and leaves along it
   double stiffness = 2000;  ///< of the tissue's point [N/m]
   double drag = 0;          ///< [N]
   double friction = -1;     ///< below 0: the thread's on tissue

@@ -82,8 +82,8 @@ void set_obstacle_moves(Tick& t) noexcept;
 Vec3d hold_target(const Tick& t, int k) noexcept;
 Vec3d aim_target(const Tick& t, int k, double share) noexcept;
 Vec3d passage_target(const Tick& t, int k) noexcept;
-/// The thread's direction where it goes through, and how far friction there is strained at most.
-Vec3d passage_direction(const Tick& t, int k, int element) noexcept;
+/// The thread's unit direction where it goes through, and how far friction there is strained at most.
+Vec3d passage_direction(const Tick& t, int k) noexcept;
 double passage_bound(const Tick& t, int k) noexcept;
 /// How a node presses on its skin.
 Touch skin_touch(const Tick& t, int k) noexcept;
