@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include <trocar/numerics/portable.hpp>
-#include <trocar/suture/thread/chain.hpp>
 #include <trocar/training/observe/stitches.hpp>
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
@@ -70,13 +69,13 @@ class Wrap final : public Skill {
         m_radius(given.number("radius_mm", 0.010)),
         m_ahead(given.number("ahead_mm", 0.003)),
         m_stand{given.number("x_mm", 0), given.number("y_mm", 0), given.number("z_mm", 0)},
+        m_back(given.number("back_mm", 0.02)),
         m_pull(given.number("pull_N", 0.3)) {}
 
  private:
-  enum Phase { kStand, kBegin, kTurn };
-  static constexpr double kMostMore = 4;                                                  // turns made again
-  static constexpr double kSpare = 0.4;                                                   // of a turn, that is lost
-  static constexpr double kPace = 0.035, kTighter = 0.03, kWider = 0.02, kLeast = 0.004;  // [m/s], [m]
+  enum Phase { kStand, kBegin, kTurn, kUp };
+  static constexpr double kPace = 0.035, kTighter = 0.03, kWider = 0.02, kLeast = 0.004, kLongest = 4,
+                          kHigh = 0.028;  // [m/s], [m], [s]
 
   void start(Operator&, int) override { m_angle = 0; }
   Progress work(Operator& op) override {
@@ -88,7 +87,7 @@ class Wrap final : public Skill {
       if (!op.arms().grip(m_around, 1, 0.5)) return Progress::working;  // open, they would take thread along
       const bool stands = op.arms().move(m_around, m_stand, pace::kTravel);
       m_axis = normalised(op.arm(m_around).tip - op.arm(m_around).port);
-      if (turn_swage(op, -m_axis) && stands) {
+      if (turn_swage(op) && stands) {
         m_centre = op.arm(m_around).tip + m_ahead * m_axis;
         const Vec3d off = q - m_centre;
         m_from = normalised(off - dot(off, m_axis) * m_axis, any_perpendicular(m_axis));
@@ -102,43 +101,50 @@ class Wrap final : public Skill {
       if (lead(op, m_hand, m_centre + m_now * m_from, pace::kTravel)) go(kTurn);
       return Progress::working;
     }
-    turn_swage(op, m_centre - q);
+    if (m_phase == kUp) {
+      // what is wound slides up to the hinge, where it stays when the jaws are opened
+      const Vec3d up = normalised(m_up - dot(m_up, m_axis) * m_axis, m_from);
+      const bool there = lead(op, m_hand, m_centre - m_back * m_axis + kHigh * up, pace::kCareful);
+      return there || m_in_phase > kLongest || strain_of(op) > 4 * m_pull ? Progress::done : Progress::working;
+    }
     const double taut = strain_of(op);
     if (taut > m_pull) m_now = std::max(kLeast, m_now - kTighter * sim::kTick);
     if (taut < 0.5 * m_pull) m_now = std::min(m_radius, m_now + kWider * sim::kTick);
-    if (taut < 4 * m_pull) m_angle += kPace / std::max(0.01, m_now) * sim::kTick;
+    const double last = 2 * portable::pi * m_turns;
+    if (taut < 4 * m_pull) m_angle = std::min(last, m_angle + kPace / std::max(0.01, m_now) * sim::kTick);
     const Vec3d round = m_centre + m_now * (portable::cos(m_angle) * m_from + portable::sin(m_angle) * m_to);
-    lead(op, m_hand, before_jaws(op, above_tissue(op, round)), 2 * pace::kTravel);
-    // what lies round jaws loosely may come off over their tip, and then it is wound anew; counted from the needle
-    const double wound = -double(m_sense) * wraps_around(op.model(), op.state(), m_around);
-    if (wound > m_turns + kSpare) return Progress::done;
-    return m_angle > portable::two_pi * (m_turns + kMostMore) ? fail("what is wound comes off the jaws")
-                                                              : Progress::working;
+    const bool there = lead(op, m_hand, before_jaws(op, above_tissue(op, round)), 2 * pace::kTravel);
+    if (there && m_angle >= last) {
+      if (m_back <= 0) return Progress::done;
+      m_up = -normalised(op.model().gravity, {0, 0, -1});
+      go(kUp);
+    }
+    return Progress::working;
   }
   /// Farther ahead where this shaft would cross those jaws.
   Vec3d before_jaws(const Operator& op, Vec3d at) const {
-    constexpr double kBefore = 0.007, kNear = 0.008, kFar = 0.014, kFarthest = 0.025;  // [m] between middle lines
-    const Vec3d port = op.arm(m_hand).port, tip = op.arm(m_around).tip, far = op.arm(m_around).port;
-    const Vec3d shaft = at - port, jaws = tip + kBefore * m_axis - far;
-    const suture::NearestPlaces near = suture::nearest_places(port, shaft, far, jaws, 1e-6);
-    const Vec3d on_jaws = far + near.t * jaws;
-    const double apart = length(port + near.s * shaft - on_jaws);
+    constexpr double kBefore = 0.007, kNear = 0.008, kFar = 0.020;  // [m] of their tip, between both middle lines
+    const Vec3d port = op.arm(m_hand).port, way = normalised(at - port), tip = op.arm(m_around).tip;
+    const Vec3d across = cross(way, m_axis);
+    const double square = dot(across, across);
+    if (square < 0.01) return at;
+    const double apart = std::fabs(dot(tip - port, across)) / std::sqrt(square);
+    const double on_shaft = dot(cross(tip - port, m_axis), across) / square;
+    const double ahead = dot(cross(tip - port, way), across) / square;
     const double share = std::clamp((kFar - apart) / (kFar - kNear), 0.0, 1.0);
-    const double ahead = dot(tip - on_jaws, m_axis) + kBefore;
-    return at + std::min(share * ahead, kFarthest) * m_axis;
+    if (on_shaft > length(at - port) + 0.5 * kNear) return at;
+    return at + share * std::max(0.0, kBefore - ahead) * m_axis;
   }
-  /// Rolls the needle until its thread leaves it `towards`: what is wound round one hand's jaws winds itself round the
-  /// other's too if these do not turn along.
-  bool turn_swage(Operator& op, Vec3d towards) const {
+  /// The thread leaves the needle towards the shaft that it is wound round, and the needle lies before the jaws.
+  bool turn_swage(Operator& op) const {
     if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 1) return true;
-    constexpr double kTurns = 2, kNear = 0.06, kSeen = 0.3;  // [rad/s] [rad], sine of the angle to the shaft
+    constexpr double kTurns = 1.5, kNear = 0.06;  // [rad/s] [rad]
     Arms::Arm& arm = op.arm(m_hand);
     const suture::NeedleModel& m = suture_of(op.model()).needle;
-    const Vec3d axis = normalised(arm.tip - arm.port), to = normalised(towards, axis);
-    if (length(cross(axis, to)) < kSeen) return true;
+    const Vec3d axis = normalised(arm.tip - arm.port);
     const Vec3d leaves = -suture::needle_direction(m, suture_of(op.state()).needle, m.length);
     const double off =
-        portable::atan2(dot(cross(leaves, to), axis), dot(leaves, to) - dot(axis, leaves) * dot(axis, to));
+        portable::atan2(-dot(cross(leaves, m_axis), axis), dot(axis, leaves) * dot(axis, m_axis) - dot(leaves, m_axis));
     arm.roll -= std::clamp(off, -kTurns * sim::kTick, kTurns * sim::kTick);
     return std::fabs(off) < kNear;
   }
@@ -148,8 +154,8 @@ class Wrap final : public Skill {
   int m_sense;
   double m_radius, m_ahead;
   Vec3d m_stand;
-  double m_pull, m_angle = 0, m_now = 0;
-  Vec3d m_axis, m_centre, m_from, m_to;
+  double m_back, m_pull, m_angle = 0, m_now = 0;
+  Vec3d m_axis, m_centre, m_from, m_to, m_up;
 };
 
 /// Open jaws around the thread's tail, then closed; the hand that holds the thread goes along.
@@ -269,7 +275,7 @@ class PullThrow final : public Skill {
 
  private:
   enum Phase { kLift, kOff, kApart, kKeep, kLoosen };
-  static constexpr double kPace = 0.025, kTight = 0.004, kFarthest = 0.14, kGive = 0.002, kAbove = 0.004,
+  static constexpr double kPace = 0.025, kTight = 0.004, kFarthest = 0.14, kGive = 0.002, kAbove = 0.012,
                           kLifted = 0.022, kGently = 0.15, kOffAt = 0.7, kLongest = 6;  // [m/s], [m], [s]
 
   void start(Operator& op, int) override {
@@ -307,10 +313,8 @@ class PullThrow final : public Skill {
       const bool led = lead(op, m_with, ahead, pace::kCareful);
       if (led && pull_of(op, m_with) < m_pull) m_ahead_now += 0.5 * kPace * sim::kTick;  // what is wide comes off later
       const bool back = pull_of(op, m_hand) > m_pull || op.arms().move_to_depth(m_hand, m_far, pace::kTrack);
-      // loops that are off lie about the tail beside the jaws for a while, and are counted with what is on them
-      const double left = std::fabs(wraps_around(op.model(), op.state(), m_hand));
-      if ((led && back && left < kOffAt) || m_in_phase > kLongest) go(kApart);
-      return Progress::working;
+      if (led && back && std::fabs(wraps_around(op.model(), op.state(), m_hand)) < kOffAt) go(kApart);
+      return m_in_phase > kLongest ? fail("what is wound does not come off the jaws") : Progress::working;
     }
     const double tail = pull_of(op, m_hand), other = pull_of(op, m_with);
     const auto pace_at = [&](double pull) { return pull > 0.2 * m_pull ? kTight : kPace; };
@@ -362,6 +366,7 @@ const SkillKind kWrap{
      {"z_mm", ArgumentKind::number, "to the front", true, -1000, 1000},
      number_parameter("radius_mm", "of the circle; 10", 3, 60),
      number_parameter("ahead_mm", "of their tip that it lies; 3", -20, 40),
+     number_parameter("back_mm", "towards their shaft that the thread is led in the end; 20", 0, 60),
      number_parameter("pull_N", "the circle becomes smaller while the thread is pulled harder; 0.3", 0.01, 10)},
     30,
     "Leads the thread round the other hand's closed jaws, which stand still.",
