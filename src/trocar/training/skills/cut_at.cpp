@@ -25,6 +25,7 @@ class CutAt final : public Skill {
 
  private:
   enum Phase { kReach, kEnter, kClose, kOpen, kLeave };
+  static constexpr double kGivesWay = 1.6;  // [s] after which what the blades push is not followed any more
 
   void start(Operator& op, int) override {
     m_cuts_before = op.state().cut_count;
@@ -74,9 +75,20 @@ class CutAt final : public Skill {
     op.want(op.arm(m_hand).tip);
     const double speed = m_in_phase < 3 ? pace::kCareful : pace::kTrack;
     const bool there = op.aim_at(m_hand, m_strand, m_place, inside(op), 0, speed);
-    m_steady = there && op.sees_tip(m_hand) ? m_steady + sim::kTick : 0;
+    const bool taken = there || (m_in_phase > kGivesWay && reached_over(op));
+    m_steady = taken && op.sees_tip(m_hand) ? m_steady + sim::kTick : 0;
     if (m_steady > 0.1) go(kClose);
     return Progress::working;
+  }
+
+  /// The blades reach over all of it, there. What gives way before them is cut where it lies: they push a thick tube on
+  /// from where they are as wide as it is, and would never catch up with it.
+  bool reached_over(Operator& op) const {
+    constexpr double kBeyond = 0.0008, kBeside = 0.0015;  // [m] of the tips; along the strand
+    const interactions::ToolModel& tool = op.tool(m_hand);
+    const Vec3d lies = interactions::to_jaw(sim::shape_of(op.model(), op.state(), size_t(m_hand)), at(op));
+    const double radius = op.radius(m_strand, m_place);
+    return lies.z > radius && lies.z + radius + kBeyond < tool.jaw_length && std::fabs(lies.y) < kBeside;
   }
 
   Progress close(Operator& op) {

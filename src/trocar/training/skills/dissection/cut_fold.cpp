@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/interactions/instrument/tool_contact.hpp>
+#include <trocar/interactions/verbs/cut.hpp>
 #include <trocar/training/observe/folds.hpp>
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
@@ -14,6 +16,7 @@ class CutFold final : public Skill {
   CutFold(const sim::Model& model, const Given& given)
       : m_hand(given.hand()),
         m_fold(int(given("of").body().index())),
+        m_strand(model.membranes[size_t(m_fold)].strand),
         m_columns(model, m_fold),
         m_away(given.number("away_mm", 0.005)),
         m_to(given.number("to_mm", 0)),
@@ -23,6 +26,13 @@ class CutFold final : public Skill {
  private:
   enum Phase { kReach, kEnter, kClose, kOpen, kBack };
   static constexpr double kBefore = 0.024;  // [m] out of the fold, from where the blades go straight in
+  /// Beside where it was wanted, for a bite that would have gone into something else.
+  struct Beside {
+    double farther, back;  ///< [m] from the strand; along the shaft
+  };
+  static constexpr Beside kBeside[] = {{0, 0},           {0, 0.0012},     {0.0015, 0.0006}, {0.0015, 0.0018},
+                                       {0.003, 0.0012},  {0.003, 0.0024}, {-0.001, 0.0012}, {-0.002, 0.002},
+                                       {0.0045, 0.0018}, {0.0045, 0.0032}};
 
   void start(Operator& op, int) override {
     m_bites = m_vain = 0;
@@ -48,9 +58,9 @@ class CutFold final : public Skill {
   Vec3d middle(Operator& op) const { return 0.5 * (at(op, m_column) + at(op, m_inner)); }
   /// From the strand to the root: the blades close across that.
   Vec3d across(Operator& op) const {
-    constexpr double kBeside = 0.003;  // [m]
-    const Vec3d near = m_columns.point(op.model(), op.state(), m_column, m_away - kBeside);
-    const Vec3d far = m_columns.point(op.model(), op.state(), m_column, m_away + kBeside);
+    constexpr double kAround = 0.003;  // [m]
+    const Vec3d near = m_columns.point(op.model(), op.state(), m_column, m_away - kAround);
+    const Vec3d far = m_columns.point(op.model(), op.state(), m_column, m_away + kAround);
     return normalised(far - near, {0, 1, 0});
   }
 
@@ -59,7 +69,9 @@ class CutFold final : public Skill {
     // a bite in vain is made again a little deeper, then a little less deep
     constexpr double kInside = 0.62, kAtTips = 0.88, kElsewhere[] = {0, -0.12, 0.12, -0.24};
     const double share = m_at_last ? kAtTips : kInside + kElsewhere[m_vain % 4];
-    return op.aim(m_hand, m_at, m_across, share * op.tool(m_hand).jaw_length, back, speed);
+    const Beside& beside = kBeside[m_beside];
+    return op.aim(m_hand, m_at + beside.farther * m_across, m_across, share * op.tool(m_hand).jaw_length,
+                  back + beside.back, speed);
   }
 
   Progress work(Operator& op) override {
@@ -75,7 +87,13 @@ class CutFold final : public Skill {
       case kEnter: {
         const bool there = aim(op, 0, pace::kCareful);
         m_steady = there && (op.sees_tip(m_hand) || m_in_phase > kUnseen) ? m_steady + sim::kTick : 0;
-        if (m_steady > 0.1 || m_in_phase > kUnseen + 2) go(kClose);
+        if (m_steady <= 0.1 && m_in_phase <= kUnseen + 2) return Progress::working;
+        if (spares_others(op))
+          go(kClose);
+        else if (m_beside + 1 < std::size(kBeside))
+          ++m_beside, go(kEnter);
+        else
+          m_beside = 1, go(m_organ ? kBack : kClose);  // nowhere: rather a nick than nothing, but never into an organ
         return Progress::working;
       }
       case kClose:
@@ -89,10 +107,46 @@ class CutFold final : public Skill {
     }
   }
 
+  /// Closed here, the blades would go neither into what the fold hangs on nor into an organ.
+  bool spares_others(Operator& op) {
+    const interactions::ToolModel& tool = op.tool(m_hand);
+    constexpr double kCrossed = 0.2;  // aperture at which blades cut
+    const interactions::ToolShape shape = interactions::shape_of(tool, op.tool_state(m_hand).pose(), kCrossed);
+    m_organ = crosses_organ(op, interactions::closed_blades(tool, shape));
+    return !m_organ && !crosses_strand(op, tool, shape);
+  }
+  static bool crosses_organ(const Operator& op, const geometry::Blade& blade) {
+    const geometry::BladePlane plane(blade);
+    for (size_t i = 0; i < op.model().solids.size(); ++i) {
+      const tissue::NetworkModel& network = op.model().solids[i].network;
+      const tissue::NetworkState& state = op.state().solids[i];
+      for (int s = 0; s < network.springs; ++s) {
+        const auto end = [&](int side) {
+          return tissue::position(network, state, network.spring_nodes[size_t(2 * s + side)]);
+        };
+        if (plane.crosses(end(0), end(1))) return true;
+      }
+    }
+    return false;
+  }
+  bool crosses_strand(const Operator& op, const interactions::ToolModel& tool,
+                      const interactions::ToolShape& shape) const {
+    const interactions::StrandBody& body = op.model().strand_bodies[size_t(m_strand)];
+    const tissue::StrandState& state = op.state().strands[size_t(m_strand)];
+    for (int e = 0; e + 1 < body.nodes(); ++e) {
+      if (!state.alive[size_t(e)]) continue;
+      const interactions::BetweenJaws where = interactions::between_jaws(tool, shape, body, state, e);
+      const double radius = body.model.radius[size_t(e)];
+      if (where.inside && interactions::leg_cover(where.local.z, radius, tool.jaw_length) > 0) return true;
+    }
+    return false;
+  }
+
   Progress reach(Operator& op) {
     m_at = middle(op);
     m_across = across(op);
     m_at_last = is_last(m_column);
+    m_beside = 0;
     const bool open = op.arms().grip(m_hand, 0, 0.4);
     if ((aim(op, kBefore, pace::kTravel) && open) || m_in_phase > 8) go(kEnter);
     return Progress::working;
@@ -111,12 +165,13 @@ class CutFold final : public Skill {
     return Progress::working;
   }
 
-  int m_hand, m_fold;
+  int m_hand, m_fold, m_strand;
   FoldColumns m_columns;
   double m_away, m_to, m_bite;
   int m_most, m_bites = 0, m_vain = 0, m_column = -1, m_inner = -1;
   Vec3d m_from, m_at, m_across{0, 1, 0};
-  bool m_at_last = false;
+  bool m_at_last = false, m_organ = false;
+  std::size_t m_beside = 0;  ///< of kBeside
 };
 
 std::string lacks_fold(const sim::Model& model, const Given& given) {
