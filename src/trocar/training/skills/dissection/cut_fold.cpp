@@ -88,12 +88,10 @@ class CutFold final : public Skill {
         const bool there = aim(op, 0, pace::kCareful);
         m_steady = there && (op.sees_tip(m_hand) || m_in_phase > kUnseen) ? m_steady + sim::kTick : 0;
         if (m_steady <= 0.1 && m_in_phase <= kUnseen + 2) return Progress::working;
-        if (spares_others(op))
+        if (m_settled)
           go(kClose);
-        else if (m_beside + 1 < std::size(kBeside))
-          ++m_beside, go(kEnter);
         else
-          m_beside = 1, go(m_organ ? kBack : kClose);  // nowhere: rather a nick than nothing, but never into an organ
+          look_beside(op);
         return Progress::working;
       }
       case kClose:
@@ -107,13 +105,18 @@ class CutFold final : public Skill {
     }
   }
 
-  /// Closed here, the blades would go neither into what the fold hangs on nor into an organ.
-  bool spares_others(Operator& op) {
+  /// Whether the blades close here. Where something else lies between them another place is tried; where there is none
+  /// that is free, one where they would nick what the fold hangs on, but never an organ.
+  void look_beside(Operator& op) {
     const interactions::ToolModel& tool = op.tool(m_hand);
-    constexpr double kCrossed = 0.2;  // aperture at which blades cut
-    const interactions::ToolShape shape = interactions::shape_of(tool, op.tool_state(m_hand).pose(), kCrossed);
-    m_organ = crosses_organ(op, interactions::closed_blades(tool, shape));
-    return !m_organ && !crosses_strand(op, tool, shape);
+    const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), size_t(m_hand));
+    const bool organ = crosses_organ(op, interactions::closed_blades(tool, shape));
+    if (!organ && !crosses_strand(op, tool, shape)) return go(kClose);
+    if (!organ && m_least_bad < 0) m_least_bad = int(m_beside);
+    if (++m_beside < std::size(kBeside)) return go(kEnter);
+    m_settled = m_least_bad >= 0;
+    m_beside = size_t(std::max(0, m_least_bad));
+    go(m_settled ? kEnter : kBack);
   }
   static bool crosses_organ(const Operator& op, const geometry::Blade& blade) {
     const geometry::BladePlane plane(blade);
@@ -147,6 +150,8 @@ class CutFold final : public Skill {
     m_across = across(op);
     m_at_last = is_last(m_column);
     m_beside = 0;
+    m_least_bad = -1;
+    m_settled = false;
     const bool open = op.arms().grip(m_hand, 0, 0.4);
     if ((aim(op, kBefore, pace::kTravel) && open) || m_in_phase > 8) go(kEnter);
     return Progress::working;
@@ -170,7 +175,8 @@ class CutFold final : public Skill {
   double m_away, m_to, m_bite;
   int m_most, m_bites = 0, m_vain = 0, m_column = -1, m_inner = -1;
   Vec3d m_from, m_at, m_across{0, 1, 0};
-  bool m_at_last = false, m_organ = false;
+  bool m_at_last = false, m_settled = false;
+  int m_least_bad = -1;      ///< of kBeside
   std::size_t m_beside = 0;  ///< of kBeside
 };
 
