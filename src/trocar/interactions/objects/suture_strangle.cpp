@@ -151,8 +151,13 @@ class Strangling {
       a.bears = size_t(a.strand) < m_models.strangles.size() ? m_models.strangles[size_t(a.strand)] : a.bears;
       for (int n = 0; n < loop_nodes(); ++n) press_node(i, a, n);
     }
-    for (std::int32_t i = 0; i < m_sling.around_count; ++i)
-      if (has_sunk_in(m_bodies.strands[size_t(m_sling.around[size_t(i)].strand)], m_sling.around[size_t(i)])) carry(i);
+    for (std::int32_t i = 0; i < m_sling.around_count; ++i) {
+      const SlingAround& a = m_sling.around[size_t(i)];
+      if (has_sunk_in(m_bodies.strands[size_t(a.strand)], a))
+        carry(i);
+      else
+        stand_still(i);
+    }
   }
 
  private:
@@ -178,6 +183,19 @@ class Strangling {
     const Vec3d velocity = s.v[e] + a.w * (s.v[e + 1] - s.v[e]);
     for (int n = count; n <= m_sling.parted && n < m_model.thread.nodes; ++n)
       m_state.thread.x[size_t(n)] += m_dt * velocity;
+  }
+
+  /// What lies on one side only is left behind for a tick, and then pressed by the depth at which it lies, as the law
+  /// says: planes that came at it would push with the skin's hardened stiffness, the strand, which weighs nothing,
+  /// would be thrown back by that, and both would shake until one went through the other.
+  void stand_still(std::int32_t number) noexcept {
+    for (int n = 0, count = loop_nodes(); n < count; ++n) {
+      suture::SkinContact& plane = m_work.skins[size_t(n)];
+      if (m_work.sling.on[size_t(n)] != number || plane.node != n) continue;
+      const Vec3d comes = dot(plane.velocity, plane.normal) * plane.normal;
+      plane.velocity -= comes;
+      plane.point -= m_dt * comes;
+    }
   }
 
   /// Middle of the loop, and how far it reaches.
