@@ -232,7 +232,6 @@ TEST(Sling, AWideOneAgainstOneSideIsNotPressedByItsStrandsVelocity) {
     ASSERT_EQ(d.sling().around_count, 1);
     press = std::max(press, d.sling().around[0].press);
   }
-  std::printf("PRESS %g tension %g\n", press, d.sling().tension);
   EXPECT_LT(press, 2);  // [N]
 }
 

@@ -106,17 +106,32 @@ class CutFold final : public Skill {
   }
 
   /// Whether the blades close here. Where something else lies between them another place is tried; where there is none
-  /// that is free, one where they would nick what the fold hangs on, but never an organ.
+  /// that is free, the one where they would nick least of what the fold hangs on, but never an organ.
   void look_beside(Operator& op) {
+    constexpr double kMisses = 2, kUnseen = 0.3;  // as bad as nicking so much of the strand
     const interactions::ToolModel& tool = op.tool(m_hand);
     const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), size_t(m_hand));
-    const bool organ = crosses_organ(op, interactions::closed_blades(tool, shape));
-    if (!organ && !crosses_strand(op, tool, shape)) return go(kClose);
-    if (!organ && m_least_bad < 0) m_least_bad = int(m_beside);
+    const geometry::Blade blade = interactions::closed_blades(tool, shape);
+    const bool organ = crosses_organ(op, blade), takes = crosses_column(op, blade);
+    const double nick = share_of_strand(op, tool, shape);
+    if (!organ && takes && nick <= 0) return go(kClose);
+    const double bad = nick + (takes ? 0 : kMisses) + (op.sees_tip(m_hand) ? 0 : kUnseen);
+    if (!organ && (m_least_bad < 0 || bad < m_badness)) m_least_bad = int(m_beside), m_badness = bad;
     if (++m_beside < std::size(kBeside)) return go(kEnter);
     m_settled = m_least_bad >= 0;
     m_beside = size_t(std::max(0, m_least_bad));
     go(m_settled ? kEnter : kBack);
+  }
+  bool crosses_column(const Operator& op, const geometry::Blade& blade) const {
+    constexpr double kStep = 0.001, kDeepest = 0.02;  // [m] from the strand
+    const geometry::BladePlane plane(blade);
+    Vec3d from = m_columns.point(op.model(), op.state(), m_column, 0);
+    for (double away = kStep; away < kDeepest; away += kStep) {
+      const Vec3d to = m_columns.point(op.model(), op.state(), m_column, away);
+      if (plane.crosses(from, to)) return true;
+      from = to;
+    }
+    return false;
   }
   static bool crosses_organ(const Operator& op, const geometry::Blade& blade) {
     const geometry::BladePlane plane(blade);
@@ -132,17 +147,19 @@ class CutFold final : public Skill {
     }
     return false;
   }
-  bool crosses_strand(const Operator& op, const interactions::ToolModel& tool,
-                      const interactions::ToolShape& shape) const {
+  /// Of what the fold hangs on, the greatest share that lies between the blades.
+  double share_of_strand(const Operator& op, const interactions::ToolModel& tool,
+                         const interactions::ToolShape& shape) const {
     const interactions::StrandBody& body = op.model().strand_bodies[size_t(m_strand)];
     const tissue::StrandState& state = op.state().strands[size_t(m_strand)];
+    double most = 0;
     for (int e = 0; e + 1 < body.nodes(); ++e) {
       if (!state.alive[size_t(e)]) continue;
       const interactions::BetweenJaws where = interactions::between_jaws(tool, shape, body, state, e);
       const double radius = body.model.radius[size_t(e)];
-      if (where.inside && interactions::leg_cover(where.local.z, radius, tool.jaw_length) > 0) return true;
+      if (where.inside) most = std::max(most, interactions::leg_cover(where.local.z, radius, tool.jaw_length));
     }
-    return false;
+    return most;
   }
 
   Progress reach(Operator& op) {
@@ -176,6 +193,7 @@ class CutFold final : public Skill {
   int m_most, m_bites = 0, m_vain = 0, m_column = -1, m_inner = -1;
   Vec3d m_from, m_at, m_across{0, 1, 0};
   bool m_at_last = false, m_settled = false;
+  double m_badness = 0;      ///< of m_least_bad
   int m_least_bad = -1;      ///< of kBeside
   std::size_t m_beside = 0;  ///< of kBeside
 };
