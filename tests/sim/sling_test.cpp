@@ -114,6 +114,20 @@ TEST(Sling, LedOverAFreeEndItLiesAroundTheAppendageAndPressesOnNothing) {
   EXPECT_EQ(cover_of(over()), 0);
 }
 
+/// What it grows out of may stand higher in the loop than the root does.
+TEST(Sling, StillLiesAroundTheAppendageWellBelowItsRoot) {
+  SlingDriver d = over();
+  std::vector<Vec3d>& x = d.state.strands[0].x;
+  const std::vector<Vec3d> from = x;
+  const Vec3d shift = d.middle() - (from[0] - 0.02 * normalised(from[1] - from[0]));
+  for (int tick = 0; tick < 8; ++tick) {
+    for (size_t n = 0; n < x.size(); ++n) x[n] = from[n] + shift, d.state.strands[0].v[n] = {};
+    d.step();
+  }
+  ASSERT_EQ(d.sling().around_count, 1);
+  EXPECT_EQ(place_of(d), 0);
+}
+
 TEST(Sling, ClosesTheLumenByTheSameRuleAsClips) {
   EXPECT_GE(cover_of(closed()), 0.98);
   EXPECT_EQ(closed().told(sim::Event::loop_tightened), 1);
