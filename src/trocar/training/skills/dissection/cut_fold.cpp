@@ -169,7 +169,9 @@ class CutFold final : public Skill {
     m_beside = 0;
     m_least_bad = -1;
     m_settled = false;
-    const bool open = op.arms().grip(m_hand, 0, 0.4);
+    // where something lay between blades that were wide open, or nothing was cut, they go in less open
+    constexpr double kLessOpen = 0.5;
+    const bool open = op.arms().grip(m_hand, m_vain % 2 == 1 ? kLessOpen : 0, 0.4);
     if ((aim(op, kBefore, pace::kTravel) && open) || m_in_phase > 8) go(kEnter);
     return Progress::working;
   }
