@@ -1,6 +1,7 @@
 // A loop of thread that a tube brings in: the box trainer's appendage of foam.
 #include <gtest/gtest.h>
 
+#include <trocar/interactions/objects/suture_strangle.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/training/observe/loops.hpp>
 #include <trocar/training/observe/lumen_check.hpp>
@@ -113,6 +114,20 @@ TEST(Sling, LedOverAFreeEndItLiesAroundTheAppendageAndPressesOnNothing) {
   EXPECT_EQ(cover_of(over()), 0);
 }
 
+/// What it grows out of may stand higher in the loop than the root does.
+TEST(Sling, StillLiesAroundTheAppendageWellBelowItsRoot) {
+  SlingDriver d = over();
+  std::vector<Vec3d>& x = d.state.strands[0].x;
+  const std::vector<Vec3d> from = x;
+  const Vec3d shift = d.middle() - (from[0] - 0.02 * normalised(from[1] - from[0]));
+  for (int tick = 0; tick < 8; ++tick) {
+    for (size_t n = 0; n < x.size(); ++n) x[n] = from[n] + shift, d.state.strands[0].v[n] = {};
+    d.step();
+  }
+  ASSERT_EQ(d.sling().around_count, 1);
+  EXPECT_EQ(place_of(d), 0);
+}
+
 TEST(Sling, ClosesTheLumenByTheSameRuleAsClips) {
   EXPECT_GE(cover_of(closed()), 0.98);
   EXPECT_EQ(closed().told(sim::Event::loop_tightened), 1);
@@ -208,6 +223,30 @@ TEST(Sling, GoesWhereItsStrandGoesWithoutDrag) {
     EXPECT_LT(pull, 0.05);  // [N]
     EXPECT_NEAR(d.sling().tension, left().sling().tension, 0.1);
   }
+}
+
+/// What lies against one side of a strand that shakes by 0.3 mm, 60 times a second, presses as the depth says.
+TEST(Sling, AWideOneAgainstOneSideIsNotPressedByItsStrandsVelocity) {
+  SlingDriver d = over();
+  while (d.sling().fed > 0.034) d.draw_closed(0, kPlace, 0.25, 0.01);
+  d.grip(0.06, 0.2);
+  ASSERT_EQ(d.sling().around_count, 1);
+  ASSERT_FALSE(interactions::has_sunk_in(box().strand_bodies[0], d.sling().around[0]));
+  const std::vector<Vec3d> from = d.state.strands[0].x;
+  const Vec3d across = normalised(d.tip() - d.point(0, kPlace));
+  const double sway = 0.0003, turns = 60 * 2 * portable::pi;
+  double press = 0;
+  for (int tick = 0; tick < 200; ++tick) {
+    const double to = sway * portable::sin(turns * tick * sim::kTick);
+    for (size_t n = 0; n < from.size(); ++n) {
+      d.state.strands[0].x[n] = from[n] + to * across;
+      d.state.strands[0].v[n] = sway * turns * portable::cos(turns * tick * sim::kTick) * across;
+    }
+    d.step();
+    ASSERT_EQ(d.sling().around_count, 1);
+    press = std::max(press, d.sling().around[0].press);
+  }
+  EXPECT_LT(press, 2);  // [N]
 }
 
 TEST(Sling, ItsInstrumentIsNotExchangedWhileTheLoopLiesAroundSomething) {

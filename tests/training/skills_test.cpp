@@ -112,6 +112,17 @@ TEST(Skills, GraspHoldsTheTubeWhereItWasSent) {
   EXPECT_NEAR(held_arc(run.model, run.state, kGrasper, kTube), 0.056, 0.004);
 }
 
+TEST(Skills, APlaceMayBeCountedFromAStrandsEnd) {
+  const double from_end = 0.02, length = small::bare().strand_bodies[kTube].length();
+  const auto taken_at = [](PlanTask approach) {
+    const Performance run(plan_of({goal("take", {approach, task(kEnter, kGrasper), task(kGrasp, kGrasper)})}));
+    return held_arc(run.model, run.state, kGrasper, kTube);
+  };
+  const double there = taken_at(task(kApproach, kGrasper).set_index("of", kTube).set("from_end_mm", from_end));
+  EXPECT_NEAR(there, length - from_end, 0.004);
+  EXPECT_EQ(there, taken_at(at_tube(kApproach, kGrasper, length - from_end)));
+}
+
 TEST(Skills, GraspSaysThatTheJawsAreEmpty) {
   PlanGoal take = goal("take", {at_tube(kApproach, kGrasper, 0.056), task(kGrasp, kGrasper)});
   take.tries = 2;

@@ -24,6 +24,7 @@ constexpr double kMostSunk = 0.93;        // of the depth at which a strand is c
 constexpr double kKnot = 0.0015;          // [m] that a knot at the mouth keeps a strand off
 constexpr double kKnotPushes = 12000;     // [N/m] with which it does
 constexpr double kLeastDepth = 1e-5;      // [m] at which a law's secant is taken
+constexpr double kRoot = 0.03;            // [m] of what a strand grows out of, behind its end
 constexpr double kBesideNext = 1.2;       // thicknesses of both threads from one loop's middle to the next one's
 constexpr double kOffNext = 1;            // tangent of the slope that keeps two loops apart, at its steepest        [d]
 
@@ -150,8 +151,13 @@ class Strangling {
       a.bears = size_t(a.strand) < m_models.strangles.size() ? m_models.strangles[size_t(a.strand)] : a.bears;
       for (int n = 0; n < loop_nodes(); ++n) press_node(i, a, n);
     }
-    for (std::int32_t i = 0; i < m_sling.around_count; ++i)
-      if (has_sunk_in(m_bodies.strands[size_t(m_sling.around[size_t(i)].strand)], m_sling.around[size_t(i)])) carry(i);
+    for (std::int32_t i = 0; i < m_sling.around_count; ++i) {
+      const SlingAround& a = m_sling.around[size_t(i)];
+      if (has_sunk_in(m_bodies.strands[size_t(a.strand)], a))
+        carry(i);
+      else
+        stand_still(i);
+    }
   }
 
  private:
@@ -179,6 +185,19 @@ class Strangling {
       m_state.thread.x[size_t(n)] += m_dt * velocity;
   }
 
+  /// What lies on one side only is left behind for a tick, and then pressed by the depth at which it lies, as the law
+  /// says: planes that came at it would push with the skin's hardened stiffness, the strand, which weighs nothing,
+  /// would be thrown back by that, and both would shake until one went through the other.
+  void stand_still(std::int32_t number) noexcept {
+    for (int n = 0, count = loop_nodes(); n < count; ++n) {
+      suture::SkinContact& plane = m_work.skins[size_t(n)];
+      if (m_work.sling.on[size_t(n)] != number || plane.node != n) continue;
+      const Vec3d comes = dot(plane.velocity, plane.normal) * plane.normal;
+      plane.velocity -= comes;
+      plane.point -= m_dt * comes;
+    }
+  }
+
   /// Middle of the loop, and how far it reaches.
   void measure() noexcept {
     const int count = loop_nodes();
@@ -200,27 +219,48 @@ class Strangling {
     return free_end(body, s, at.place).away > kOffWithin;
   }
 
-  /// The surface is a fan about the loop's middle.
+  /// The surface is a fan about the loop's middle. Over an end that grows out of something the strand is taken to go on
+  /// in there: what swells up into a loop that lies around its beginning does not let that off.
   bool passes(size_t strand, SlingAround& found) const noexcept {
     const StrandBody& body = m_bodies.strands[strand];
     const tissue::StrandState& s = m_bodies.strand_states[strand];
+    int net = 0;
+    for (int e = 0; e + 1 < body.nodes(); ++e)
+      if (s.alive[size_t(e)]) net += passes(s.x[size_t(e)], s.x[size_t(e) + 1], e, found);
+    const int last = body.nodes() - 1;
+    const auto root = [&](int node, int next) {
+      return s.x[size_t(node)] + kRoot * normalised(s.x[size_t(node)] - s.x[size_t(next)]);
+    };
+    SlingAround at_end = found;
+    if (body.model.prescribed[0] && s.alive[0])
+      if (const int sign = passes(root(0, 1), s.x[0], 0, at_end); sign != 0) {
+        net += sign;
+        at_end.w = 0;
+        found = at_end;
+      }
+    if (body.model.prescribed[size_t(last)] && s.alive[size_t(last) - 1])
+      if (const int sign = passes(s.x[size_t(last)], root(last, last - 1), last - 1, at_end); sign != 0) {
+        net += sign;
+        at_end.w = 1;
+        found = at_end;
+      }
+    return net != 0;
+  }
+  /// How often, and which way, the loop's surface is passed through from p to q, which is element `e` or belongs to it.
+  int passes(Vec3d p, Vec3d q, int e, SlingAround& found) const noexcept {
+    if (length(0.5 * (p + q) - m_middle) > m_reach + length(q - p)) return 0;
     const int count = loop_nodes();
     int net = 0;
-    for (int e = 0; e + 1 < body.nodes(); ++e) {
-      if (!s.alive[size_t(e)]) continue;
-      const Vec3d p = s.x[size_t(e)], q = s.x[size_t(e) + 1];
-      if (length(0.5 * (p + q) - m_middle) > m_reach + length(q - p)) continue;
-      for (int n = 0; n < count; ++n) {
-        double w = 0;
-        const int sign = passes_through(p, q, m_middle, m_state.thread.x[size_t(n)],
-                                        m_state.thread.x[size_t(n + 1 < count ? n + 1 : 0)], w);
-        if (sign == 0) continue;
-        net += sign;
-        found.element = e;
-        found.w = w;
-      }
+    for (int n = 0; n < count; ++n) {
+      double w = 0;
+      const int sign = passes_through(p, q, m_middle, m_state.thread.x[size_t(n)],
+                                      m_state.thread.x[size_t(n + 1 < count ? n + 1 : 0)], w);
+      if (sign == 0) continue;
+      net += sign;
+      found.element = e;
+      found.w = w;
     }
-    return net != 0;
+    return net;
   }
 
   /// Where another loop has sunk in beside this one, the groove's side leads away from that: threads lie side by side.

@@ -1,4 +1,5 @@
 #include <array>
+#include <optional>
 
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
@@ -9,7 +10,7 @@ namespace {
 /// Where a hand's jaws shall take a strand: at a place, at another one after each failure.
 double place_at_try(const sim::Model& model, const Given& given, int tries) {
   constexpr double kElsewhere[] = {0, 0.12, -0.08, 0.20};  // of the stretch
-  if (given("at_mm").given) return given("at_mm").number();
+  if (const std::optional<double> arc = arc_given(model, given)) return *arc;
   const Stretch between = stretch_of(model, given("of").index, given("after").word, given("before").word);
   const double share = given.number("share", 0.5) + kElsewhere[tries % 4];
   return between.from + (between.to - between.from) * share;
@@ -46,6 +47,7 @@ std::vector<Parameter> on_strand() {
   return {hand_parameter(),
           {"of", ArgumentKind::strand, "the strand"},
           {"at_mm", ArgumentKind::number, "where, from its beginning", false, 0, 1000},
+          from_end_parameter(),
           {"after", ArgumentKind::landmark, "or: a landmark behind whose end the stretch begins", false},
           {"before", ArgumentKind::landmark, "and one before whose beginning it ends", false},
           {"share", ArgumentKind::number, "of that stretch; somewhere else near it after each failure", false, 0, 1}};

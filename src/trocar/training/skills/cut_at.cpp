@@ -25,6 +25,7 @@ class CutAt final : public Skill {
 
  private:
   enum Phase { kReach, kEnter, kClose, kOpen, kLeave };
+  static constexpr double kGivesWay = 1.6;  // [s] after which what the blades push is not followed any more
 
   void start(Operator& op, int) override {
     m_cuts_before = op.state().cut_count;
@@ -74,9 +75,20 @@ class CutAt final : public Skill {
     op.want(op.arm(m_hand).tip);
     const double speed = m_in_phase < 3 ? pace::kCareful : pace::kTrack;
     const bool there = op.aim_at(m_hand, m_strand, m_place, inside(op), 0, speed);
-    m_steady = there && op.sees_tip(m_hand) ? m_steady + sim::kTick : 0;
+    const bool taken = there || (m_in_phase > kGivesWay && reached_over(op));
+    m_steady = taken && op.sees_tip(m_hand) ? m_steady + sim::kTick : 0;
     if (m_steady > 0.1) go(kClose);
     return Progress::working;
+  }
+
+  /// The blades reach over all of it, there. What gives way before them is cut where it lies: they push a thick tube on
+  /// from where they are as wide as it is, and would never catch up with it.
+  bool reached_over(Operator& op) const {
+    constexpr double kBeyond = 0.0008, kBeside = 0.0015;  // [m] of the tips; along the strand
+    const interactions::ToolModel& tool = op.tool(m_hand);
+    const Vec3d lies = interactions::to_jaw(sim::shape_of(op.model(), op.state(), size_t(m_hand)), at(op));
+    const double radius = op.radius(m_strand, m_place);
+    return lies.z > radius && lies.z + radius + kBeyond < tool.jaw_length && std::fabs(lies.y) < kBeside;
   }
 
   Progress close(Operator& op) {
@@ -102,23 +114,23 @@ class CutAt final : public Skill {
     return fail(m_lost ? m_lost : "nothing was cut");
   }
 
-  /// Where clips and loops sit on it, from its beginning [m].
+  /// Where clips and loops sit on it, one after the other from its beginning [m].
   std::vector<double> closures(Operator& op) const {
     std::vector<double> at;
     for (int i = 0; i < op.state().clip_count; ++i)
       if (op.state().clips[size_t(i)].strand == m_strand) at.push_back(op.state().clips[size_t(i)].s);
     const SecuredLoops loops = secured_loops(op.model(), op.state(), m_strand);
     at.insert(at.end(), loops.at.begin(), loops.at.begin() + loops.count);
+    std::sort(at.begin(), at.end());
     return at;
   }
 
   double place(Operator& op) const {
     if (m_fixed >= 0 && m_beyond < 0) return m_fixed;
     const std::vector<double> at = closures(op);
-    if (m_beyond >= 0) return m_beyond + (at.empty() ? 0 : *std::max_element(at.begin(), at.end()));
-    for (size_t i = 0; i < at.size(); ++i)
-      for (size_t j = i + 1; j < at.size(); ++j)
-        if (m_apart.holds(std::fabs(at[i] - at[j]))) return 0.5 * (at[i] + at[j]);
+    if (m_beyond >= 0) return m_beyond + (at.empty() ? 0 : at.back());
+    for (size_t i = 1; i < at.size(); ++i)
+      if (m_apart.holds(at[i] - at[i - 1])) return 0.5 * (at[i] + at[i - 1]);
     return 0.5 * m_length;
   }
 
@@ -143,7 +155,8 @@ const SkillKind kCutAt{
     "cut",
     {hand_parameter("that has the scissors"),
      {"of", ArgumentKind::strand, "what is cut"},
-     range_parameter("apart_mm", "half way between two clips or loops that are so far apart", 0, 1000),
+     range_parameter("apart_mm", "half way between two clips or loops beside each other that are so far apart", 0,
+                     1000),
      number_parameter("at_mm", "or: just there, from its beginning", 0, 1000),
      number_parameter("beyond_clip_mm", "or: so far beyond the outermost clip", 0, 1000),
      number_parameter("inside_share", "of the blades' length: how far from their hinge the strand shall lie; 0.82", 0,

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <trocar/training/facts/needs.hpp>
@@ -17,9 +19,18 @@ double Given::number(std::string_view name, double otherwise) const {
   return a.given ? a.number() : otherwise;
 }
 
+Parameter from_end_parameter() { return number_parameter("from_end_mm", "or: from the strand's end", 0, 1000); }
+
+std::optional<double> arc_given(const sim::Model& model, const Given& given) {
+  if (given("at_mm").given) return given("at_mm").number();
+  if (!given("from_end_mm").given) return std::nullopt;
+  return std::max(0.0, model.strand_bodies[size_t(given("of").index)].length() - given("from_end_mm").number());
+}
+
 std::vector<Parameter> place_parameters() {
   return {{"of", ArgumentKind::strand, "the strand that the place is on", false},
           {"at_mm", ArgumentKind::number, "from the strand's beginning", false, 0, 1000},
+          from_end_parameter(),
           {"after", ArgumentKind::landmark, "landmark of the strand behind whose end the place is", false},
           {"before", ArgumentKind::landmark, "landmark before whose beginning it is", false},
           {"share", ArgumentKind::number, "of the way from `after` to `before`", false, 0, 1},
@@ -61,7 +72,7 @@ Place::Place(const sim::Model& model, const Given& given) {
     m_strand = given("of").index;
     const Stretch between = stretch_of(model, m_strand, given("after").word, given("before").word);
     const double share = given.number("share", 0.5);
-    m_s = given("at_mm").given ? given("at_mm").number() : between.from + (between.to - between.from) * share;
+    m_s = arc_given(model, given).value_or(between.from + (between.to - between.from) * share);
   }
   if (given("mark").given) m_mark = given("mark").index;
   if (given("nearest_of").given) m_nearest = given("nearest_of").index;
@@ -110,7 +121,8 @@ std::string Place::lacks(const sim::Model& model, const Given& given) {
   for (const char* landmark : {"after", "before"})
     if (of.given && given(landmark).given)
       if (std::string lack = lacks_landmark(model, of.index, given(landmark).word); !lack.empty()) return lack;
-  if (of.given && given("at_mm").given && given("at_mm").number() > model.strand_bodies[size_t(of.index)].length())
+  const double farthest = std::max(given.number("at_mm", 0), given.number("from_end_mm", 0));
+  if (of.given && farthest > model.strand_bodies[size_t(of.index)].length())
     return fmt::format("the strand \"{}\" is only {:.1f} mm long", model.strands[size_t(of.index)].name,
                        1e3 * model.strand_bodies[size_t(of.index)].length());
   return {};

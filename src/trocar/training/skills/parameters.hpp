@@ -1,6 +1,8 @@
 // Parameters that many skills have, and what scenes lack for them.
 #pragma once
 
+#include <optional>
+
 #include <trocar/training/skills/skill.hpp>
 
 namespace trocar::training {
@@ -26,6 +28,10 @@ inline Parameter watch_parameter() {
 /// hand's trocar, the place that bleeds, the pool.
 std::vector<Parameter> place_parameters();
 std::vector<Parameter> operator+(std::vector<Parameter> a, std::vector<Parameter> b);
+
+Parameter from_end_parameter();
+/// The place along a strand that `at_mm` or `from_end_mm` says [m]; nothing where neither does.
+std::optional<double> arc_given(const sim::Model& model, const Given& given);
 
 /// Handle of a half closed clip applier: its legs stand around what they will close, and can still be drawn off.
 inline constexpr double kHalfClosed = 0.42;

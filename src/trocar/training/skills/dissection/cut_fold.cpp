@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/interactions/instrument/tool_contact.hpp>
+#include <trocar/interactions/verbs/cut.hpp>
 #include <trocar/training/observe/folds.hpp>
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
@@ -14,6 +16,7 @@ class CutFold final : public Skill {
   CutFold(const sim::Model& model, const Given& given)
       : m_hand(given.hand()),
         m_fold(int(given("of").body().index())),
+        m_strand(model.membranes[size_t(m_fold)].strand),
         m_columns(model, m_fold),
         m_away(given.number("away_mm", 0.005)),
         m_to(given.number("to_mm", 0)),
@@ -23,6 +26,13 @@ class CutFold final : public Skill {
  private:
   enum Phase { kReach, kEnter, kClose, kOpen, kBack };
   static constexpr double kBefore = 0.024;  // [m] out of the fold, from where the blades go straight in
+  /// Beside where it was wanted, for a bite that would have gone into something else.
+  struct Beside {
+    double farther, back;  ///< [m] from the strand; along the shaft
+  };
+  static constexpr Beside kBeside[] = {{0, 0},           {0, 0.0012},     {0.0015, 0.0006}, {0.0015, 0.0018},
+                                       {0.003, 0.0012},  {0.003, 0.0024}, {-0.001, 0.0012}, {-0.002, 0.002},
+                                       {0.0045, 0.0018}, {0.0045, 0.0032}};
 
   void start(Operator& op, int) override {
     m_bites = m_vain = 0;
@@ -48,9 +58,9 @@ class CutFold final : public Skill {
   Vec3d middle(Operator& op) const { return 0.5 * (at(op, m_column) + at(op, m_inner)); }
   /// From the strand to the root: the blades close across that.
   Vec3d across(Operator& op) const {
-    constexpr double kBeside = 0.003;  // [m]
-    const Vec3d near = m_columns.point(op.model(), op.state(), m_column, m_away - kBeside);
-    const Vec3d far = m_columns.point(op.model(), op.state(), m_column, m_away + kBeside);
+    constexpr double kAround = 0.003;  // [m]
+    const Vec3d near = m_columns.point(op.model(), op.state(), m_column, m_away - kAround);
+    const Vec3d far = m_columns.point(op.model(), op.state(), m_column, m_away + kAround);
     return normalised(far - near, {0, 1, 0});
   }
 
@@ -59,7 +69,9 @@ class CutFold final : public Skill {
     // a bite in vain is made again a little deeper, then a little less deep
     constexpr double kInside = 0.62, kAtTips = 0.88, kElsewhere[] = {0, -0.12, 0.12, -0.24};
     const double share = m_at_last ? kAtTips : kInside + kElsewhere[m_vain % 4];
-    return op.aim(m_hand, m_at, m_across, share * op.tool(m_hand).jaw_length, back, speed);
+    const Beside& beside = kBeside[m_beside];
+    return op.aim(m_hand, m_at + beside.farther * m_across, m_across, share * op.tool(m_hand).jaw_length,
+                  back + beside.back, speed);
   }
 
   Progress work(Operator& op) override {
@@ -75,7 +87,11 @@ class CutFold final : public Skill {
       case kEnter: {
         const bool there = aim(op, 0, pace::kCareful);
         m_steady = there && (op.sees_tip(m_hand) || m_in_phase > kUnseen) ? m_steady + sim::kTick : 0;
-        if (m_steady > 0.1 || m_in_phase > kUnseen + 2) go(kClose);
+        if (m_steady <= 0.1 && m_in_phase <= kUnseen + 2) return Progress::working;
+        if (m_settled)
+          go(kClose);
+        else
+          look_beside(op);
         return Progress::working;
       }
       case kClose:
@@ -89,11 +105,73 @@ class CutFold final : public Skill {
     }
   }
 
+  /// Whether the blades close here. Where something else lies between them another place is tried; where there is none
+  /// that is free, the one where they would nick least of what the fold hangs on, but never an organ.
+  void look_beside(Operator& op) {
+    constexpr double kMisses = 2, kUnseen = 0.3;  // as bad as nicking so much of the strand
+    const interactions::ToolModel& tool = op.tool(m_hand);
+    const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), size_t(m_hand));
+    const geometry::Blade blade = interactions::closed_blades(tool, shape);
+    const bool organ = crosses_organ(op, blade), takes = crosses_column(op, blade);
+    const double nick = share_of_strand(op, tool, shape);
+    if (!organ && takes && nick <= 0) return go(kClose);
+    const double bad = nick + (takes ? 0 : kMisses) + (op.sees_tip(m_hand) ? 0 : kUnseen);
+    if (!organ && (m_least_bad < 0 || bad < m_badness)) m_least_bad = int(m_beside), m_badness = bad;
+    if (++m_beside < std::size(kBeside)) return go(kEnter);
+    m_settled = m_least_bad >= 0;
+    m_beside = size_t(std::max(0, m_least_bad));
+    go(m_settled ? kEnter : kBack);
+  }
+  bool crosses_column(const Operator& op, const geometry::Blade& blade) const {
+    constexpr double kStep = 0.001, kDeepest = 0.02;  // [m] from the strand
+    const geometry::BladePlane plane(blade);
+    Vec3d from = m_columns.point(op.model(), op.state(), m_column, 0);
+    for (double away = kStep; away < kDeepest; away += kStep) {
+      const Vec3d to = m_columns.point(op.model(), op.state(), m_column, away);
+      if (plane.crosses(from, to)) return true;
+      from = to;
+    }
+    return false;
+  }
+  static bool crosses_organ(const Operator& op, const geometry::Blade& blade) {
+    const geometry::BladePlane plane(blade);
+    for (size_t i = 0; i < op.model().solids.size(); ++i) {
+      const tissue::NetworkModel& network = op.model().solids[i].network;
+      const tissue::NetworkState& state = op.state().solids[i];
+      for (int s = 0; s < network.springs; ++s) {
+        const auto end = [&](int side) {
+          return tissue::position(network, state, network.spring_nodes[size_t(2 * s + side)]);
+        };
+        if (plane.crosses(end(0), end(1))) return true;
+      }
+    }
+    return false;
+  }
+  /// Of what the fold hangs on, the greatest share that lies between the blades.
+  double share_of_strand(const Operator& op, const interactions::ToolModel& tool,
+                         const interactions::ToolShape& shape) const {
+    const interactions::StrandBody& body = op.model().strand_bodies[size_t(m_strand)];
+    const tissue::StrandState& state = op.state().strands[size_t(m_strand)];
+    double most = 0;
+    for (int e = 0; e + 1 < body.nodes(); ++e) {
+      if (!state.alive[size_t(e)]) continue;
+      const interactions::BetweenJaws where = interactions::between_jaws(tool, shape, body, state, e);
+      const double radius = body.model.radius[size_t(e)];
+      if (where.inside) most = std::max(most, interactions::leg_cover(where.local.z, radius, tool.jaw_length));
+    }
+    return most;
+  }
+
   Progress reach(Operator& op) {
     m_at = middle(op);
     m_across = across(op);
     m_at_last = is_last(m_column);
-    const bool open = op.arms().grip(m_hand, 0, 0.4);
+    m_beside = 0;
+    m_least_bad = -1;
+    m_settled = false;
+    // where something lay between blades that were wide open, or nothing was cut, they go in less open
+    constexpr double kLessOpen = 0.5;
+    const bool open = op.arms().grip(m_hand, m_vain % 2 == 1 ? kLessOpen : 0, 0.4);
     if ((aim(op, kBefore, pace::kTravel) && open) || m_in_phase > 8) go(kEnter);
     return Progress::working;
   }
@@ -111,12 +189,15 @@ class CutFold final : public Skill {
     return Progress::working;
   }
 
-  int m_hand, m_fold;
+  int m_hand, m_fold, m_strand;
   FoldColumns m_columns;
   double m_away, m_to, m_bite;
   int m_most, m_bites = 0, m_vain = 0, m_column = -1, m_inner = -1;
   Vec3d m_from, m_at, m_across{0, 1, 0};
-  bool m_at_last = false;
+  bool m_at_last = false, m_settled = false;
+  double m_badness = 0;      ///< of m_least_bad
+  int m_least_bad = -1;      ///< of kBeside
+  std::size_t m_beside = 0;  ///< of kBeside
 };
 
 std::string lacks_fold(const sim::Model& model, const Given& given) {
