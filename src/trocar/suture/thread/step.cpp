@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFreeMotion = 0.2;   ///< that a solve is asked to follow where nothing touches, in spacings
 constexpr double kMostMotion = 0.5;   ///< and at the very most, in diameters
-constexpr double kMostTurn = 0.3;     ///< that a solve may turn an element, about [rad]: it is linear
+constexpr double kMostTurn = 0.5;     ///< that a solve may turn an element, about [rad]: it is linear
 constexpr int kCalmTicks = 200;       ///< after which a thread that is still sleeps
 constexpr double kStillSpeed = 1e-6;  ///< [m/s]
 constexpr double kForgotten = 0.02;   ///< share of a tick that is not worth another solve
