@@ -134,6 +134,33 @@ TEST(ThreadFriction, InTissueTensionsKeepToTheCapstanAndTheDrag) {
   expect_ratio("what the tissue bears [N]", length(through[0].force), std::hypot(back, now), 0.1);
 }
 
+/// A way through a hole that is not the thread's own would drive it by what presses it there.
+TEST(ThreadFriction, AThreadThatDoublesBackAtItsHoleIsNotDrivenIntoIt) {
+  const ThreadStuff stuff = find_thread("3-0", "PDS")->stuff;
+  const ThreadModel m = build({.stuff = stuff, .length = 0.12, .gravity = {0, 0, 0}});
+  const double turn = 150 * kPi / 180;
+  ThreadState s = laid(m, std::vector<Vec3d>{{-0.03, 0, 0}, {0, 0, 0}, {std::cos(turn), std::sin(turn), 0}});
+  ThreadWork w = make_work(m);
+  take_hold(m, s, 0, 0.02), take_hold(m, s, 1, 0.05);
+  open_passage(m, s, 0, 0.03);
+  const Vec3d taut{2e-4, 0, 0};  // both sides lie to the left of the hole
+  Hold holds[2] = {{.x = point_at(m, s, 0.02) - taut, .friction_limit = 1}, {.x = point_at(m, s, 0.05) - taut}};
+  Passage passage[1] = {{.x = {0, 0, 0}, .stiffness = 2000, .drag = 0.01}};
+  PassageReaction through[1];
+  double before = 0, fastest = 0;
+  for (int k = 0; k < 2000; ++k) {
+    advance(m, {.holds = holds, .passages = passage}, {.passages = through}, s, w);
+    if (k == 1000) before = s.passages[0].s;
+    for (const Vec3d& v : s.v) fastest = k < 1000 ? 0 : std::max(fastest, length(v));
+  }
+  say("doubled back: bears at its hole [N]", length(through[0].force), "two pulls");
+  say("goes through it in a second [m]", std::fabs(s.passages[0].s - before), "none");
+  say("fastest node [m/s]", fastest, "at rest");
+  EXPECT_GT(length(through[0].force), 0.5);
+  EXPECT_LT(std::fabs(s.passages[0].s - before), 1e-4);
+  EXPECT_LT(fastest, 0.01);
+}
+
 TEST(ThreadFriction, ASlackThreadStaysOnASlopeBelowTheAngleOfFrictionAndSlidesAboveIt) {
   for (const double slope : {0.15, 0.25}) {  // tangents; the thread's friction on tissue is 0.2
     ThreadStuff stuff = find_thread("3-0", "silk")->stuff;

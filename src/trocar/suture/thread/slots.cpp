@@ -20,6 +20,7 @@ struct Bears {
   double bound = 0;      ///< strain by friction [m]
   double stiffness = 0;  ///< [N/m]
   double half = 0;       ///< width of it and of a clip that comes to it [m]
+  double turns = 1;      ///< strain that goes with a slip of one, as the way through it turns meanwhile
 };
 /// Where the thread has slipped beyond that another place of it is there. A clip that comes to it is a stop, which
 /// slides along the thread when its friction on it is overcome. Returns how far the thread has gone.
@@ -28,7 +29,7 @@ double slip_along(const Tick& t, Vec3d off, Vec3d d, const Bears& bears, double&
   reached = std::fabs(along);
   if (!(reached > bears.bound)) return 0;
   const double stretched = t.w.length[place_at(t.m, s).element] / t.m.spacing;
-  double slipped = (along > 0 ? along - bears.bound : along + bears.bound) / stretched;
+  double slipped = (along > 0 ? along - bears.bound : along + bears.bound) / (stretched * bears.turns);
   if (t.s.clip_count > 0) {
     const double way = std::fabs(slipped), free = way_to_clip(t.s, s, -slipped, bears.half);
     const double more = free < way ? std::max(0.0, way - free - kClipHolds / bears.stiffness / stretched) : 0.0;
@@ -37,6 +38,13 @@ double slip_along(const Tick& t, Vec3d off, Vec3d d, const Bears& bears, double&
   }
   s -= slipped;
   return slipped;
+}
+
+/// A point that lies `off` the thread's curve where this bends sharply: its foot on the curve goes less far than that.
+double turning(const Tick& t, int k, Vec3d off) {
+  const SmoothPlace at = smooth_place(t.m, t.s.passages[k].s);
+  const Vec3d bend = t.s.x[at.nodes[0]] - 2.0 * t.s.x[at.nodes[1]] + t.s.x[at.nodes[2]];
+  return std::max(1.0, 1 + dot(off, bend) / (t.m.spacing * t.m.spacing));
 }
 
 /// A solve that was not taken in full says how hard the thread would press had it gone all of its way; and what holds
@@ -195,8 +203,8 @@ void move_slots(Tick& t, double share, const ThreadReactions& out) noexcept {
     const Vec3d d = passage_direction(t, n);
     const Vec3d off = smooth_place(t.m, p.s).of(t.s.x) - p.seen;
     p.press = t.drive.passages[n].stiffness * length(off - dot(off, d) * d);
-    const double slipped =
-        slip_along(t, off, d, {passage_bound(t, n), t.drive.passages[n].stiffness, kClipHalfWidth}, p.s, p.reached);
+    const Bears bears{passage_bound(t, n), t.drive.passages[n].stiffness, kClipHalfWidth, turning(t, n, off)};
+    const double slipped = slip_along(t, off, d, bears, p.s, p.reached);
     if (n < int(out.passages.size())) out.passages[n].slipped += slipped;
     if (!(p.s >= 0 && p.s <= t.m.length)) p = {};
   }
