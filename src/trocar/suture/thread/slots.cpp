@@ -40,11 +40,11 @@ double slip_along(const Tick& t, Vec3d off, Vec3d d, const Bears& bears, double&
   return slipped;
 }
 
-/// A point that lies `off` the thread's curve where this bends sharply: its foot on the curve goes less far than that.
-double turning(const Tick& t, int k, Vec3d off) {
+/// A point that lies `across` from the thread's curve where this bends sharply: its foot on the curve goes less far.
+double turning(const Tick& t, int k, Vec3d across) {
   const SmoothPlace at = smooth_place(t.m, t.s.passages[k].s);
   const Vec3d bend = t.s.x[at.nodes[0]] - 2.0 * t.s.x[at.nodes[1]] + t.s.x[at.nodes[2]];
-  return std::max(1.0, 1 + dot(off, bend) / (t.m.spacing * t.m.spacing));
+  return std::max(1.0, 1 + dot(across, bend) / (t.m.spacing * t.m.spacing));
 }
 
 /// A solve that was not taken in full says how hard the thread would press had it gone all of its way; and what holds
@@ -202,8 +202,9 @@ void move_slots(Tick& t, double share, const ThreadReactions& out) noexcept {
     p.seen += (share * t.part) * (t.drive.passages[n].x - p.seen);
     const Vec3d d = passage_direction(t, n);
     const Vec3d off = smooth_place(t.m, p.s).of(t.s.x) - p.seen;
-    p.press = t.drive.passages[n].stiffness * length(off - dot(off, d) * d);
-    const Bears bears{passage_bound(t, n), t.drive.passages[n].stiffness, kClipHalfWidth, turning(t, n, off)};
+    const Vec3d across = off - dot(off, d) * d;
+    p.press = t.drive.passages[n].stiffness * length(across);
+    const Bears bears{passage_bound(t, n), t.drive.passages[n].stiffness, kClipHalfWidth, turning(t, n, across)};
     const double slipped = slip_along(t, off, d, bears, p.s, p.reached);
     if (n < int(out.passages.size())) out.passages[n].slipped += slipped;
     if (!(p.s >= 0 && p.s <= t.m.length)) p = {};
