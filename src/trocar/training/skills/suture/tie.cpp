@@ -26,8 +26,6 @@ double pull_of(const Operator& op, int hand) {
   const double* f = op.tool_state(hand).pull;
   return length(Vec3d{f[0], f[1], f[2]});
 }
-/// Thread lies between the jaws and what the hand leads: it is given way to when it is taut.
-double strain_of(const Operator& op) { return suture_of(op.state()).strain; }
 
 Vec3d upwards(const Operator& op) { return -normalised(op.model().gravity, {0, 0, -1}); }
 /// The middle of the stitch, as high as the highest place where thread lies in tissue; jaws stay above it.
@@ -45,6 +43,30 @@ bool find_stitch(const Operator& op, Vec3d& middle) {
   middle = (1 / count) * sum;
   middle += (high - dot(up, middle)) * up;
   return true;
+}
+/// Where the hand holds the thread, or the needle that it hangs on [m].
+double held_at(const Operator& op, int hand) {
+  const suture::ThreadState& thread = suture_of(op.state()).thread;
+  const std::size_t slot = std::size_t(interactions::kFirstHandSlot + hand);
+  return slot < thread.holds.size() && thread.holds[slot].active ? thread.holds[slot].s : 0;
+}
+/// Thread between what the hand holds of it and the last throw, or the stitch [m].
+double free_thread(const Operator& op, int hand) {
+  const interactions::SutureState& s = suture_of(op.state());
+  const suture::KnotReading knot = knot_of(op.model(), op.state());
+  double until = knot.count > 0 ? knot.tail : suture_of(op.model()).thread.length;
+  for (int i = 0; i < s.hole_count; ++i)
+    if (s.holes[std::size_t(i)].slot >= 0) until = std::min(until, double(s.holes[std::size_t(i)].arc));
+  return std::max(0.0, until - held_at(op, hand));
+}
+/// The largest tension in that much thread beyond the hand that holds it; in throws that have been drawn tight there is
+/// some that is no business of the hand's [N].
+double tension_from(const Operator& op, int hand, double much) {
+  const suture::ThreadModel& m = suture_of(op.model()).thread;
+  const int from = int(held_at(op, hand) / m.spacing), to = std::min(m.nodes - 1, from + int(much / m.spacing));
+  double most = 0;
+  for (int e = from; e < to; ++e) most = std::max(most, suture::tension(m, suture_of(op.state()).thread, e));
+  return most;
 }
 /// No lower than a little above where the thread leaves tissue.
 Vec3d above_tissue(const Operator& op, Vec3d at) {
@@ -67,18 +89,28 @@ class Wrap final : public Skill {
         m_around(given("around").index),
         m_turns(given.number("turns", 1)),
         m_sense(given.says("way", "left") ? -1 : 1),
-        m_radius(given.number("radius_mm", 0.010)),
-        m_ahead(given.number("ahead_mm", 0.003)),
-        m_stand{given.number("x_mm", 0), given.number("y_mm", 0), given.number("z_mm", 0)},
         m_pull(given.number("pull_N", 0.3)) {}
 
  private:
   enum Phase { kStand, kBegin, kTurn };
   static constexpr double kMostMore = 4;                                                  // turns made again
+  static constexpr double kBeyond = 0.32, kUp = 0.3, kRadius = 0.21, kAhead = -0.18;      // of the thread that is free
+  static constexpr double kMostUsed = 0.112;                                              // [m] of it: there is a lid
+  static constexpr double kSeenOf = 0.9;                                                  // of it is seen to be taut
   static constexpr double kSpare = 0.4;                                                   // of a turn, that is lost
   static constexpr double kPace = 0.035, kTighter = 0.03, kWider = 0.02, kLeast = 0.004;  // [m/s], [m]
 
-  void start(Operator&, int) override { m_angle = 0; }
+  void start(Operator& op, int) override {
+    m_angle = 0;
+    // with more thread the jaws stand farther from the stitch, as what is wound hangs between them
+    Vec3d stitch = op.arm(m_around).tip;
+    find_stitch(op, stitch);
+    m_free = free_thread(op, m_hand);
+    const double size = std::min(m_free, kMostUsed);
+    const Vec3d up = upwards(op), across = stitch - op.arm(m_around).port;
+    m_stand = stitch + kBeyond * size * normalised(across - dot(across, up) * up) + kUp * size * up;
+    m_radius = kRadius * size, m_ahead = kAhead * size;
+  }
   Progress work(Operator& op) override {
     if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) == 0) return fail("the jaws have lost the thread");
     op.want(op.arm(m_around).tip);
@@ -103,7 +135,7 @@ class Wrap final : public Skill {
       return Progress::working;
     }
     turn_swage(op, m_centre - q);
-    const double taut = strain_of(op);
+    const double taut = tension_from(op, m_hand, kSeenOf * m_free);
     if (taut > m_pull) m_now = std::max(kLeast, m_now - kTighter * sim::kTick);
     if (taut < 0.5 * m_pull) m_now = std::min(m_radius, m_now + kWider * sim::kTick);
     if (taut < 4 * m_pull) m_angle += kPace / std::max(0.01, m_now) * sim::kTick;
@@ -146,10 +178,8 @@ class Wrap final : public Skill {
   int m_hand, m_around;
   double m_turns;
   int m_sense;
-  double m_radius, m_ahead;
-  Vec3d m_stand;
-  double m_pull, m_angle = 0, m_now = 0;
-  Vec3d m_axis, m_centre, m_from, m_to;
+  double m_pull, m_free = 0, m_radius = 0, m_ahead = 0, m_angle = 0, m_now = 0;
+  Vec3d m_stand, m_axis, m_centre, m_from, m_to;
 };
 
 /// Open jaws around the thread's tail, then closed; the hand that holds the thread goes along.
@@ -172,13 +202,14 @@ class GraspTail final : public Skill {
     m_beside = 0.0015 * (tries % 3);
     m_shift = {0, 0, 0}, m_again = 0;
     if (m_with < 0) return go(kReach);
+    m_free = 0.9 * free_thread(op, m_with);
     m_offset = op.arm(m_with).tip - op.arm(m_hand).tip;
     m_offset += m_apart * normalised(op.arm(m_with).port - op.arm(m_with).tip);
   }
   /// As far as the hand that reaches, and nearer when the thread is taut.
   void follow(Operator& op) {
     if (m_with < 0) return;
-    if (strain_of(op) > 0.15) m_offset *= 1 - 0.5 * sim::kTick;
+    if (tension_from(op, m_with, m_free) > 0.15) m_offset *= 1 - 0.5 * sim::kTick;
     op.arms().move(m_with, op.arm(m_hand).tip + m_offset, 2 * pace::kTravel);
   }
   Progress work(Operator& op) override {
@@ -251,6 +282,7 @@ class GraspTail final : public Skill {
   int m_hand, m_with;
   double m_at, m_apart, m_open, m_beside = 0;
   int m_again = 0;
+  double m_free = 0;
   Vec3d m_offset, m_shift{0, 0, 0};
 };
 
@@ -270,7 +302,8 @@ class PullThrow final : public Skill {
  private:
   enum Phase { kLift, kOff, kApart, kKeep, kLoosen };
   static constexpr double kPace = 0.025, kTight = 0.004, kFarthest = 0.14, kGive = 0.002, kAbove = 0.004,
-                          kLifted = 0.022, kGently = 0.15, kOffAt = 0.5, kStays = 0.3, kLongest = 6, kLongestOff = 14;  // [m/s], [m], [s]
+                          kLifted = 0.022, kGently = 0.15, kOffAt = 0.5, kStays = 0.3, kLongest = 6,
+                          kLongestOff = 14;  // [m/s], [m], [s]
 
   void start(Operator& op, int) override {
     m_offset = op.arm(m_with).tip - op.arm(m_hand).tip;
@@ -306,7 +339,7 @@ class PullThrow final : public Skill {
       const Vec3d ahead = above_tissue(op, op.arm(m_hand).tip + m_ahead_now * axis);
       const bool led = lead(op, m_with, ahead, pace::kCareful);
       if (led && pull_of(op, m_with) < m_pull) m_ahead_now += 0.5 * kPace * sim::kTick;  // what is wide comes off later
-      if (pull_of(op, m_hand) < m_pull) op.arms().move_to_depth(m_hand, m_far, pace::kTrack);
+      if (pull_of(op, m_hand) < kGently) op.arms().move_to_depth(m_hand, m_far, pace::kTrack);
       // loops that are off lie about the tail beside the jaws for a while, and are counted with what is on them
       const double left = std::fabs(wraps_around(op.model(), op.state(), m_hand));
       m_off_for = left < kOffAt ? m_off_for + sim::kTick : 0;
@@ -340,7 +373,8 @@ class PullThrow final : public Skill {
 
   int m_hand, m_with;
   Vec3d m_way;
-  double m_pull, m_back, m_ahead, m_reach, m_rest, m_reach_now = 0, m_ahead_now = 0, m_far = 0, m_gone = 0, m_off_for = 0;
+  double m_pull, m_back, m_ahead, m_reach, m_rest, m_reach_now = 0, m_ahead_now = 0, m_far = 0, m_gone = 0,
+                                                   m_off_for = 0;
   Vec3d m_dir, m_offset;
 };
 
@@ -358,11 +392,6 @@ const SkillKind kWrap{
      {"around", ArgumentKind::hand, "round whose jaws"},
      number_parameter("turns", "how often; 1", 0.25, 4),
      word_parameter("way", "seen along those jaws, turned as a right-handed screw as a rule", {"right", "left"}),
-     {"x_mm", ArgumentKind::number, "their tip meanwhile, to the patient's left", true, -1000, 1000},
-     {"y_mm", ArgumentKind::number, "towards the head", true, -1000, 1000},
-     {"z_mm", ArgumentKind::number, "to the front", true, -1000, 1000},
-     number_parameter("radius_mm", "of the circle; 10", 3, 60),
-     number_parameter("ahead_mm", "of their tip that it lies; 3", -20, 40),
      number_parameter("pull_N", "the circle becomes smaller while the thread is pulled harder; 0.3", 0.01, 10)},
     30,
     "Leads the thread round the other hand's closed jaws, which stand still.",
