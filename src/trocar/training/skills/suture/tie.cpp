@@ -96,6 +96,7 @@ class Wrap final : public Skill {
   static constexpr double kMostMore = 4;                                                  // turns made again
   static constexpr double kBeyond = 0.32, kUp = 0.3, kRadius = 0.21, kAhead = -0.18;      // of the thread that is free
   static constexpr double kMostUsed = 0.112;                                              // [m] of it: there is a lid
+  static constexpr double kLongestStand = 6;                                              // [s]
   static constexpr double kSeenOf = 0.9;                                                  // of it is seen to be taut
   static constexpr double kSpare = 0.4;                                                   // of a turn, that is lost
   static constexpr double kPace = 0.035, kTighter = 0.03, kWider = 0.02, kLeast = 0.004;  // [m/s], [m]
@@ -120,7 +121,7 @@ class Wrap final : public Skill {
       if (!op.arms().grip(m_around, 1, 0.5)) return Progress::working;  // open, they would take thread along
       const bool stands = op.arms().move(m_around, m_stand, pace::kTravel);
       m_axis = normalised(op.arm(m_around).tip - op.arm(m_around).port);
-      if (turn_swage(op, -m_axis) && stands) {
+      if ((turn_swage(op, -m_axis) && stands) || m_in_phase > kLongestStand) {
         m_centre = op.arm(m_around).tip + m_ahead * m_axis;
         const Vec3d off = q - m_centre;
         m_from = normalised(off - dot(off, m_axis) * m_axis, any_perpendicular(m_axis));
@@ -302,7 +303,7 @@ class PullThrow final : public Skill {
  private:
   enum Phase { kLift, kOff, kApart, kKeep, kLoosen };
   static constexpr double kPace = 0.025, kTight = 0.004, kFarthest = 0.14, kGive = 0.002, kAbove = 0.004,
-                          kLifted = 0.022, kGently = 0.15, kOffAt = 0.5, kStays = 0.3, kLongest = 6,
+                          kLifted = 0.022, kGently = 0.15, kOffAt = 0.5, kStays = 0.3, kAside = 1, kLongest = 6,
                           kLongestOff = 14;  // [m/s], [m], [s]
 
   void start(Operator& op, int) override {
@@ -336,7 +337,7 @@ class PullThrow final : public Skill {
       // the thread is led ahead of the jaws, along them, and these are drawn out of what is wound: pulled tight it
       // would not slide
       const Vec3d axis = normalised(op.arm(m_hand).tip - op.arm(m_hand).port);
-      const Vec3d ahead = above_tissue(op, op.arm(m_hand).tip + m_ahead_now * axis);
+      const Vec3d ahead = above_tissue(op, op.arm(m_hand).tip + m_ahead_now * normalised(axis - kAside * m_dir));
       const bool led = lead(op, m_with, ahead, pace::kCareful);
       if (led && pull_of(op, m_with) < m_pull) m_ahead_now += 0.5 * kPace * sim::kTick;  // what is wide comes off later
       if (pull_of(op, m_hand) < kGently) op.arms().move_to_depth(m_hand, m_far, pace::kTrack);
