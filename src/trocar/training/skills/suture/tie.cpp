@@ -301,15 +301,16 @@ class PullThrow final : public Skill {
         m_rest(given.number("for_s", 0.5)) {}
 
  private:
-  enum Phase { kLift, kOff, kApart, kKeep, kLoosen };
+  enum Phase { kLift, kOff, kPost, kDraw, kKeep, kLoosen };
   static constexpr double kPace = 0.025, kTight = 0.004, kFarthest = 0.14, kGive = 0.002, kAbove = 0.004,
-                          kLifted = 0.022, kGently = 0.15, kOffAt = 0.5, kStays = 0.3, kAside = 1, kLongest = 6,
+                          kLifted = 0.022, kGently = 0.15, kOffAt = 0.5, kStays = 0.3, kAside = 1, kStraight = 0.25,
+                          kMostOf = 0.8, kLongest = 6,
                           kLongestOff = 14;  // [m/s], [m], [s]
 
   void start(Operator& op, int) override {
     m_offset = op.arm(m_with).tip - op.arm(m_hand).tip;
     m_reach_now = m_reach, m_ahead_now = m_ahead;
-    m_gone = 0, m_off_for = 0;
+    m_gone = 0, m_off_for = 0, m_kept = 0;
     m_dir = normalised(m_way, {1, 0, 0});
   }
   bool both_hold(const Operator& op) const {
@@ -344,26 +345,31 @@ class PullThrow final : public Skill {
       // loops that are off lie about the tail beside the jaws for a while, and are counted with what is on them
       const double left = std::fabs(wraps_around(op.model(), op.state(), m_hand));
       m_off_for = left < kOffAt ? m_off_for + sim::kTick : 0;
-      if (m_off_for > kStays || m_in_phase > kLongestOff) go(kApart);
+      if (m_off_for > kStays || m_in_phase > kLongestOff) go(kPost);
       return Progress::working;
     }
     const double tail = pull_of(op, m_hand), other = pull_of(op, m_with);
     const auto pace_at = [&](double pull) { return pull > 0.2 * m_pull ? kTight : kPace; };
     const double step = pace_at(other) * sim::kTick;
     const Vec3d above = stitch + kAbove * upwards(op);
-    if (m_phase == kApart) {
+    if (m_phase ==
+        kPost) {  // the tail is drawn straight: what is wound slides down along it and takes no slack between
+      m_reach_now += pace_at(tail) * sim::kTick;
+      op.arms().move(m_hand, above + m_reach_now * m_dir, pace_at(tail));
+      if (tail >= kStraight) go(kDraw);
+      return m_reach_now > kFarthest ? fail("the tail does not come straight") : Progress::working;
+    }
+    if (m_phase == kDraw) {
       if (m_gone == 0) m_gone = std::max(0.0, dot(above - held_thread(op, m_with), m_dir));
-      // the tail lies across the stitch and is kept short; the other hand does the way
-      const bool tail_there = tail >= m_pull || op.arms().move(m_hand, above + m_reach_now * m_dir, pace_at(tail));
-      if (tail_there && tail < m_pull && other >= m_pull) m_reach_now += step;
-      if (other < m_pull) m_gone += step, lead(op, m_with, above - m_gone * m_dir, pace_at(other));
-      if (tail >= m_pull && other >= m_pull) go(kKeep);
+      m_gone += step, lead(op, m_with, above - m_gone * m_dir, pace_at(other));
+      if (other >= kStraight) go(kKeep);
       return m_gone > kFarthest ? fail("it does not come tight") : Progress::working;
     }
     if (m_phase == kKeep) {
       if (tail < m_pull) op.arm(m_hand).tip += step * m_dir;
       if (other < m_pull) op.arm(m_with).tip -= step * m_dir;
-      if (m_in_phase > m_rest) go(kLoosen);
+      m_kept += tail >= kMostOf * m_pull && other >= kMostOf * m_pull ? sim::kTick : 0;
+      if (m_kept > m_rest || m_in_phase > kLongest) go(kLoosen);
       return Progress::working;
     }
     // hands give way before one lets go
@@ -375,7 +381,7 @@ class PullThrow final : public Skill {
   int m_hand, m_with;
   Vec3d m_way;
   double m_pull, m_back, m_ahead, m_reach, m_rest, m_reach_now = 0, m_ahead_now = 0, m_far = 0, m_gone = 0,
-                                                   m_off_for = 0;
+                                                   m_off_for = 0, m_kept = 0;
   Vec3d m_dir, m_offset;
 };
 
