@@ -311,6 +311,7 @@ class PullThrow final : public Skill {
     m_offset = op.arm(m_with).tip - op.arm(m_hand).tip;
     m_reach_now = m_reach, m_ahead_now = m_ahead;
     m_gone = 0, m_off_for = 0, m_kept = 0;
+    m_ties = knot_of(op.model(), op.state()).count > 0;
     m_dir = normalised(m_way, {1, 0, 0});
   }
   bool both_hold(const Operator& op) const {
@@ -352,11 +353,12 @@ class PullThrow final : public Skill {
     const auto pace_at = [&](double pull) { return pull > 0.2 * m_pull ? kTight : kPace; };
     const double step = pace_at(other) * sim::kTick;
     const Vec3d above = stitch + kAbove * upwards(op);
-    if (m_phase ==
-        kPost) {  // the tail is drawn straight: what is wound slides down along it and takes no slack between
-      m_reach_now += pace_at(tail) * sim::kTick;
-      op.arms().move(m_hand, above + m_reach_now * m_dir, pace_at(tail));
-      if (tail >= kStraight) go(kDraw);
+    if (m_phase == kPost) {
+      // The tail is drawn straight over what is tied, so that what is wound slides down along it and takes no slack
+      // between; where nothing is tied it would be drawn out through the tissue.
+      const bool there = op.arms().move(m_hand, above + m_reach_now * m_dir, pace_at(tail));
+      if (there && m_ties) m_reach_now += pace_at(tail) * sim::kTick;
+      if (tail >= kStraight || (there && !m_ties)) go(kDraw);
       return m_reach_now > kFarthest ? fail("the tail does not come straight") : Progress::working;
     }
     if (m_phase == kDraw) {
@@ -382,6 +384,7 @@ class PullThrow final : public Skill {
   Vec3d m_way;
   double m_pull, m_back, m_ahead, m_reach, m_rest, m_reach_now = 0, m_ahead_now = 0, m_far = 0, m_gone = 0,
                                                    m_off_for = 0, m_kept = 0;
+  bool m_ties = false;
   Vec3d m_dir, m_offset;
 };
 
