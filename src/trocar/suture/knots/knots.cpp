@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include <trocar/numerics/pivoted_qr.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/suture/knots/knots.hpp>
 
@@ -12,6 +13,7 @@ namespace {
 constexpr int kViews = 64;                     // directions from which a picture is made
 constexpr std::size_t kThrow = 3, kHitch = 2;  // crossings, at least
 constexpr double kStraight = 1.25;             // arc over chord of a side that does not turn: a post
+constexpr double kUnlikely = 1e-6;             // that a picture is right which tells of another knot
 constexpr double kTurned = 1.5;                // of one that turns round it
 
 /// Where both sides cross in a picture.
@@ -127,6 +129,14 @@ void read_throws(const std::vector<Crossing>& list, std::size_t least, KnotReadi
   }
 }
 
+/// A throw of n turns is a torus knot of determinant 2 n + 1, throws upon each other are sums of these, and of a sum it
+/// is the product.
+double determinant_of(const std::vector<std::int32_t>& throws) {
+  double product = 1;
+  for (const std::int32_t turns : throws) product *= 2 * std::abs(turns) + 1;
+  return product;
+}
+
 double arc_over_chord(std::span<const Vec3d> p, std::span<const double> arc, double from, double to) {
   const auto at = [&](double s) {
     const std::size_t i = std::size_t(std::clamp(std::lower_bound(arc.begin(), arc.end(), s) - arc.begin(),
@@ -188,6 +198,58 @@ std::size_t widest_loop(std::span<const Vec3d> p, std::span<const double> arc) {
                                 std::ptrdiff_t(p.size() - 2)));
 }
 
+/// The determinant of the knot that the thread is when its ends are joined above all of it, from the crossings of all
+/// of it with itself in one picture [colourings of arcs: twice the one on top is the sum of the two below].
+double determinant_from(const std::vector<Crossing>& list) {
+  struct Pass {
+    double s = 0;
+    std::size_t crossing = 0;
+    bool over = false;
+  };
+  const std::size_t n = list.size();
+  if (n < 3) return 1;
+  std::vector<Pass> along;
+  for (std::size_t i = 0; i < n; ++i)
+    along.push_back({list[i].s, i, list[i].over}), along.push_back({list[i].t, i, !list[i].over});
+  std::sort(along.begin(), along.end(), [](const Pass& a, const Pass& b) { return a.s < b.s; });
+  std::vector<double> colours(n * n);  // a row per crossing, a column per arc from one way below to the next
+  std::size_t arc = 0;
+  for (const Pass& pass : along) {
+    double* row = &colours[pass.crossing * n];
+    if (pass.over) {
+      row[arc] += 2;
+      continue;
+    }
+    row[arc] -= 1;
+    arc = (arc + 1) % n;
+    row[arc] -= 1;
+  }
+  // any row and any column may be left out
+  std::vector<double> minor;
+  for (std::size_t i = 0; i + 1 < n; ++i)
+    minor.insert(minor.end(), colours.begin() + std::ptrdiff_t(i * n), colours.begin() + std::ptrdiff_t(i * n + n - 1));
+  return std::round(std::fabs(numerics::determinant(int(n) - 1, minor.data())));
+}
+
+/// As most pictures tell: one in which two crossings coincide may err.
+double determinant_seen(std::span<const Vec3d> p, std::span<const double> arc) {
+  constexpr int kEvery = 9;  // pictures
+  constexpr std::size_t kMost = 200;
+  const Pairs pairs = pairs_of(p, 0, 0);
+  std::vector<double> seen;
+  for (int i = 0; i < kViews; i += kEvery) {
+    const std::vector<Crossing> list = crossings_from(p, arc, pairs, view(i));
+    if (list.size() <= kMost) seen.push_back(determinant_from(list));
+  }
+  double best = -1;
+  std::ptrdiff_t most = 0;
+  for (const double d : seen) {
+    const std::ptrdiff_t votes = std::count(seen.begin(), seen.end(), d);
+    if (votes > most) most = votes, best = d;
+  }
+  return best;
+}
+
 /// Throws in short: turns with their signs.
 std::vector<std::int32_t> shorthand(const std::vector<Crossing>& list, std::size_t least) {
   KnotReading knot;
@@ -198,9 +260,10 @@ std::vector<std::int32_t> shorthand(const std::vector<Crossing>& list, std::size
   return out;
 }
 
-/// The crossings of a picture of which most others tell the same throws; of equally many, of the one with fewest.
+/// The crossings of a picture of which most others tell the same throws; of equally many, of the one with fewest. Those
+/// that tell of a knot that the thread is not have no vote while there are others.
 std::vector<Crossing> most_seen(std::span<const Vec3d> p, std::span<const double> arc, std::size_t split, double apart,
-                                std::size_t least) {
+                                std::size_t least, double determinant) {
   struct Reading {
     std::vector<std::int32_t> throws;
     std::vector<Crossing> list;
@@ -214,7 +277,8 @@ std::vector<Crossing> most_seen(std::span<const Vec3d> p, std::span<const double
     }
     drop_loose_ends(list, least);
     const std::vector<std::int32_t> throws = shorthand(list, least);
-    const double weight = 1.0 / double(1 + list.size());
+    const double belief = determinant_of(throws) == determinant ? 1 : kUnlikely;
+    const double weight = belief / double(1 + list.size());
     const auto known =
         std::find_if(readings.begin(), readings.end(), [&](const Reading& r) { return r.throws == throws; });
     if (known == readings.end()) {
@@ -248,12 +312,13 @@ KnotReading read_knot(std::span<const Vec3d> p, const KnotQuestion& question) {
   else
     split = std::size_t(std::clamp(std::lower_bound(arc.begin(), arc.end(), question.split) - arc.begin(),
                                    std::ptrdiff_t(1), std::ptrdiff_t(p.size() - 2)));
-  std::vector<Crossing> best = most_seen(p, arc, split, question.apart, kThrow);
+  const double determinant = determinant_seen(p, arc);
+  std::vector<Crossing> best = most_seen(p, arc, split, question.apart, kThrow, determinant);
   bool post = is_post(p, arc, best);
   if (post || best.empty()) {
-    const std::vector<Crossing> hitches = most_seen(p, arc, split, question.apart, kHitch);
-    post = is_post(p, arc, hitches);
-    if (post) best = hitches;
+    std::vector<Crossing> hitches = most_seen(p, arc, split, question.apart, kHitch, determinant);
+    post = is_post(p, arc, hitches) && determinant_of(shorthand(hitches, kHitch)) == determinant;
+    if (post) best = std::move(hitches);
   }
   knot.crossings = std::int32_t(best.size());
   read_throws(best, post ? kHitch : kThrow, knot);

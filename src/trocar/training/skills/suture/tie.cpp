@@ -304,7 +304,7 @@ class PullThrow final : public Skill {
   enum Phase { kLift, kOff, kPost, kDraw, kKeep, kLoosen };
   static constexpr double kPace = 0.025, kTight = 0.004, kFarthest = 0.14, kGive = 0.002, kAbove = 0.004,
                           kLifted = 0.022, kGently = 0.15, kOffAt = 0.5, kStays = 0.3, kAside = 1, kStraight = 0.25,
-                          kMostOf = 0.8, kLongest = 6,
+                          kSlowly = 0.05, kEven = 0.2, kMostOf = 0.8, kLongest = 6,
                           kLongestOff = 14;  // [m/s], [m], [s]
 
   void start(Operator& op, int) override {
@@ -350,7 +350,7 @@ class PullThrow final : public Skill {
       return Progress::working;
     }
     const double tail = pull_of(op, m_hand), other = pull_of(op, m_with);
-    const auto pace_at = [&](double pull) { return pull > 0.2 * m_pull ? kTight : kPace; };
+    const auto pace_at = [&](double pull) { return pull > kSlowly ? kTight : kPace; };
     const double step = pace_at(other) * sim::kTick;
     const Vec3d above = stitch + kAbove * upwards(op);
     if (m_phase == kPost) {
@@ -368,10 +368,11 @@ class PullThrow final : public Skill {
       return m_gone > kFarthest ? fail("it does not come tight") : Progress::working;
     }
     if (m_phase == kKeep) {
-      if (tail < m_pull) op.arm(m_hand).tip += step * m_dir;
-      if (other < m_pull) op.arm(m_with).tip -= step * m_dir;
+      // evenly: who pulls more waits, or the throw turns over and what is tied is drawn off the tissue
+      if (tail < std::min(m_pull, other + kEven)) op.arm(m_hand).tip += pace_at(tail) * sim::kTick * m_dir;
+      if (other < std::min(m_pull, tail + 2 * kEven)) op.arm(m_with).tip -= step * m_dir;
       m_kept += tail >= kMostOf * m_pull && other >= kMostOf * m_pull ? sim::kTick : 0;
-      if (m_kept > m_rest || m_in_phase > kLongest) go(kLoosen);
+      if (m_kept > m_rest || m_in_phase > kLongestOff) go(kLoosen);
       return Progress::working;
     }
     // hands give way before one lets go
