@@ -93,9 +93,9 @@ def scene():
                   {"name": "left", "position_mm": [-85, 70, 0], "diameter_mm": 10}],
         "tools": [{"instrument": "needle_holder", "port": "left", "tip_mm": [-30, 70, -45]},
                   {"instrument": "needle_holder", "port": "right", "tip_mm": [25, 78, -48]}],
-        "sutures": [{"name": "suture", "size": "3-0", "make": "PDS", "length_mm": 120, "needle": "half_26",
+        "sutures": [{"name": "suture", "size": "3-0", "make": "PDS", "length_mm": 150, "needle": "half_26",
                      "held_by": "right", "grasped": 0.86, 
-                     "line_mm": [[33, 62, -50], [45, 75, -62], [50, 120, -68], [65, 180, -72]]}],
+                     "line_mm": [[33, 62, -50], [45, 75, -62], [50, 120, -68], [75, 205, -72]]}],
         "scope": {"port": "middle", "tip_mm": [0, 26, -24], "angle_deg": 0, "field_of_view_deg": 70,
                   "shaft_diameter_mm": 10, "shaft_length_mm": 310},
     }

@@ -93,12 +93,13 @@ class Wrap final : public Skill {
 
  private:
   enum Phase { kStand, kBegin, kTurn };
-  static constexpr double kMostMore = 4;                                                  // turns made again
-  static constexpr double kBeyond = 0.32, kUp = 0.3, kRadius = 0.21, kAhead = -0.18;      // of the thread that is free
-  static constexpr double kMostUsed = 0.112;                                              // [m] of it: there is a lid
-  static constexpr double kLongestStand = 6;                                              // [s]
-  static constexpr double kSeenOf = 0.9;                                                  // of it is seen to be taut
-  static constexpr double kSpare = 0.4;                                                   // of a turn, that is lost
+  static constexpr double kMostMore = 4;                                              // turns made again
+  static constexpr double kBeyond = 0.32, kUp = 0.3, kRadius = 0.21, kAhead = -0.18;  // of the thread that is free
+  static constexpr double kMostUsed = 0.112;                                          // [m] of it: there is a lid
+  static constexpr double kLongestStand = 6;                                          // [s]
+  static constexpr double kLags = 0.4;    // [rad]: who winds faster than the needle turns, winds its own jaws too
+  static constexpr double kSeenOf = 0.9;  // of it is seen to be taut
+  static constexpr double kSpare = 0.4;   // of a turn, that is lost
   static constexpr double kPace = 0.035, kTighter = 0.03, kWider = 0.02, kLeast = 0.004;  // [m/s], [m]
 
   void start(Operator& op, int) override {
@@ -135,11 +136,11 @@ class Wrap final : public Skill {
       if (lead(op, m_hand, m_centre + m_now * m_from, pace::kTravel)) go(kTurn);
       return Progress::working;
     }
-    turn_swage(op, m_centre - q);
+    const bool follows = turn_swage(op, m_centre - q, kLags);
     const double taut = tension_from(op, m_hand, kSeenOf * m_free);
     if (taut > m_pull) m_now = std::max(kLeast, m_now - kTighter * sim::kTick);
     if (taut < 0.5 * m_pull) m_now = std::min(m_radius, m_now + kWider * sim::kTick);
-    if (taut < 4 * m_pull) m_angle += kPace / std::max(0.01, m_now) * sim::kTick;
+    if (follows && taut < 4 * m_pull) m_angle += kPace / std::max(0.01, m_now) * sim::kTick;
     const Vec3d round = m_centre + m_now * (portable::cos(m_angle) * m_from + portable::sin(m_angle) * m_to);
     lead(op, m_hand, before_jaws(op, above_tissue(op, round)), 2 * pace::kTravel);
     // what lies round jaws loosely may come off over their tip, and then it is wound anew; counted from the needle
@@ -162,9 +163,9 @@ class Wrap final : public Skill {
   }
   /// Rolls the needle until its thread leaves it `towards`: what is wound round one hand's jaws winds itself round the
   /// other's too if these do not turn along.
-  bool turn_swage(Operator& op, Vec3d towards) const {
+  bool turn_swage(Operator& op, Vec3d towards, double near = 0.06) const {
     if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 1) return true;
-    constexpr double kTurns = 2, kNear = 0.06, kSeen = 0.3;  // [rad/s] [rad], sine of the angle to the shaft
+    constexpr double kTurns = 2.5, kSeen = 0.3;  // [rad/s], sine of the angle to the shaft
     Arms::Arm& arm = op.arm(m_hand);
     const suture::NeedleModel& m = suture_of(op.model()).needle;
     const Vec3d axis = normalised(arm.tip - arm.port), to = normalised(towards, axis);
@@ -173,7 +174,7 @@ class Wrap final : public Skill {
     const double off =
         portable::atan2(dot(cross(leaves, to), axis), dot(leaves, to) - dot(axis, leaves) * dot(axis, to));
     arm.roll -= std::clamp(off, -kTurns * sim::kTick, kTurns * sim::kTick);
-    return std::fabs(off) < kNear;
+    return std::fabs(off) < near;
   }
 
   int m_hand, m_around;
@@ -195,13 +196,13 @@ class GraspTail final : public Skill {
 
  private:
   enum Phase { kAway, kReach, kEnter, kClose };
-  static constexpr double kInside = 0.7, kFeels = 0.3, kLongest = 4, kThere = 0.001,
+  static constexpr double kInside = 0.7, kFeels = 0.3, kBare = 0.5, kLongest = 4, kThere = 0.001,
                           kShift = 0.0015;  // of the jaws' length, [s], [m]
   static constexpr int kMostAgain = 5;
 
   void start(Operator& op, int tries) override {
     m_beside = 0.0015 * (tries % 3);
-    m_shift = {0, 0, 0}, m_again = 0;
+    m_shift = {0, 0, 0}, m_again = 0, m_bare_for = 0;
     if (m_with < 0) return go(kReach);
     m_free = 0.9 * free_thread(op, m_with);
     m_offset = op.arm(m_with).tip - op.arm(m_hand).tip;
@@ -225,6 +226,9 @@ class GraspTail final : public Skill {
     op.want(p);
     op.want(op.arm(m_hand).tip);
     follow(op);
+    m_bare_for =
+        m_with >= 0 && std::fabs(wraps_around(op.model(), op.state(), m_hand)) < kBare ? m_bare_for + sim::kTick : 0;
+    if (m_bare_for > kFeels) return fail("what was wound has come off");
     if (m_phase == kAway) {  // the other hand draws back, so that its jaws are not within what is wound
       if (length(op.arm(m_with).tip - op.arm(m_hand).tip - m_offset) < kThere || m_in_phase > kFeels + 2) go(kReach);
     } else if (m_phase == kReach) {
@@ -283,7 +287,7 @@ class GraspTail final : public Skill {
   int m_hand, m_with;
   double m_at, m_apart, m_open, m_beside = 0;
   int m_again = 0;
-  double m_free = 0;
+  double m_free = 0, m_bare_for = 0;
   Vec3d m_offset, m_shift{0, 0, 0};
 };
 
@@ -340,8 +344,9 @@ class PullThrow final : public Skill {
       // would not slide
       const Vec3d axis = normalised(op.arm(m_hand).tip - op.arm(m_hand).port);
       const Vec3d ahead = above_tissue(op, op.arm(m_hand).tip + m_ahead_now * normalised(axis - kAside * m_dir));
-      const bool led = lead(op, m_with, ahead, pace::kCareful);
-      if (led && pull_of(op, m_with) < m_pull) m_ahead_now += 0.5 * kPace * sim::kTick;  // what is wide comes off later
+      // what is wide comes off later
+      if (pull_of(op, m_with) < kGently && lead(op, m_with, ahead, pace::kCareful))
+        m_ahead_now += 0.5 * kPace * sim::kTick;
       if (pull_of(op, m_hand) < kGently) op.arms().move_to_depth(m_hand, m_far, pace::kTrack);
       // loops that are off lie about the tail beside the jaws for a while, and are counted with what is on them
       const double left = std::fabs(wraps_around(op.model(), op.state(), m_hand));
