@@ -12,9 +12,10 @@ geometry::Blade strip_of_blades(const ToolShape& shape, double at_hinge, double 
   return blade;
 }
 
-geometry::Blade closed_blades(const ToolModel& model, const ToolShape& shape) noexcept {
-  return strip_of_blades(shape, shape.half_opening(0) + kBesideBlades,
-                         shape.half_opening(model.jaw_length) + kBesideBlades, model.jaw_length);
+geometry::Blade closed_blades(const ToolModel& model, const ToolShape& shape, double beyond) noexcept {
+  const double length = model.jaw_length + beyond;
+  return strip_of_blades(shape, shape.half_opening(0) + kBesideBlades, shape.half_opening(length) + kBesideBlades,
+                         length);
 }
 
 BetweenBlades between_blades(const ToolModel& model, const ToolShape& shape, const StrandBody& body,

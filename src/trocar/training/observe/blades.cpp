@@ -4,8 +4,8 @@
 namespace trocar::training {
 
 bool organ_between_blades(const sim::Model& model, const sim::State& state, const interactions::ToolModel& tool,
-                          const interactions::ToolShape& shape) {
-  const geometry::Blade blade = interactions::closed_blades(tool, shape);
+                          const interactions::ToolShape& shape, double beyond) {
+  const geometry::Blade blade = interactions::closed_blades(tool, shape, beyond);
   const geometry::BladePlane plane(blade);
   bool any = false;
   for (size_t i = 0; i < model.solids.size() && !any; ++i)
