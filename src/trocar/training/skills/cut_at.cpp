@@ -44,7 +44,6 @@ class CutAt final : public Skill {
     m_lost = nullptr;
     m_pose = 0;
     m_tried = 0;
-    m_looked = 0;
   }
 
   Progress work(Operator& op) override {
@@ -158,24 +157,15 @@ class CutAt final : public Skill {
   }
 
   Progress close(Operator& op) {
-    constexpr double kMeet = 0.25, kLooks = 1;  // aperture at which it is too late to open again; [s]
+    constexpr double kMeet = 0.25;  // aperture at which it is too late to open again
     op.want(at(op));
     lead(op, pace::kTrack);
-    if (op.tool_state(m_hand).aperture > kMeet) {
-      if (organ_between_now(op, 0)) {
-        if (tries_beside(op)) return Progress::working;
-        m_lost = "an organ came between the blades";
-        return go(kOpen), Progress::working;
-      }
-      if (!op.sees_tip(m_hand) && m_looked < kLooks) return look_for_tips(op);
+    if (op.tool_state(m_hand).aperture > kMeet && organ_between_now(op, 0)) {
+      if (tries_beside(op)) return Progress::working;
+      m_lost = "an organ came between the blades";
+      return go(kOpen), Progress::working;
     }
     if (op.arms().grip(m_hand, 1, m_closing)) go(kOpen);
-    return Progress::working;
-  }
-  /// Half closed the blades wait until the camera shows a tip again, for a while.
-  Progress look_for_tips(Operator& op) {
-    op.want(op.arm(m_hand).tip);
-    m_looked += sim::kTick;
     return Progress::working;
   }
 
@@ -221,7 +211,6 @@ class CutAt final : public Skill {
   double m_place = 0;
   std::size_t m_pose = 0;  ///< of kPoses
   unsigned m_tried = 0;    ///< bits, of kPoses: an organ lay between the blades
-  double m_looked = 0;     ///< for the tips, half closed [s]
   Vec3d m_left_from;
   int m_cuts_before = 0;
   const char* m_lost = nullptr;
@@ -247,7 +236,8 @@ const SkillKind kCutAt{
                       1),
      number_parameter("closing_s", "of the handle from open to closed; 0.6", 0.05, 60)},
     40,
-    "Approaches a strand with scissors, takes it between the blades, closes in view, opens, and draws back.",
+    "Approaches a strand with scissors, takes it between the blades, turns them where an organ lies between them, too, "
+    "closes in view, opens, and draws back.",
     cut_at_lacks,
     &making<CutAt>};
 
