@@ -80,20 +80,20 @@ class CutAt final : public Skill {
   }
   bool lead(Operator& op, double speed) const { return op.aim(m_hand, at(op), along(op), inside(op), 0, speed); }
 
-  /// As much room before the tips as the blades go on while they close: what they squeeze slides towards the tips, and
-  /// the hand goes after it.
-  static constexpr double kRoom = 0.002;  // [m]
+  /// What closing blades squeeze slides towards their tips, and the hand goes after it: so much is left between the
+  /// tips and what lies behind, and, where another pose is chosen, between the strand and the tips.
+  static constexpr double kRoom = 0.002, kSlides = 0.0015;  // [m]
   bool organ_between(const Operator& op, const interactions::ToolShape& shape, double room) const {
     return organ_between_blades(op.model(), op.state(), op.tool(m_hand), shape, room);
   }
-  bool organ_between_now(const Operator& op, double room) const {
-    return organ_between(op, sim::shape_of(op.model(), op.state(), size_t(m_hand)), room);
+  bool reach_over(const Operator& op, const interactions::ToolShape& shape) const {
+    return strand_between_blades(op.model(), op.state(), op.tool(m_hand), shape, m_strand) >= interactions::kThrough;
   }
   /// So led they would part all of it, and no organ.
   bool looks_free(Operator& op) const {
+    const bool slides = inside(op) + op.radius(m_strand, m_place) + kSlides > op.tool(m_hand).jaw_length;
     const interactions::ToolShape shape = op.shape_at(m_hand, at(op), along(op), inside(op));
-    return !organ_between(op, shape, kRoom) &&
-           strand_between_blades(op.model(), op.state(), op.tool(m_hand), shape, m_strand) >= interactions::kThrough;
+    return !(m_pose > 0 && slides) && reach_over(op, shape) && !organ_between(op, shape, kRoom);
   }
   /// The next pose that looks free from here, of those that were not tried; false: there is none.
   bool look_beside(Operator& op) {
@@ -139,9 +139,11 @@ class CutAt final : public Skill {
   }
 
   void close_or_look_beside(Operator& op) {
-    if (!organ_between_now(op, kRoom)) return go(kClose);
+    const interactions::ToolShape now = sim::shape_of(op.model(), op.state(), size_t(m_hand));
+    m_whole = reach_over(op, now);
+    if (!organ_between(op, now, kRoom)) return go(kClose);
     if (tries_beside(op)) return;
-    if (!organ_between_now(op, 0)) return go(kClose);  // nowhere is more room
+    if (!organ_between(op, now, 0)) return go(kClose);  // nowhere is more room
     m_lost = "an organ lies between the blades";
     go(kLeave);
   }
@@ -160,9 +162,11 @@ class CutAt final : public Skill {
     constexpr double kMeet = 0.25;  // aperture at which it is too late to open again
     op.want(at(op));
     lead(op, pace::kTrack);
-    if (op.tool_state(m_hand).aperture > kMeet && organ_between_now(op, 0)) {
+    const interactions::ToolShape now = sim::shape_of(op.model(), op.state(), size_t(m_hand));
+    const bool organ = organ_between(op, now, 0);
+    if (op.tool_state(m_hand).aperture > kMeet && (organ || (m_whole && !reach_over(op, now)))) {
       if (tries_beside(op)) return Progress::working;
-      m_lost = "an organ came between the blades";
+      m_lost = organ ? "an organ came between the blades" : "it slid from between the blades";
       return go(kOpen), Progress::working;
     }
     if (op.arms().grip(m_hand, 1, m_closing)) go(kOpen);
@@ -211,6 +215,7 @@ class CutAt final : public Skill {
   double m_place = 0;
   std::size_t m_pose = 0;  ///< of kPoses
   unsigned m_tried = 0;    ///< bits, of kPoses: an organ lay between the blades
+  bool m_whole = false;    ///< all of it lay between them when they began to close
   Vec3d m_left_from;
   int m_cuts_before = 0;
   const char* m_lost = nullptr;
