@@ -86,14 +86,14 @@ class CutAt final : public Skill {
   bool organ_between(const Operator& op, const interactions::ToolShape& shape, double room) const {
     return organ_between_blades(op.model(), op.state(), op.tool(m_hand), shape, room);
   }
-  bool reach_over(const Operator& op, const interactions::ToolShape& shape) const {
+  bool all_between(const Operator& op, const interactions::ToolShape& shape) const {
     return strand_between_blades(op.model(), op.state(), op.tool(m_hand), shape, m_strand) >= interactions::kThrough;
   }
   /// So led they would part all of it, and no organ.
   bool looks_free(Operator& op) const {
     const bool slides = inside(op) + op.radius(m_strand, m_place) + kSlides > op.tool(m_hand).jaw_length;
     const interactions::ToolShape shape = op.shape_at(m_hand, at(op), along(op), inside(op));
-    return !(m_pose > 0 && slides) && reach_over(op, shape) && !organ_between(op, shape, kRoom);
+    return !(m_pose > 0 && slides) && all_between(op, shape) && !organ_between(op, shape, kRoom);
   }
   /// The next pose that looks free from here, of those that were not tried; false: there is none.
   bool look_beside(Operator& op) {
@@ -119,7 +119,7 @@ class CutAt final : public Skill {
     op.want(at(op));
     const bool open = op.arms().grip(m_hand, 0, 0.5);
     if (op.approach(m_hand, m_strand, m_place, inside(op), m_in_phase) && open) {
-      if (!looks_free(op)) look_beside(op);
+      look_beside(op);
       go(kEnter);
     }
     return Progress::working;
@@ -140,7 +140,7 @@ class CutAt final : public Skill {
 
   void close_or_look_beside(Operator& op) {
     const interactions::ToolShape now = sim::shape_of(op.model(), op.state(), size_t(m_hand));
-    m_whole = reach_over(op, now);
+    m_whole = all_between(op, now);
     if (!organ_between(op, now, kRoom)) return go(kClose);
     if (tries_beside(op)) return;
     if (!organ_between(op, now, 0)) return go(kClose);  // nowhere is more room
@@ -164,7 +164,7 @@ class CutAt final : public Skill {
     lead(op, pace::kTrack);
     const interactions::ToolShape now = sim::shape_of(op.model(), op.state(), size_t(m_hand));
     const bool organ = organ_between(op, now, 0);
-    if (op.tool_state(m_hand).aperture > kMeet && (organ || (m_whole && !reach_over(op, now)))) {
+    if (op.tool_state(m_hand).aperture > kMeet && (organ || (m_whole && !all_between(op, now)))) {
       if (tries_beside(op)) return Progress::working;
       m_lost = organ ? "an organ came between the blades" : "it slid from between the blades";
       return go(kOpen), Progress::working;
