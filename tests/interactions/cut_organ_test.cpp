@@ -84,6 +84,43 @@ TEST(CutOrgan, BladesBesideTheOrganCutNothing) {
   EXPECT_EQ(block.state.version, 0u);
 }
 
+TEST(CutOrgan, BladesAreAskedBeforehandWhatTheyWillCut) {
+  int cut = 0;
+  core::Random random(2);
+  for (int bite = 0; bite < 60; ++bite) {
+    Block block;
+    const kinematics::FulcrumPose pose{random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-3, 3),
+                                       random.uniform(0.096, 0.106)};
+    const geometry::Blade blade = closed_blades(scissors(), shape_of(scissors(), pose, 0.2));
+    const geometry::BladePlane plane(blade);
+    const bool will = crosses(plane, block.network, block.state);
+    std::vector<bool> each;
+    for (int s = 0; s < block.network.springs; ++s) each.push_back(crosses(plane, block.network, block.state, s));
+    const int severed = cut_organ(blade, block.network, block.skin, block.state, block.parted, block.scratch);
+    EXPECT_EQ(severed > 0, will);
+    for (int s = 0; s < block.network.springs; ++s) {
+      if (tissue::spring_scale(block.network, block.state, s) > 0) continue;
+      EXPECT_TRUE(each[size_t(s)]);
+      EXPECT_FALSE(crosses(plane, block.network, block.state, s)) << "what is severed is crossed no more";
+    }
+    cut += will;
+  }
+  EXPECT_GT(cut, 15);
+  EXPECT_LT(cut, 60) << "some end above it";
+}
+
+TEST(CutOrgan, WhoLeavesRoomAsksOfALongerBlade) {
+  const Block block;
+  const ToolShape shape = shape_of(scissors(), {0, 0, 0, 0.099}, 0.2);  // the tips 1 mm above it
+  const auto any = [&](double beyond) {
+    const geometry::Blade blade = closed_blades(scissors(), shape, beyond);
+    return crosses(geometry::BladePlane(blade), block.network, block.state);
+  };
+  EXPECT_FALSE(any(0));
+  EXPECT_FALSE(any(0.0005));
+  EXPECT_TRUE(any(0.002));
+}
+
 TEST(CutOrgan, WhatWouldComeLooseStaysOnAThread) {
   // Bite after bite, until the block is full of cuts in every direction: it still hangs together.
   Block block;

@@ -85,6 +85,22 @@ TEST(Cut, BeyondIsHowFarTheBladesReachPastTheTube) {
   EXPECT_NEAR(deep.cuts[0].beyond, 0.0094, 1e-9);
 }
 
+TEST(Cut, BladesAreAskedBeforehandWhatTheyWillCut) {
+  for (const double inside : {-0.005, 0.0005, 0.004, 0.010, 0.0145, 0.016, 0.018}) {
+    Cutting c(inside);
+    const BetweenBlades asked = between_blades(c.model, shape_of(c.model, c.pose, 0.1), c.bodies[0], c.states[0]);
+    EXPECT_EQ(c.snip(), int(asked.element >= 0)) << inside;
+    if (asked.element < 0) continue;
+    EXPECT_EQ(c.cuts[0].fraction, asked.fraction) << inside;
+    EXPECT_EQ(c.cuts[0].s, arc_at(c.bodies[0], {asked.element, asked.where.w})) << inside;
+  }
+  Cutting spared(0.010);
+  spared.bodies[0].cuttable = false;
+  EXPECT_EQ(between_blades(spared.model, shape_of(spared.model, spared.pose, 0.1), spared.bodies[0], spared.states[0])
+                .element,
+            -1);
+}
+
 TEST(Cut, HalfOutOfTheBladesItIsCutByHalfAndWeakenedByHalf) {
   Cutting c(0.015);  // the blades end at the tube's centre
   EXPECT_EQ(c.snip(), 1);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <trocar/interactions/verbs/cut.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/training/expert/performer.hpp>
@@ -161,6 +162,30 @@ TEST(Skills, CutGoesBetweenTheClips) {
   ASSERT_GT(run.state.cut_count, 0) << run.difficulties();
   EXPECT_EQ(run.state.cuts[0].strand, kTube);
   EXPECT_NEAR(run.state.cuts[0].s, 0.024, 0.003);
+}
+
+/// The tube raised off the pad by that much, then cut where the pad lies behind it.
+Performance cut_above_the_pad(double raised) {
+  PlanTask up = task(kDraw, kGrasper).set("towards", "up").set("by_mm", raised);
+  PlanTask cut = at_tube(kCutAt, kScissors, 0.049).set("inside_share", 0.6);
+  const PlanGoal raise =
+      goal("raise", {at_tube(kApproach, kGrasper, 0.056), task(kEnter, kGrasper), task(kGrasp, kGrasper), up});
+  return Performance(plan_of({raise, goal("cut", {cut})}), small::bare(), 12000);
+}
+
+TEST(Skills, CutTakesTheStrandNearerToTheTipsWhereAnOrganLiesBehind) {
+  const Performance run = cut_above_the_pad(0.011);
+  EXPECT_EQ(run.difficulties(), "");
+  ASSERT_EQ(run.state.cut_count, 1);
+  EXPECT_EQ(run.state.cuts[0].strand, kTube);
+  EXPECT_GE(run.state.cuts[0].fraction, interactions::kThrough);
+  EXPECT_LT(run.state.cuts[0].beyond, 0.0038) << "they would reach 4.4 mm past it where it was wanted";
+}
+
+TEST(Skills, CutIsGivenUpWhereTheBladesCannotSpareAnOrgan) {
+  const Performance run = cut_above_the_pad(0);
+  EXPECT_EQ(run.state.cut_count, 0);
+  EXPECT_NE(run.difficulties().find("an organ lies between the blades"), std::string::npos) << run.difficulties();
 }
 
 TEST(Skills, EaseFollowsWhatPullsUntilItHardlyDoes) {

@@ -24,27 +24,17 @@ int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_ind
   for (size_t s = 0; s < view.strands.size(); ++s) {
     const StrandBody& body = view.strands[s];
     tissue::StrandState& state = strand_states[s];
-    if (!body.cuttable) continue;
-    int element = -1;
-    BetweenJaws best;
-    for (int e = 0; e + 1 < body.nodes(); ++e) {
-      if (!state.alive[size_t(e)]) continue;
-      const BetweenJaws where = between_jaws(model, shape, body, state, e);
-      if (!where.inside || (element >= 0 && std::fabs(where.local.y) >= std::fabs(best.local.y))) continue;
-      element = e;
-      best = where;
-    }
+    const auto [element, where, fraction] = between_blades(model, shape, body, state);
     if (element < 0 || book.count == kMaxCuts) continue;
-    const double radius = body.model.radius[size_t(element)];
     Cut& cut = book.cuts[size_t(book.count++)];
     cut = {};
     cut.strand = std::int32_t(s);
     cut.tool = tool_index;
     cut.tips_visible = tips_visible;
     cut.tick = tick;
-    cut.s = arc_at(body, {element, best.w});
-    cut.fraction = leg_cover(best.local.z, radius, model.jaw_length);
-    cut.beyond = std::max(0.0, model.jaw_length - best.local.z - radius);
+    cut.s = arc_at(body, {element, where.w});
+    cut.fraction = fraction;
+    cut.beyond = std::max(0.0, model.jaw_length - where.local.z - body.model.radius[size_t(element)]);
     if (cut.fraction >= kThrough)
       tissue::cut_element(state, element);
     else
@@ -57,16 +47,6 @@ int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_ind
 namespace {
 
 constexpr double kInFlesh = 0.75;  // of the widest aperture: the blades are closing
-constexpr double kBlade = 0.0015;  // [m] beside the gap of the closed blades that their edges still reach
-
-/// A flat strip along the jaws, from their hinge to their tips.
-geometry::Blade strip(const ToolShape& shape, double half_at_hinge, double half_at_tips, double length) noexcept {
-  geometry::Blade blade;
-  for (const Vec3d& corner : {Vec3d{-half_at_hinge, 0, 0}, Vec3d{half_at_hinge, 0, 0}, Vec3d{half_at_tips, 0, length},
-                              Vec3d{-half_at_tips, 0, length}})
-    blade.corner[size_t(blade.corners++)] = from_jaw(shape, corner);
-  return blade;
-}
 
 /// Representative of a node's connected part; shortens the way for the next question.
 std::int32_t part_of(std::span<std::int32_t> parent, std::int32_t node) noexcept {
@@ -85,20 +65,16 @@ bool join(std::span<std::int32_t> parent, std::int32_t a, std::int32_t b) noexce
 int sever(const geometry::BladePlane& plane, const tissue::NetworkModel& network, tissue::NetworkState& state,
           std::span<std::int32_t> parent) noexcept {
   const auto end = [&](int s, size_t side) { return network.spring_nodes[size_t(2 * s) + side]; };
-  const auto crosses = [&](int s) {
-    return plane.crosses(tissue::position(network, state, end(s, 0)), tissue::position(network, state, end(s, 1)));
-  };
   bool any = false;
   for (int s = 0; s < network.springs; ++s) {
-    if (tissue::spring_scale(network, state, s) <= 0) continue;
-    if (crosses(s))
+    if (crosses(plane, network, state, s))
       any = true;
-    else
+    else if (tissue::spring_scale(network, state, s) > 0)
       join(parent, end(s, 0), end(s, 1));
   }
   int severed = 0;
   for (int s = 0; any && s < network.springs; ++s) {
-    if (tissue::spring_scale(network, state, s) <= 0 || !crosses(s) || join(parent, end(s, 0), end(s, 1))) continue;
+    if (!crosses(plane, network, state, s) || join(parent, end(s, 0), end(s, 1))) continue;
     tissue::cut_spring(network, state, s);
     ++severed;
   }
@@ -106,10 +82,6 @@ int sever(const geometry::BladePlane& plane, const tissue::NetworkModel& network
 }
 
 }  // namespace
-
-geometry::Blade closed_blades(const ToolModel& model, const ToolShape& shape) noexcept {
-  return strip(shape, shape.half_opening(0) + kBlade, shape.half_opening(model.jaw_length) + kBlade, model.jaw_length);
-}
 
 int cut_organ(const geometry::Blade& blade, const tissue::NetworkModel& network, const tissue::Skin& fine,
               tissue::NetworkState& state, std::span<std::uint8_t> parted, std::span<std::int32_t> scratch) noexcept {
@@ -136,9 +108,9 @@ std::optional<geometry::Blade> sweep_of_blades(const ToolModel& model, const Too
   const double widest = tool.armed / 1000.0;
   if (tool.aperture > kInFlesh * widest) return {};
   tool.armed = -1;
-  const double angle = 0.5 * model.opening * widest, at_hinge = 0.5 * model.parallel_gap * widest + kBlade;
-  return strip(shape, at_hinge, at_hinge + model.jaw_length * portable::sin(angle) / portable::cos(angle),
-               model.jaw_length);
+  const double angle = 0.5 * model.opening * widest, at_hinge = 0.5 * model.parallel_gap * widest + kBesideBlades;
+  return strip_of_blades(shape, at_hinge, at_hinge + model.jaw_length * portable::sin(angle) / portable::cos(angle),
+                         model.jaw_length);
 }
 
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include <trocar/geometry/tets/blade.hpp>
+#include <trocar/interactions/verbs/between_blades.hpp>
 #include <trocar/interactions/verbs/grasp.hpp>
 #include <trocar/tissue/membrane/membrane.hpp>
 
@@ -23,9 +23,6 @@ inline constexpr double kThrough = 0.99;
 int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
                     std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick, ToolState& tool,
                     CutBook book) noexcept;
-
-/// The strip that the blades have closed on: from the hinge to the tips, as wide as they are open and a little more.
-geometry::Blade closed_blades(const ToolModel& model, const ToolShape& shape) noexcept;
 
 /// Parts an organ along a blade: springs that cross it are severed, and triangles of the drawn skin that cross it are
 /// marked in `parted` (one byte a triangle). For organs that are not meant to be cut (those are

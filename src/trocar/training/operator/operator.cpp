@@ -146,6 +146,14 @@ bool Operator::aim(int hand, Vec3d at, Vec3d along, double inside, double back, 
   return m_arms.turn_across(hand, along) && there;
 }
 
+interactions::ToolShape Operator::shape_at(int hand, Vec3d at, Vec3d along, double inside) const {
+  const interactions::ToolModel& model = tool(hand);
+  const Vec3d port = m_arms[hand].port, axis = normalised(at - port);
+  kinematics::FulcrumPose pose = kinematics::inverse(port, at + (model.jaw_length - inside) * axis, m_arms[hand].roll);
+  pose.roll = kinematics::roll_towards(pose, along);
+  return interactions::shape_of(model, pose, {}, tool_state(hand).aperture, port - model.port);
+}
+
 bool Operator::aim_at(int hand, int strand, double s, double inside, double back, double speed) {
   return aim(hand, point(strand, s), tangent(strand, s), inside, back, speed);
 }

@@ -74,6 +74,8 @@ class Operator {
   /// Moves so that `at` would lie `inside` from the jaws' hinge, less `back` along the shaft, and turns the jaws across
   /// `along`. True when they are there.
   bool aim(int hand, Vec3d at, Vec3d along, double inside, double back, double speed);
+  /// How the instrument would stand there, its jaws open as they are and its wrist straight.
+  interactions::ToolShape shape_at(int hand, Vec3d at, Vec3d along, double inside) const;
   bool aim_at(int hand, int strand, double s, double inside, double back, double speed);
   /// The same to before the tissue: first the camera shows the tip, then it moves.
   /// @param waited  since it began to approach [s]

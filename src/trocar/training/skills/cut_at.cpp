@@ -2,6 +2,9 @@
 #include <cmath>
 #include <vector>
 
+#include <trocar/interactions/verbs/cut.hpp>
+#include <trocar/numerics/quat.hpp>
+#include <trocar/training/observe/blades.hpp>
 #include <trocar/training/observe/loops.hpp>
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
@@ -9,8 +12,8 @@
 namespace trocar::training {
 namespace {
 
-/// Scissors around a strand, closed in view. Half way between two clips, or two loops of thread, unless a place is
-/// given.
+/// Scissors around a strand, closed in view where no organ lies between the blades. Half way between two clips, or two
+/// loops of thread, unless a place is given.
 class CutAt final : public Skill {
  public:
   CutAt(const sim::Model& model, const Given& given)
@@ -27,9 +30,20 @@ class CutAt final : public Skill {
   enum Phase { kReach, kEnter, kClose, kOpen, kLeave };
   static constexpr double kGivesWay = 1.6;  // [s] after which what the blades push is not followed any more
 
+  /// How else the blades may be led around it, where something lies behind it or beside it.
+  struct Pose {
+    double turned;  ///< about the shaft, from square across [rad]
+    double nearer;  ///< to the blades' tips than it was wanted [of their length]
+  };
+  static constexpr Pose kPoses[] = {{0, 0},       {0.4, 0},    {-0.4, 0},    {0, 0.08},   {0.4, 0.08},
+                                    {-0.4, 0.08}, {0.8, 0.04}, {-0.8, 0.04}, {0.8, 0.1},  {-0.8, 0.1},
+                                    {0, 0.14},    {0.4, 0.14}, {-0.4, 0.14}, {1.1, 0.06}, {-1.1, 0.06}};
+
   void start(Operator& op, int) override {
     m_cuts_before = op.state().cut_count;
     m_lost = nullptr;
+    m_pose = 0;
+    m_tried = 0;
   }
 
   Progress work(Operator& op) override {
@@ -56,7 +70,46 @@ class CutAt final : public Skill {
   }
 
   Vec3d at(Operator& op) const { return op.point(m_strand, m_place); }
-  double inside(Operator& op) const { return m_share * op.tool(m_hand).jaw_length; }
+  double inside(Operator& op) const {
+    return std::min(1.0, m_share + kPoses[m_pose].nearer) * op.tool(m_hand).jaw_length;
+  }
+  /// What the blades stand across.
+  Vec3d along(Operator& op) const {
+    const Vec3d out = normalised(at(op) - op.arm(m_hand).port);
+    return rotate(quat_from_rotation_vector(kPoses[m_pose].turned * out), op.tangent(m_strand, m_place));
+  }
+  bool lead(Operator& op, double speed) const { return op.aim(m_hand, at(op), along(op), inside(op), 0, speed); }
+
+  /// What closing blades squeeze slides towards their tips, and the hand goes after it: so much is left between the
+  /// tips and what lies behind, and, where another pose is chosen, between the strand and the tips.
+  static constexpr double kRoom = 0.002, kSlides = 0.0015;  // [m]
+  bool organ_between(const Operator& op, const interactions::ToolShape& shape, double room) const {
+    return organ_between_blades(op.model(), op.state(), op.tool(m_hand), shape, room);
+  }
+  bool all_between(const Operator& op, const interactions::ToolShape& shape) const {
+    return strand_between_blades(op.model(), op.state(), op.tool(m_hand), shape, m_strand) >= interactions::kThrough;
+  }
+  /// So led they would part all of it, and no organ.
+  bool looks_free(Operator& op) const {
+    const bool slides = inside(op) + op.radius(m_strand, m_place) + kSlides > op.tool(m_hand).jaw_length;
+    const interactions::ToolShape shape = op.shape_at(m_hand, at(op), along(op), inside(op));
+    return !(m_pose > 0 && slides) && all_between(op, shape) && !organ_between(op, shape, kRoom);
+  }
+  /// The next pose that looks free from here, of those that were not tried; false: there is none.
+  bool look_beside(Operator& op) {
+    const std::size_t now = m_pose;
+    for (m_pose = 0; m_pose < std::size(kPoses); ++m_pose)
+      if (!(m_tried >> m_pose & 1) && looks_free(op)) return true;
+    m_pose = now;
+    return false;
+  }
+  /// Tries it in another pose. False: there is none.
+  bool tries_beside(Operator& op) {
+    m_tried |= 1u << m_pose;
+    if (!look_beside(op)) return false;
+    go(kEnter);
+    return true;
+  }
 
   Progress reach(Operator& op) {
     if (!op.still_presented(m_strand)) return fail("it is not held any more");
@@ -65,7 +118,10 @@ class CutAt final : public Skill {
     op.make_room(m_hand);
     op.want(at(op));
     const bool open = op.arms().grip(m_hand, 0, 0.5);
-    if (op.approach(m_hand, m_strand, m_place, inside(op), m_in_phase) && open) go(kEnter);
+    if (op.approach(m_hand, m_strand, m_place, inside(op), m_in_phase) && open) {
+      look_beside(op);
+      go(kEnter);
+    }
     return Progress::working;
   }
 
@@ -73,12 +129,23 @@ class CutAt final : public Skill {
     op.make_room(m_hand);
     op.want(at(op));
     op.want(op.arm(m_hand).tip);
+    const bool open = op.arms().grip(m_hand, 0, 0.5);
     const double speed = m_in_phase < 3 ? pace::kCareful : pace::kTrack;
-    const bool there = op.aim_at(m_hand, m_strand, m_place, inside(op), 0, speed);
-    const bool taken = there || (m_in_phase > kGivesWay && reached_over(op));
+    const bool there = lead(op, speed);
+    const bool taken = open && (there || (m_in_phase > kGivesWay && reached_over(op)));
     m_steady = taken && op.sees_tip(m_hand) ? m_steady + sim::kTick : 0;
-    if (m_steady > 0.1) go(kClose);
+    if (m_steady > 0.1) close_or_look_beside(op);
     return Progress::working;
+  }
+
+  void close_or_look_beside(Operator& op) {
+    const interactions::ToolShape now = sim::shape_of(op.model(), op.state(), size_t(m_hand));
+    m_whole = all_between(op, now);
+    if (!organ_between(op, now, kRoom)) return go(kClose);
+    if (tries_beside(op)) return;
+    if (!organ_between(op, now, 0)) return go(kClose);  // nowhere is more room
+    m_lost = "an organ lies between the blades";
+    go(kLeave);
   }
 
   /// The blades reach over all of it, there. What gives way before them is cut where it lies: they push a thick tube on
@@ -92,8 +159,16 @@ class CutAt final : public Skill {
   }
 
   Progress close(Operator& op) {
+    constexpr double kMeet = 0.25;  // aperture at which it is too late to open again
     op.want(at(op));
-    op.aim_at(m_hand, m_strand, m_place, inside(op), 0, pace::kTrack);
+    lead(op, pace::kTrack);
+    const interactions::ToolShape now = sim::shape_of(op.model(), op.state(), size_t(m_hand));
+    const bool organ = organ_between(op, now, 0);
+    if (op.tool_state(m_hand).aperture > kMeet && (organ || (m_whole && !all_between(op, now)))) {
+      if (tries_beside(op)) return Progress::working;
+      m_lost = organ ? "an organ came between the blades" : "it slid from between the blades";
+      return go(kOpen), Progress::working;
+    }
     if (op.arms().grip(m_hand, 1, m_closing)) go(kOpen);
     return Progress::working;
   }
@@ -138,6 +213,9 @@ class CutAt final : public Skill {
   Argument m_apart;
   double m_fixed, m_beyond, m_share, m_closing, m_length;
   double m_place = 0;
+  std::size_t m_pose = 0;  ///< of kPoses
+  unsigned m_tried = 0;    ///< bits, of kPoses: an organ lay between the blades
+  bool m_whole = false;    ///< all of it lay between them when they began to close
   Vec3d m_left_from;
   int m_cuts_before = 0;
   const char* m_lost = nullptr;
@@ -163,7 +241,8 @@ const SkillKind kCutAt{
                       1),
      number_parameter("closing_s", "of the handle from open to closed; 0.6", 0.05, 60)},
     40,
-    "Approaches a strand with scissors, takes it between the blades, closes in view, opens, and draws back.",
+    "Approaches a strand with scissors, takes it between the blades, turns them where an organ lies between them, too, "
+    "closes in view, opens, and draws back.",
     cut_at_lacks,
     &making<CutAt>};
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/interactions/instrument/tool_contact.hpp>
-#include <trocar/interactions/verbs/cut.hpp>
+#include <trocar/interactions/verbs/between_blades.hpp>
+#include <trocar/training/observe/blades.hpp>
 #include <trocar/training/observe/folds.hpp>
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
@@ -111,9 +111,9 @@ class CutFold final : public Skill {
     constexpr double kMisses = 2, kUnseen = 0.3;  // as bad as nicking so much of the strand
     const interactions::ToolModel& tool = op.tool(m_hand);
     const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), size_t(m_hand));
-    const geometry::Blade blade = interactions::closed_blades(tool, shape);
-    const bool organ = crosses_organ(op, blade), takes = crosses_column(op, blade);
-    const double nick = share_of_strand(op, tool, shape);
+    const bool organ = organ_between_blades(op.model(), op.state(), tool, shape);
+    const bool takes = crosses_column(op, interactions::closed_blades(tool, shape));
+    const double nick = strand_between_blades(op.model(), op.state(), tool, shape, m_strand);
     if (!organ && takes && nick <= 0) return go(kClose);
     const double bad = nick + (takes ? 0 : kMisses) + (op.sees_tip(m_hand) ? 0 : kUnseen);
     if (!organ && (m_least_bad < 0 || bad < m_badness)) m_least_bad = int(m_beside), m_badness = bad;
@@ -132,34 +132,6 @@ class CutFold final : public Skill {
       from = to;
     }
     return false;
-  }
-  static bool crosses_organ(const Operator& op, const geometry::Blade& blade) {
-    const geometry::BladePlane plane(blade);
-    for (size_t i = 0; i < op.model().solids.size(); ++i) {
-      const tissue::NetworkModel& network = op.model().solids[i].network;
-      const tissue::NetworkState& state = op.state().solids[i];
-      for (int s = 0; s < network.springs; ++s) {
-        const auto end = [&](int side) {
-          return tissue::position(network, state, network.spring_nodes[size_t(2 * s + side)]);
-        };
-        if (plane.crosses(end(0), end(1))) return true;
-      }
-    }
-    return false;
-  }
-  /// Of what the fold hangs on, the greatest share that lies between the blades.
-  double share_of_strand(const Operator& op, const interactions::ToolModel& tool,
-                         const interactions::ToolShape& shape) const {
-    const interactions::StrandBody& body = op.model().strand_bodies[size_t(m_strand)];
-    const tissue::StrandState& state = op.state().strands[size_t(m_strand)];
-    double most = 0;
-    for (int e = 0; e + 1 < body.nodes(); ++e) {
-      if (!state.alive[size_t(e)]) continue;
-      const interactions::BetweenJaws where = interactions::between_jaws(tool, shape, body, state, e);
-      const double radius = body.model.radius[size_t(e)];
-      if (where.inside) most = std::max(most, interactions::leg_cover(where.local.z, radius, tool.jaw_length));
-    }
-    return most;
   }
 
   Progress reach(Operator& op) {
