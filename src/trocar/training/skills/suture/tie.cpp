@@ -93,13 +93,12 @@ class Wrap final : public Skill {
 
  private:
   enum Phase { kStand, kBegin, kTurn };
-  static constexpr double kMostMore = 4;                                              // turns made again
-  static constexpr double kBeyond = 0.32, kUp = 0.3, kRadius = 0.21, kAhead = -0.18;  // of the thread that is free
-  static constexpr double kMostUsed = 0.112;                                          // [m] of it: there is a lid
-  static constexpr double kLongestStand = 6;                                          // [s]
-  static constexpr double kLags = 0.4;    // [rad]: who winds faster than the needle turns, winds its own jaws too
-  static constexpr double kSeenOf = 0.9;  // of it is seen to be taut
-  static constexpr double kSpare = 0.4;   // of a turn, that is lost
+  static constexpr double kMostMore = 4;                                                  // turns made again
+  static constexpr double kBeyond = 0.32, kUp = 0.3, kRadius = 0.21, kAhead = -0.18;      // of the thread that is free
+  static constexpr double kMostUsed = 0.112;                                              // [m] of it: there is a lid
+  static constexpr double kLongestStand = 6;                                              // [s]
+  static constexpr double kSeenOf = 0.9;                                                  // of it is seen to be taut
+  static constexpr double kSpare = 0.4;                                                   // of a turn, that is lost
   static constexpr double kPace = 0.035, kTighter = 0.03, kWider = 0.02, kLeast = 0.004;  // [m/s], [m]
 
   void start(Operator& op, int) override {
@@ -136,11 +135,11 @@ class Wrap final : public Skill {
       if (lead(op, m_hand, m_centre + m_now * m_from, pace::kTravel)) go(kTurn);
       return Progress::working;
     }
-    const bool follows = turn_swage(op, m_centre - q, kLags);
+    turn_swage(op, m_centre - q);
     const double taut = tension_from(op, m_hand, kSeenOf * m_free);
     if (taut > m_pull) m_now = std::max(kLeast, m_now - kTighter * sim::kTick);
     if (taut < 0.5 * m_pull) m_now = std::min(m_radius, m_now + kWider * sim::kTick);
-    if (follows && taut < 4 * m_pull) m_angle += kPace / std::max(0.01, m_now) * sim::kTick;
+    if (taut < 4 * m_pull) m_angle += kPace / std::max(0.01, m_now) * sim::kTick;
     const Vec3d round = m_centre + m_now * (portable::cos(m_angle) * m_from + portable::sin(m_angle) * m_to);
     lead(op, m_hand, before_jaws(op, above_tissue(op, round)), 2 * pace::kTravel);
     // what lies round jaws loosely may come off over their tip, and then it is wound anew; counted from the needle
@@ -163,9 +162,9 @@ class Wrap final : public Skill {
   }
   /// Rolls the needle until its thread leaves it `towards`: what is wound round one hand's jaws winds itself round the
   /// other's too if these do not turn along.
-  bool turn_swage(Operator& op, Vec3d towards, double near = 0.06) const {
+  bool turn_swage(Operator& op, Vec3d towards) const {
     if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 1) return true;
-    constexpr double kTurns = 2.5, kSeen = 0.3;  // [rad/s], sine of the angle to the shaft
+    constexpr double kTurns = 2, kNear = 0.06, kSeen = 0.3;  // [rad/s] [rad], sine of the angle to the shaft
     Arms::Arm& arm = op.arm(m_hand);
     const suture::NeedleModel& m = suture_of(op.model()).needle;
     const Vec3d axis = normalised(arm.tip - arm.port), to = normalised(towards, axis);
@@ -174,7 +173,7 @@ class Wrap final : public Skill {
     const double off =
         portable::atan2(dot(cross(leaves, to), axis), dot(leaves, to) - dot(axis, leaves) * dot(axis, to));
     arm.roll -= std::clamp(off, -kTurns * sim::kTick, kTurns * sim::kTick);
-    return std::fabs(off) < near;
+    return std::fabs(off) < kNear;
   }
 
   int m_hand, m_around;
