@@ -306,8 +306,8 @@ class PullThrow final : public Skill {
  private:
   enum Phase { kLift, kOff, kPost, kDraw, kKeep, kLoosen };
   static constexpr double kPace = 0.025, kTight = 0.004, kFarthest = 0.14, kGive = 0.002, kAbove = 0.004,
-                          kLifted = 0.022, kGently = 0.15, kOffAt = 0.5, kStays = 0.3, kAside = 1, kStraight = 0.25,
-                          kSlowly = 0.05, kEven = 0.2, kMostOf = 0.8, kLongest = 6,
+                          kLifted = 0.022, kGently = 0.15, kOffAt = 0.25, kStays = 0.5, kStillOn = 0.6, kAside = 1,
+                          kStraight = 0.25, kSlowly = 0.05, kEven = 0.2, kMostOf = 0.8, kLongest = 6,
                           kLongestOff = 14;  // [m/s], [m], [s]
 
   void start(Operator& op, int) override {
@@ -334,10 +334,12 @@ class PullThrow final : public Skill {
       op.arms().move(m_with, op.arm(m_hand).tip + m_offset, 2 * pace::kTravel);
       if (lifted || m_in_phase > kLongest) {
         m_far = op.tool_state(m_hand).depth - m_back;
+        m_off_for = 0;
         go(kOff);
       }
       return Progress::working;
     }
+    const double left = std::fabs(wraps_around(op.model(), op.state(), m_hand));
     if (m_phase == kOff) {
       // the thread is led ahead of the jaws, along them, and these are drawn out of what is wound: pulled tight it
       // would not slide
@@ -348,7 +350,6 @@ class PullThrow final : public Skill {
         m_ahead_now += 0.5 * kPace * sim::kTick;
       if (pull_of(op, m_hand) < kGently) op.arms().move_to_depth(m_hand, m_far, pace::kTrack);
       // loops that are off lie about the tail beside the jaws for a while, and are counted with what is on them
-      const double left = std::fabs(wraps_around(op.model(), op.state(), m_hand));
       m_off_for = left < kOffAt ? m_off_for + sim::kTick : 0;
       if (m_off_for > kStays || m_in_phase > kLongestOff) go(kPost);
       return Progress::working;
@@ -362,6 +363,7 @@ class PullThrow final : public Skill {
       // between; where nothing is tied it would be drawn out through the tissue.
       const bool there = op.arms().move(m_hand, above + m_reach_now * m_dir, pace_at(tail));
       if (there && m_ties) m_reach_now += pace_at(tail) * sim::kTick;
+      if (left > kStillOn) return m_off_for = 0, go(kOff), Progress::working;
       if (tail >= kStraight || (there && !m_ties)) go(kDraw);
       return m_reach_now > kFarthest ? fail("the tail does not come straight") : Progress::working;
     }
