@@ -306,8 +306,8 @@ class PullThrow final : public Skill {
  private:
   enum Phase { kLift, kOff, kPost, kDraw, kKeep, kLoosen };
   static constexpr double kPace = 0.025, kTight = 0.004, kFarthest = 0.14, kGive = 0.002, kAbove = 0.004,
-                          kLifted = 0.022, kGently = 0.15, kOffAt = 0.25, kStays = 0.5, kStillOn = 0.6, kAside = 1,
-                          kStraight = 0.25, kSlowly = 0.05, kEven = 0.2, kMostOf = 0.8, kLongest = 6,
+                          kLifted = 0.022, kGently = 0.15, kOffAt = 0.25, kStays = 0.5, kStillOn = 0.6, kFirmly = 0.5,
+                          kAside = 1, kStraight = 0.25, kSlowly = 0.05, kEven = 0.2, kMostOf = 0.8, kLongest = 6,
                           kLongestOff = 14;  // [m/s], [m], [s]
 
   void start(Operator& op, int) override {
@@ -346,7 +346,7 @@ class PullThrow final : public Skill {
       const Vec3d axis = normalised(op.arm(m_hand).tip - op.arm(m_hand).port);
       const Vec3d ahead = above_tissue(op, op.arm(m_hand).tip + m_ahead_now * normalised(axis - kAside * m_dir));
       // what is wide comes off later
-      if (pull_of(op, m_with) < kGently && lead(op, m_with, ahead, pace::kCareful))
+      if (pull_of(op, m_with) < kFirmly && lead(op, m_with, ahead, pace::kCareful))
         m_ahead_now += 0.5 * kPace * sim::kTick;
       if (pull_of(op, m_hand) < kGently) op.arms().move_to_depth(m_hand, m_far, pace::kTrack);
       // loops that are off lie about the tail beside the jaws for a while, and are counted with what is on them
