@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the box trainer's suturing pad: scenes/box_suture/pad.obj and scenes/box_suture/scene.json.
+"""Writes the box trainer's suturing pad: scenes/box_suture/pad.obj, scenes/box_suture/scene.json and, with more thread,
+scenes/box_knot/scene.json.
 
     tools/make_suture_box.py [--check]     --check: says what is stale and writes nothing
 
@@ -61,7 +62,7 @@ def pad():
     return "\n".join(lines) + "\n"
 
 
-def scene():
+def scene(called, title, surface, thread_mm, thread_line):
     x, y = CENTRE
     anchors = [{"centre_mm": [sx * HALF_X, y + dy, TOP - THICK / 2], "radius_mm": 7}
                for sx in (-1, 1) for dy in (-20, -10, 0, 10, 20)]
@@ -74,14 +75,14 @@ def scene():
             marks.append({"name": f"{name}_{i}", "on": "pad", "diameter_mm": 1, "colour": "black",
                           "place_mm": [x + dx, y + dy, TOP], "normal": [0, 0, 1]})
     return {
-        "$schema": "../schema/scene.schema.json", "format": 1, "name": "box_suture",
-        "title": "Box trainer: a pad to be sutured", "gravity_m_s2": [0, 0, -9.81],
+        "$schema": "../schema/scene.schema.json", "format": 1, "name": called,
+        "title": title, "gravity_m_s2": [0, 0, -9.81],
         "tissues": [{"name": "suture_pad", "density_kg_m3": 1080, "young_Pa": 200000, "strain_cap": 0.3,
                      "damping_ms": 4, "puncture_N": 0.6, "stitch_damage_N": 6, "source": "ours: soft silicone",
                      "sources": {"puncture_N": "ours: a little less than the 0.7 N of skin"}}],
         "organs": [{"name": "suture_box", "solids": [{
             "name": "pad", "tissue": "suture_pad", "look": "silicone_pad",
-            "surface": {"file": "pad.obj"}, "cell_mm": EDGE, "skin_edge_mm": 2.0, "fine_edge_mm": 1.0,
+            "surface": {"file": surface}, "cell_mm": EDGE, "skin_edge_mm": 2.0, "fine_edge_mm": 1.0,
             "anchors": anchors}], "walls": walls}],
         "marks": marks,
         "variation": {"regions": [{"around": "pad", "near_mm": 60, "far_mm": 110, "shift_mm": 1.5}],
@@ -93,17 +94,26 @@ def scene():
                   {"name": "left", "position_mm": [-85, 70, 0], "diameter_mm": 10}],
         "tools": [{"instrument": "needle_holder", "port": "left", "tip_mm": [-30, 70, -45]},
                   {"instrument": "needle_holder", "port": "right", "tip_mm": [25, 78, -48]}],
-        "sutures": [{"name": "suture", "size": "3-0", "make": "PDS", "length_mm": 150, "needle": "half_26",
-                     "held_by": "right", "grasped": 0.86, 
-                     "line_mm": [[33, 62, -50], [45, 75, -62], [50, 120, -68], [75, 205, -72]]}],
+        "sutures": [{"name": "suture", "size": "3-0", "make": "PDS", "length_mm": thread_mm, "needle": "half_26",
+                     "held_by": "right", "grasped": 0.86,
+                     "line_mm": [[33, 62, -50], [45, 75, -62], [50, 120, -68], thread_line]}],
         "scope": {"port": "middle", "tip_mm": [0, 26, -24], "angle_deg": 0, "field_of_view_deg": 70,
                   "shaft_diameter_mm": 10, "shaft_length_mm": 310},
     }
 
 
+def files():
+    """Names below scenes/ with what they shall hold. What is tied takes more thread than a stitch alone."""
+    stitch = scene("box_suture", "Box trainer: a pad to be sutured", "pad.obj", 120, [65, 180, -72])
+    knot = scene("box_knot", "Box trainer: a pad to be sutured, thread to tie a knot", "../box_suture/pad.obj", 150,
+                 [75, 205, -72])
+    return [("box_suture/pad.obj", pad()), ("box_suture/scene.json", HEAD + text(stitch) + "\n"),
+            ("box_knot/scene.json", HEAD + text(knot) + "\n")]
+
+
 def main():
     stale = []
-    for name, wanted in (("box_suture/pad.obj", pad()), ("box_suture/scene.json", HEAD + text(scene()) + "\n")):
+    for name, wanted in files():
         path = ROOT / name
         if path.exists() and path.read_text() == wanted:
             continue

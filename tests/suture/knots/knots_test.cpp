@@ -137,7 +137,7 @@ TEST(Knots, AreReadFromWhatLiesTogetherAlone) {
   EXPECT_EQ(knot.kind, KnotKind::square);
 }
 
-/// Threads as they lay in the pad of scenes/box_suture while a surgeon's knot was tied, with slack left between its
+/// Threads as they lay in the pad of scenes/box_knot while a surgeon's knot was tied, with slack left between its
 /// throws: crossings of most pictures are not those of the knot.
 std::vector<Vec3d> tied(const char* name) {
   std::ifstream file(std::filesystem::path(TROCAR_SOURCE_DIR) / "tests/suture/knots/data" / name);
