@@ -282,8 +282,17 @@ class RunAlong final : public Skill {
       return try_elsewhere();
     m_from = op.arm(hand).tip;
     m_way = 0;
+    m_between = std::max(0.0, 0.5 * (held->from + held->to) - m_at);
     go(kLift);
     return Progress::working;
+  }
+  /// How far a hold is lifted: one beside the other hand's no farther than there is gut between them, which they would
+  /// tear apart.
+  double rise_beside(const Operator& op, int hand) const {
+    constexpr double kOfGut = 0.5;
+    const int other = m_hands[0] == hand ? m_hands[1] : m_hands[0];
+    if (op.tool_state(other).holds == 0 || m_between > m_lift) return m_lift;
+    return kOfGut * m_between;
   }
   Progress lift(Operator& op, int hand) {
     constexpr double kSpeed = 0.025, kLongest = 4;  // [m/s] [s]
@@ -291,10 +300,11 @@ class RunAlong final : public Skill {
     op.from(0.06);
     if (op.tool_state(hand).holds == 0) return again();
     const double pull = norm(op.tool_state(hand).pull);
-    if (pull < m_most) m_way = std::min(m_way + kSpeed * sim::kTick, m_lift);
+    const double rise = rise_beside(op, hand);
+    if (pull < m_most) m_way = std::min(m_way + kSpeed * sim::kTick, rise);
     if (pull > kTooHard * m_most) m_way = std::max(m_way - kSpeed * sim::kTick, 0.0);
     const bool there = op.arms().move(hand, m_from + m_way * Vec3d{0, 0, 1}, pace::kTravel);
-    if ((there && m_way >= m_lift) || m_in_phase > kLongest) {
+    if ((there && m_way >= rise) || m_in_phase > kLongest) {
       m_shown = -1;
       go(kShow);
     }
@@ -383,6 +393,7 @@ class RunAlong final : public Skill {
   int m_way_in = -1;                             ///< of kWays; -1: to be chosen
   std::array<bool, std::size(kWays)> m_tried{};  ///< at this place
   double m_at = -1, m_next = 0, m_way = 0;       ///< [m] how far it has been run; the next hold; of a lift
+  double m_between = 0;                          ///< [m] of gut, from the last hold to this one
   Vec3d m_from;
 };
 
