@@ -24,6 +24,7 @@ class CutAt final : public Skill {
         m_beyond(given.number("beyond_clip_mm", -1)),
         m_share(given.number("inside_share", 0.82)),  // near the blades' ends: spare what lies behind
         m_closing(given.number("closing_s", 0.6)),
+        m_spares(!given.says("spare", "no")),
         m_length(model.strand_bodies[size_t(m_strand)].length()) {}
 
  private:
@@ -119,7 +120,7 @@ class CutAt final : public Skill {
     op.want(at(op));
     const bool open = op.arms().grip(m_hand, 0, 0.5);
     if (op.approach(m_hand, m_strand, m_place, inside(op), m_in_phase) && open) {
-      look_beside(op);
+      if (m_spares) look_beside(op);
       go(kEnter);
     }
     return Progress::working;
@@ -141,7 +142,7 @@ class CutAt final : public Skill {
   void close_or_look_beside(Operator& op) {
     const interactions::ToolShape now = sim::shape_of(op.model(), op.state(), size_t(m_hand));
     m_whole = all_between(op, now);
-    if (!organ_between(op, now, kRoom)) return go(kClose);
+    if (!m_spares || !organ_between(op, now, kRoom)) return go(kClose);
     if (tries_beside(op)) return;
     if (!organ_between(op, now, 0)) return go(kClose);  // nowhere is more room
     m_lost = "an organ lies between the blades";
@@ -164,7 +165,7 @@ class CutAt final : public Skill {
     lead(op, pace::kTrack);
     const interactions::ToolShape now = sim::shape_of(op.model(), op.state(), size_t(m_hand));
     const bool organ = organ_between(op, now, 0);
-    if (op.tool_state(m_hand).aperture > kMeet && (organ || (m_whole && !all_between(op, now)))) {
+    if (m_spares && op.tool_state(m_hand).aperture > kMeet && (organ || (m_whole && !all_between(op, now)))) {
       if (tries_beside(op)) return Progress::working;
       m_lost = organ ? "an organ came between the blades" : "it slid from between the blades";
       return go(kOpen), Progress::working;
@@ -211,7 +212,9 @@ class CutAt final : public Skill {
 
   int m_hand, m_strand;
   Argument m_apart;
-  double m_fixed, m_beyond, m_share, m_closing, m_length;
+  double m_fixed, m_beyond, m_share, m_closing;
+  bool m_spares;
+  double m_length;
   double m_place = 0;
   std::size_t m_pose = 0;  ///< of kPoses
   unsigned m_tried = 0;    ///< bits, of kPoses: an organ lay between the blades
@@ -239,7 +242,9 @@ const SkillKind kCutAt{
      number_parameter("beyond_clip_mm", "or: so far beyond the outermost clip", 0, 1000),
      number_parameter("inside_share", "of the blades' length: how far from their hinge the strand shall lie; 0.82", 0,
                       1),
-     number_parameter("closing_s", "of the handle from open to closed; 0.6", 0.05, 60)},
+     number_parameter("closing_s", "of the handle from open to closed; 0.6", 0.05, 60),
+     word_parameter("spare", "whether what else lies between the blades is looked for first; as a rule",
+                    {"yes", "no"})},
     40,
     "Approaches a strand with scissors, takes it between the blades, turns them where an organ lies between them, too, "
     "closes in view, opens, and draws back.",
