@@ -1,0 +1,82 @@
+#include <algorithm>
+
+#include <trocar/suture/thread/chain.hpp>
+#include <trocar/training/skills/suture/tying.hpp>
+
+namespace trocar::training::tying {
+
+Vec3d held_thread(const Operator& op, int hand) {
+  const interactions::SutureModel& m = suture_of(op.model());
+  const interactions::SutureState& s = suture_of(op.state());
+  if (held_of_suture(op.model(), op.state(), std::size_t(hand)) == 1)
+    return suture::needle_point(m.needle, s.needle, m.needle.length);
+  const std::size_t slot = std::size_t(interactions::kFirstHandSlot + hand);
+  if (slot < s.thread.holds.size() && s.thread.holds[slot].active)
+    return suture::point_at(m.thread, s.thread, s.thread.holds[slot].s);
+  return op.arm(hand).tip;
+}
+
+double pull_of(const Operator& op, int hand) {
+  const double* f = op.tool_state(hand).pull;
+  return length(Vec3d{f[0], f[1], f[2]});
+}
+
+Vec3d upwards(const Operator& op) { return -normalised(op.model().gravity, {0, 0, -1}); }
+
+bool find_stitch(const Operator& op, Vec3d& middle) {
+  const interactions::SutureState& s = suture_of(op.state());
+  const Vec3d up = upwards(op);
+  Vec3d sum{};
+  double high = -1e9, count = 0;
+  for (int i = 0; i < s.hole_count; ++i) {
+    if (s.holes[std::size_t(i)].slot < 0) continue;
+    const Vec3d at = suture::point_at(suture_of(op.model()).thread, s.thread, double(s.holes[std::size_t(i)].arc));
+    sum += at, count += 1, high = std::max(high, dot(up, at));
+  }
+  if (count == 0) return false;
+  middle = (1 / count) * sum;
+  middle += (high - dot(up, middle)) * up;
+  return true;
+}
+
+double held_at(const Operator& op, int hand) {
+  const suture::ThreadState& thread = suture_of(op.state()).thread;
+  const std::size_t slot = std::size_t(interactions::kFirstHandSlot + hand);
+  return slot < thread.holds.size() && thread.holds[slot].active ? thread.holds[slot].s : 0;
+}
+
+double free_thread(const Operator& op, int hand) {
+  const interactions::SutureState& s = suture_of(op.state());
+  const suture::KnotReading knot = knot_of(op.model(), op.state());
+  double until = knot.count > 0 ? knot.tail : suture_of(op.model()).thread.length;
+  for (int i = 0; i < s.hole_count; ++i)
+    if (s.holes[std::size_t(i)].slot >= 0) until = std::min(until, double(s.holes[std::size_t(i)].arc));
+  return std::max(0.0, until - held_at(op, hand));
+}
+
+double tension_from(const Operator& op, int hand, double much) {
+  const suture::ThreadModel& m = suture_of(op.model()).thread;
+  const int from = int(held_at(op, hand) / m.spacing), to = std::min(m.nodes - 1, from + int(much / m.spacing));
+  double most = 0;
+  for (int e = from; e < to; ++e) most = std::max(most, suture::tension(m, suture_of(op.state()).thread, e));
+  return most;
+}
+
+Vec3d above_tissue(const Operator& op, Vec3d at) {
+  constexpr double kLow = 0.010;  // [m]
+  Vec3d stitch;
+  if (!find_stitch(op, stitch)) return at;
+  const Vec3d up = upwards(op);
+  return at + std::max(0.0, kLow + dot(up, stitch - at)) * up;
+}
+
+bool lead(Operator& op, int hand, Vec3d to, double speed) {
+  return op.arms().move(hand, op.arm(hand).tip + (to - held_thread(op, hand)), speed);
+}
+
+std::string lacks_thread(const sim::Model& model, const Given& given) {
+  if (!needs_thread(model).empty()) return std::string(needs_thread(model));
+  return lacks_tool(model, given.hand(), &interactions::Abilities::grip);
+}
+
+}  // namespace trocar::training::tying

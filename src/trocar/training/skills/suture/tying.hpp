@@ -1,0 +1,34 @@
+// What skills that tie ask of thread, stitch and hands.
+#pragma once
+
+#include <string>
+
+#include <trocar/training/observe/stitches.hpp>
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training::tying {
+
+/// Where the thread leaves what a hand holds of the suture.
+Vec3d held_thread(const Operator& op, int hand);
+/// Of what the hand holds at it [N].
+double pull_of(const Operator& op, int hand);
+/// Against gravity.
+Vec3d upwards(const Operator& op);
+/// The middle of the stitch, as high as the highest place where thread lies in tissue; jaws stay above it.
+bool find_stitch(const Operator& op, Vec3d& middle);
+/// Where the hand holds the thread, or the needle that it hangs on [m].
+double held_at(const Operator& op, int hand);
+/// Thread between what the hand holds of it and the last throw, or the stitch [m].
+double free_thread(const Operator& op, int hand);
+/// The largest tension in that much thread beyond the hand that holds it; in throws that have been drawn tight there is
+/// some that is no business of the hand's [N].
+double tension_from(const Operator& op, int hand, double much);
+/// No lower than a little above where the thread leaves tissue.
+Vec3d above_tissue(const Operator& op, Vec3d at);
+/// The place where the thread is held to there.
+bool lead(Operator& op, int hand, Vec3d to, double speed);
+/// Empty: the scene has thread, and the hand can hold it.
+std::string lacks_thread(const sim::Model& model, const Given& given);
+
+}  // namespace trocar::training::tying
