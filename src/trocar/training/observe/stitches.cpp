@@ -114,12 +114,18 @@ double knot_above_tissue(const sim::Model& model, const sim::State& state, const
   return least;
 }
 
-double wraps_around(const sim::Model& model, const sim::State& state, std::size_t hand) {
+double arc_to_stitch(const sim::Model& model, const sim::State& state) {
   const interactions::SutureState& s = suture_of(state);
   double until = suture_of(model).thread.length;
   for (int i = 0; i < s.hole_count; ++i)
     if (s.holes[std::size_t(i)].slot >= 0) until = std::min(until, double(s.holes[std::size_t(i)].arc));
-  const std::size_t nodes = std::min(s.thread.x.size(), std::size_t(until / suture_of(model).thread.spacing) + 1);
+  return until;
+}
+
+double wraps_around(const sim::Model& model, const sim::State& state, std::size_t hand) {
+  const interactions::SutureState& s = suture_of(state);
+  const std::size_t nodes =
+      std::min(s.thread.x.size(), std::size_t(arc_to_stitch(model, state) / suture_of(model).thread.spacing) + 1);
   const interactions::ToolShape shape = sim::shape_of(model, state, hand);
   const Vec3d axis = shape.frame.axis();
   return suture::turns_around(std::span(s.thread.x).first(nodes), shape.pivot - kShaftSeen * axis, shape.frame.tip,

@@ -31,6 +31,8 @@ bool needle_in_picture(const sim::Model& model, const sim::State& state);
 /// tissue and comes out [m].
 double knot_above_tissue(const sim::Model& model, const sim::State& state, const suture::KnotReading& knot);
 suture::KnotReading knot_of(const sim::Model& model, const sim::State& state);
+/// Thread from the needle to where it first goes into tissue; all of it where it does not [m].
+double arc_to_stitch(const sim::Model& model, const sim::State& state);
 /// How often the thread, as far as the stitch if there is one, winds round the hand's jaws, hinge and last centimetres
 /// of shaft.
 double wraps_around(const sim::Model& model, const sim::State& state, std::size_t hand);

@@ -95,12 +95,12 @@ class GraspTail final : public Skill {
       const Vec3d beside = from - ahead * axis;
       if (length(beside) >= nearest) continue;
       nearest = length(beside);
-      off = normalised(m_from_other(op, i, beside), any_perpendicular(axis));
+      off = normalised(towards_tail(op, beside), any_perpendicular(axis));
     }
     return nearest < between;
   }
   /// Towards the tail's side of the jaws, seen from the other stretch.
-  Vec3d m_from_other(const Operator& op, int, Vec3d beside) const {
+  Vec3d towards_tail(const Operator& op, Vec3d beside) const {
     const interactions::SutureModel& m = suture_of(op.model());
     const interactions::SutureState& s = suture_of(op.state());
     const Vec3d tip = op.arm(m_hand).tip, axis = normalised(tip - op.arm(m_hand).port);

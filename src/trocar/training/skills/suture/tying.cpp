@@ -46,12 +46,9 @@ double held_at(const Operator& op, int hand) {
 }
 
 double free_thread(const Operator& op, int hand) {
-  const interactions::SutureState& s = suture_of(op.state());
   const suture::KnotReading knot = knot_of(op.model(), op.state());
-  double until = knot.count > 0 ? knot.tail : suture_of(op.model()).thread.length;
-  for (int i = 0; i < s.hole_count; ++i)
-    if (s.holes[std::size_t(i)].slot >= 0) until = std::min(until, double(s.holes[std::size_t(i)].arc));
-  return std::max(0.0, until - held_at(op, hand));
+  const double stitch = arc_to_stitch(op.model(), op.state());
+  return std::max(0.0, (knot.count > 0 ? std::min(knot.tail, stitch) : stitch) - held_at(op, hand));
 }
 
 double tension_from(const Operator& op, int hand, double much) {
