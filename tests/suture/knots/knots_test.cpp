@@ -75,13 +75,16 @@ std::vector<Vec3d> lay(const std::vector<LaidThrow>& throws, bool hitches = fals
   return thread;
 }
 
-TEST(Knots, AreNoneInAThreadThatGoesRoundTissueAndCrossesItselfOnce) {
+std::vector<Vec3d> untied() {
   std::vector<Vec3d> p;
   for (int i = 0; i <= 200; ++i) {
     const double a = 2 * portable::pi * (i - 100) / 160.0;
     p.push_back({0.01 * portable::sin(a), 0.0002 * (i < 100 ? 1 : -1), -0.01 * portable::cos(a)});
   }
-  EXPECT_EQ(read_knot(p).kind, KnotKind::none);
+  return p;
+}
+TEST(Knots, AreNoneInAThreadThatGoesRoundTissueAndCrossesItselfOnce) {
+  EXPECT_EQ(read_knot(untied()).kind, KnotKind::none);
 }
 
 TEST(Knots, OfOneThrowAreHalfKnotsWithItsTurnsAndSign) {
@@ -145,6 +148,13 @@ std::vector<Vec3d> tied(const char* name) {
   for (Vec3d x; file >> x.x >> x.y >> x.z;) p.push_back(1e-3 * x);
   return p;
 }
+std::vector<int> throws_of(const KnotReading& knot) {
+  std::vector<int> throws;
+  for (int k = 0; k < knot.count; ++k)
+    throws.push_back(knot.throws[std::size_t(k)].turns * knot.throws[std::size_t(k)].sign);
+  return throws;
+}
+
 TEST(Knots, WithSlackBetweenTheirThrowsAreStillWhatTheThreadIsTiedIn) {
   struct Case {
     const char* name;
@@ -161,12 +171,27 @@ TEST(Knots, WithSlackBetweenTheirThrowsAreStillWhatTheThreadIsTiedIn) {
       std::vector<Vec3d> p;
       for (const Vec3d& q : laid) p.push_back(rotate(turn, q));
       const KnotReading knot = read_knot(p, {0.15 / double(p.size() - 1), c.split, kFiner});
-      std::vector<int> throws;
-      for (int k = 0; k < knot.count; ++k)
-        throws.push_back(knot.throws[std::size_t(k)].turns * knot.throws[std::size_t(k)].sign);
-      EXPECT_EQ(throws, c.throws) << c.name << " seen from side " << i;
+      EXPECT_EQ(throws_of(knot), c.throws) << c.name << " seen from side " << i;
     }
   }
+}
+
+TEST(Knots, DrawnTightStayWhatTheyWereWhenTheyLayLoosely) {
+  const auto read = [](const char* name, double split) {
+    const std::vector<Vec3d> p = tied(name);
+    return read_knot(p, {0.15 / double(p.size() - 1), split, 0.0015});
+  };
+  const KnotReading loose = read("tied_4_loose.txt", 0.10207), tight = read("tied_4_tight.txt", 0.10204);
+  const std::vector<int> surgeon{2, -1, 1};
+  EXPECT_EQ(throws_of(loose), surgeon);
+  EXPECT_EQ(tight.determinant, loose.determinant);
+  EXPECT_EQ(tight.agree, 0) << "then it shows nothing";
+  KnownKnot known;
+  known.update(loose);
+  EXPECT_EQ(throws_of(known.update(tight)), surgeon);
+  EXPECT_EQ(known.knot().tail, tight.tail);
+  EXPECT_EQ(known.update(read_knot(lay({{1, 1}}))).count, 1) << "another knot";
+  EXPECT_EQ(known.update(read_knot(untied())).count, 0) << "untied";
 }
 
 TEST(Knots, WhereOneSideIsTakenRoundAStraightOneAreSlipKnots) {

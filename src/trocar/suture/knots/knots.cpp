@@ -14,6 +14,7 @@ constexpr int kViews = 64;                     // directions from which a pictur
 constexpr std::size_t kThrow = 3, kHitch = 2;  // crossings, at least
 constexpr double kStraight = 1.25;             // arc over chord of a side that does not turn: a post
 constexpr double kUnlikely = 1e-6;             // that a picture is right which tells of another knot
+constexpr double kSure = 0.25;                 // share of pictures that need not be compared with earlier ones
 constexpr double kTurned = 1.5;                // of one that turns round it
 
 /// Where both sides cross in a picture.
@@ -260,14 +261,20 @@ std::vector<std::int32_t> shorthand(const std::vector<Crossing>& list, std::size
   return out;
 }
 
+/// What most pictures tell.
+struct Seen {
+  std::vector<Crossing> list;  ///< of the picture with fewest
+  double agree = 0;            ///< share of pictures, 0 where it is of another knot than the thread's
+};
 /// The crossings of a picture of which most others tell the same throws; of equally many, of the one with fewest. Those
 /// that tell of a knot that the thread is not have no vote while there are others.
-std::vector<Crossing> most_seen(std::span<const Vec3d> p, std::span<const double> arc, std::size_t split, double apart,
-                                std::size_t least, double determinant) {
+Seen most_seen(std::span<const Vec3d> p, std::span<const double> arc, std::size_t split, double apart,
+               std::size_t least, double determinant) {
   struct Reading {
     std::vector<std::int32_t> throws;
     std::vector<Crossing> list;
     double votes = 0;  ///< a picture with fewer crossings says more
+    int pictures = 0;  ///< that fit the determinant
   };
   const Pairs pairs = pairs_of(p, split, apart);
   std::vector<Reading> readings;
@@ -277,20 +284,21 @@ std::vector<Crossing> most_seen(std::span<const Vec3d> p, std::span<const double
     }
     drop_loose_ends(list, least);
     const std::vector<std::int32_t> throws = shorthand(list, least);
-    const double belief = determinant_of(throws) == determinant ? 1 : kUnlikely;
-    const double weight = belief / double(1 + list.size());
+    const bool fits = determinant_of(throws) == determinant;
+    const double weight = (fits ? 1 : kUnlikely) / double(1 + list.size());
     const auto known =
         std::find_if(readings.begin(), readings.end(), [&](const Reading& r) { return r.throws == throws; });
     if (known == readings.end()) {
-      readings.push_back({throws, std::move(list), weight});
+      readings.push_back({throws, std::move(list), weight, fits ? 1 : 0});
       continue;
     }
     known->votes += weight;
+    known->pictures += fits ? 1 : 0;
     if (list.size() < known->list.size()) known->list = std::move(list);
   }
-  return std::max_element(readings.begin(), readings.end(),
-                          [](const Reading& a, const Reading& b) { return a.votes < b.votes; })
-      ->list;
+  Reading& most = *std::max_element(readings.begin(), readings.end(),
+                                    [](const Reading& a, const Reading& b) { return a.votes < b.votes; });
+  return {std::move(most.list), most.pictures / double(kViews)};
 }
 
 }  // namespace
@@ -313,23 +321,32 @@ KnotReading read_knot(std::span<const Vec3d> p, const KnotQuestion& question) {
     split = std::size_t(std::clamp(std::lower_bound(arc.begin(), arc.end(), question.split) - arc.begin(),
                                    std::ptrdiff_t(1), std::ptrdiff_t(p.size() - 2)));
   const double determinant = determinant_seen(p, arc);
-  std::vector<Crossing> best = most_seen(p, arc, split, question.apart, kThrow, determinant);
-  bool post = is_post(p, arc, best);
-  if (post || best.empty()) {
-    std::vector<Crossing> hitches = most_seen(p, arc, split, question.apart, kHitch, determinant);
-    post = is_post(p, arc, hitches) && determinant_of(shorthand(hitches, kHitch)) == determinant;
+  Seen best = most_seen(p, arc, split, question.apart, kThrow, determinant);
+  bool post = is_post(p, arc, best.list);
+  if (post || best.list.empty()) {
+    Seen hitches = most_seen(p, arc, split, question.apart, kHitch, determinant);
+    post = is_post(p, arc, hitches.list) && hitches.agree > 0;
     if (post) best = std::move(hitches);
   }
-  knot.crossings = std::int32_t(best.size());
-  read_throws(best, post ? kHitch : kThrow, knot);
+  knot.crossings = std::int32_t(best.list.size());
+  knot.determinant = determinant, knot.agree = best.agree;
+  read_throws(best.list, post ? kHitch : kThrow, knot);
   knot.tail = arc[split], knot.standing = arc.back() - arc[split];
   if (knot.count == 0) return knot;
-  const Span side = span_of(best);
+  const Span side = span_of(best.list);
   knot.place = knot.throws[0].place;
   knot.tail = side.s_low;
   knot.standing = arc.back() - side.t_high;
   knot.kind = kind_of(knot, post);
   return knot;
+}
+
+const KnotReading& KnownKnot::update(const KnotReading& seen) noexcept {
+  const bool same = m_knot.agree > 0 && seen.determinant == m_knot.determinant;
+  if (seen.agree > (same ? std::min(kSure, m_knot.agree) : 0)) return m_knot = seen;
+  if (seen.count == 0 || m_knot.count == 0) return m_knot;
+  m_knot.place = seen.place, m_knot.tail = seen.tail, m_knot.standing = seen.standing;
+  return m_knot;
 }
 
 double turns_around(std::span<const Vec3d> p, Vec3d a, Vec3d b, double reach) noexcept {

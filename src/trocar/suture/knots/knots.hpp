@@ -35,6 +35,8 @@ struct KnotReading {
   std::array<KnotThrow, kMostThrows> throws{};  ///< the one nearest to the tissue first
   std::int32_t count = 0;
   std::int32_t crossings = 0;     ///< that are left
+  double determinant = 1;         ///< of the thread's knot, whatever pictures tell
+  double agree = 0;               ///< share of pictures that tell the same, with that determinant; 0: none has it
   Vec3d place;                    ///< of the first throw [m]
   double tail = 0, standing = 0;  ///< what is left of either side beyond the last throw: of lower s, of higher s [m]
 };
@@ -46,6 +48,18 @@ struct KnotQuestion {
 };
 /// @param points  of the thread's middle line
 KnotReading read_knot(std::span<const Vec3d> points, const KnotQuestion& question = {});
+
+/// What a thread is tied in, from readings in a row. One that lies tight may show nothing but pictures of other knots;
+/// but what it is tied in stays while the determinant does, and is best told from when it lay loosely.
+class KnownKnot {
+ public:
+  /// Throws as most pictures of all readings since the knot last changed told; place and ends as of the last one.
+  const KnotReading& update(const KnotReading& seen) noexcept;
+  const KnotReading& knot() const noexcept { return m_knot; }
+
+ private:
+  KnotReading m_knot;
+};
 
 /// How often a thread's stretch winds round a segment, signed: right-handed about a -> b is positive.
 double turns_around(std::span<const Vec3d> points, Vec3d a, Vec3d b, double reach) noexcept;

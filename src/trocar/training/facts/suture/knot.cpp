@@ -12,27 +12,28 @@ class Knotted : public Observer {
     m_since += dt;
     if (m_since < kEvery) return;
     m_since = 0;
-    m_knot = knot_of(moment.model, moment.state);
-    m_above = m_knot.count > 0 ? knot_above_tissue(moment.model, moment.state, m_knot) : 0;
+    m_known.update(knot_of(moment.model, moment.state));
+    m_above = knot().count > 0 ? knot_above_tissue(moment.model, moment.state, knot()) : 0;
   }
 
  protected:
   static constexpr double kEvery = 0.5;  // [s]
-  suture::KnotReading m_knot;
+  const suture::KnotReading& knot() const { return m_known.knot(); }
+  suture::KnownKnot m_known;
   double m_above = 0, m_since = 0;
 };
 
 class Throws final : public Knotted {
  public:
   using Knotted::Knotted;
-  Value value(const Moment&) const override { return double(m_knot.count); }
+  Value value(const Moment&) const override { return double(knot().count); }
 };
 class Turns final : public Knotted {
  public:
   Turns(const sim::Model& model, const Arguments& a) : Knotted(model, a), m_which(int(a[0].number())) {}
   Value value(const Moment&) const override {
-    if (m_which < 1 || m_which > m_knot.count) return kUnknown;
-    const suture::KnotThrow& t = m_knot.throws[size_t(m_which - 1)];
+    if (m_which < 1 || m_which > knot().count) return kUnknown;
+    const suture::KnotThrow& t = knot().throws[size_t(m_which - 1)];
     return double(t.turns * t.sign);
   }
 
@@ -43,18 +44,18 @@ template <suture::KnotKind kind>
 class Is final : public Knotted {
  public:
   using Knotted::Knotted;
-  Value value(const Moment&) const override { return m_knot.kind == kind; }
+  Value value(const Moment&) const override { return knot().kind == kind; }
 };
 class Above final : public Knotted {
  public:
   using Knotted::Knotted;
-  Value value(const Moment&) const override { return m_knot.count > 0 ? Value(m_above) : kUnknown; }
+  Value value(const Moment&) const override { return knot().count > 0 ? Value(m_above) : kUnknown; }
 };
 class Tail final : public Knotted {
  public:
   using Knotted::Knotted;
   Value value(const Moment&) const override {
-    return m_knot.count > 0 ? Value(std::min(m_knot.tail, m_knot.standing)) : kUnknown;
+    return knot().count > 0 ? Value(std::min(knot().tail, knot().standing)) : kUnknown;
   }
 };
 
