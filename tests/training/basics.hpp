@@ -10,6 +10,7 @@
 
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/description/vary.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/sim/stages/step.hpp>
 #include <trocar/training/exercise/monitor.hpp>
@@ -29,9 +30,15 @@ struct Lesson {
 
   explicit Lesson(const std::string& name, std::uint64_t of = 0)
       : exercise(read_exercise(TROCAR_SOURCE_DIR "/scenes/basics/" + name + ".json")),
-        model(scene::compile(scene::read_scene(exercise.scene))),
+        model(scene::compile(varied(scene::read_scene(exercise.scene), of))),
         seed(of),
         demonstration(read_demonstration(exercise, model, seed)) {}
+
+ private:
+  static scene::Description varied(scene::Description d, std::uint64_t seed) {
+    scene::vary(d, seed);
+    return d;
+  }
 };
 
 /// What a hand at the camera does beside what the plan says.

@@ -1,6 +1,7 @@
-// A stitch and a throw on it as they are shown: the stitch on seeds on which the needle once was thrown off the pad, or
-// the thread parted at its swage.
+// A stitch and its knot as they are shown: the stitch on seeds on which the needle once was thrown off the pad, or the
+// thread parted at its swage; the knot on twenty, and then pulled.
 #include <trocar/training/observe/stitches.hpp>
+#include <trocar/training/skills/registry.hpp>
 
 #include "basics.hpp"
 
@@ -8,8 +9,9 @@ namespace trocar::training::basics {
 namespace {
 
 constexpr const char* kStitch = "../suturing/needle-through";
-constexpr const char* kKnot = "../suturing/double-throw";
-constexpr std::uint64_t kTied = 0;
+constexpr const char* kThrow = "../suturing/double-throw";
+constexpr const char* kKnot = "../suturing/intracorporeal-suture";
+constexpr int kLeft = 0, kRight = 1;
 
 TEST(NeedleThrough, TheDemonstrationPassesOnSeveralSeeds) {
   for (const std::uint64_t seed : {0, 2, 3, 6, 7}) expect_passes(kStitch, seed, {});
@@ -19,16 +21,85 @@ TEST(NeedleThrough, TheDemonstrationPassesWithATremor) {
   for (const std::uint64_t seed : {0, 3}) expect_passes(kStitch, seed);
 }
 
-TEST(DoubleThrow, TheDemonstrationLaysItOnTheSlit) {
-  Lesson lesson(kKnot, kTied);
-  const Performed tied(lesson, "", {}, {});
-  EXPECT_FALSE(tied.gave_up) << tied.difficulties;
-  EXPECT_TRUE(tied.monitor.score().passed) << tied.monitor.score().total;
-  const suture::KnotReading knot = knot_of(lesson.model, tied.state);
+/// @param steady  hands do not tremble
+std::unique_ptr<Performed> tied(Lesson& lesson) { return std::make_unique<Performed>(lesson, "", Slip{}, Tremor{}); }
+
+class DoubleThrow : public testing::TestWithParam<int> {};
+TEST_P(DoubleThrow, TheDemonstrationLaysItOnTheSlit) {
+  Lesson lesson(kThrow, std::uint64_t(GetParam()));
+  const auto run = tied(lesson);
+  EXPECT_FALSE(run->gave_up) << run->difficulties;
+  EXPECT_TRUE(run->monitor.score().passed) << run->monitor.score().total;
+  const suture::KnotReading knot = knot_of(lesson.model, run->state);
   ASSERT_EQ(knot.count, 1);
   EXPECT_EQ(knot.throws[0].turns, 2);
-  EXPECT_LT(knot_above_tissue(lesson.model, tied.state, knot), 0.005);
+  EXPECT_LT(knot_above_tissue(lesson.model, run->state, knot), 0.005);
 }
+INSTANTIATE_TEST_SUITE_P(Seeds, DoubleThrow, testing::Range(0, 4));
+
+double pull_of(const sim::State& state, int hand) {
+  const double(&f)[3] = state.tools[std::size_t(hand)].pull;
+  return length(Vec3d{f[0], f[1], f[2]});
+}
+
+/// What both hands found that drew at the ends of a knot.
+struct Drawn {
+  double held = 0;   ///< how long both had 5 N [s]
+  double given = 0;  ///< how much farther apart they came meanwhile: what has slipped, and what tissue gave [m]
+  double least = 1e9, most = 0;
+  bool gave_up = false;
+};
+/// On a state of its own.
+Drawn drawn_with_five_newtons(const sim::Model& model, sim::State state) {
+  Demonstration pull;
+  pull.plan.parts.emplace_back();
+  PlanGoal& goal = pull.plan.parts[0].goals.emplace_back();
+  goal.name = "pull";
+  goal.tries = 1;
+  goal.todo = {PlanTask::of(kPullThrow)
+                   .set_index("hand", kLeft)
+                   .set_index("with", kRight)
+                   .set("x_mm", -0.003)
+                   .set("y_mm", -0.010)
+                   .set("z_mm", 0)
+                   .set("pull_N", 5.3)
+                   .set("for_s", 3.5)};
+  Performer performer(model, std::move(pull), {});
+  sim::Work work = sim::make_work(model);
+  Drawn drawn;
+  double first = -1;
+  while (!performer.done()) {
+    const sim::StepReport report = step(model, performer.next(model, state), state, work);
+    performer.after(model, state, report);
+    const double weaker = std::min(pull_of(state, kLeft), pull_of(state, kRight));
+    if (weaker < 5) continue;
+    const double apart =
+        length(sim::shape_of(model, state, kLeft).frame.tip - sim::shape_of(model, state, kRight).frame.tip);
+    if (first < 0) first = apart;
+    drawn.held += sim::kTick;
+    drawn.given = apart - first;
+    drawn.least = std::min(drawn.least, weaker), drawn.most = std::max(drawn.most, weaker);
+  }
+  drawn.gave_up = performer.gave_up();
+  return drawn;
+}
+
+class IntracorporealSuture : public testing::TestWithParam<int> {};
+TEST_P(IntracorporealSuture, IsTiedWithADoubleThrowAndTwoOpposedSinglesAndHoldsFiveNewtonsForThreeSeconds) {
+  Lesson lesson(kKnot, std::uint64_t(GetParam()));
+  const auto run = tied(lesson);
+  EXPECT_FALSE(run->gave_up) << run->difficulties;
+  EXPECT_TRUE(run->monitor.score().passed) << run->monitor.score().total;
+  for (const StepStatus& s : run->monitor.steps()) EXPECT_TRUE(s.done) << s.name;
+  const Drawn drawn = drawn_with_five_newtons(lesson.model, run->state);
+  EXPECT_FALSE(drawn.gave_up);
+  EXPECT_GE(drawn.held, 3);
+  EXPECT_LT(drawn.given, 0.001);
+  std::printf("seed %d: S = %.0f in %.0f s, %.1f to %.1f N for %.1f s, %.2f mm\n%s", GetParam(),
+              run->monitor.score().total, double(run->state.tick) * sim::kTick, drawn.least, drawn.most, drawn.held,
+              1e3 * drawn.given, run->difficulties.c_str());
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, IntracorporealSuture, testing::Range(0, 20));
 
 }  // namespace
 }  // namespace trocar::training::basics

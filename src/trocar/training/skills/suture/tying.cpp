@@ -17,8 +17,10 @@ Vec3d held_thread(const Operator& op, int hand) {
 }
 
 double pull_of(const Operator& op, int hand) {
-  const double* f = op.tool_state(hand).pull;
-  return length(Vec3d{f[0], f[1], f[2]});
+  const interactions::ToolState& tool = op.tool_state(hand);
+  const double(&held)[3] = tool.pull;
+  const double(&touched)[3] = tool.contact_force;
+  return length(Vec3d{held[0] + touched[0], held[1] + touched[1], held[2] + touched[2]});
 }
 
 Vec3d upwards(const Operator& op) { return -normalised(op.model().gravity, {0, 0, -1}); }

@@ -11,7 +11,7 @@ namespace trocar::training::tying {
 
 /// Where the thread leaves what a hand holds of the suture.
 Vec3d held_thread(const Operator& op, int hand);
-/// Of what the hand holds at it [N].
+/// On the hand: of what it holds, and of thread that has been caught on its jaws [N].
 double pull_of(const Operator& op, int hand);
 /// Against gravity.
 Vec3d upwards(const Operator& op);
