@@ -17,9 +17,13 @@ Vec3d held_thread(const Operator& op, int hand) {
 }
 
 double pull_of(const Operator& op, int hand) {
-  const interactions::ToolState& tool = op.tool_state(hand);
-  const double(&held)[3] = tool.pull;
-  const double(&touched)[3] = tool.contact_force;
+  const double(&held)[3] = op.tool_state(hand).pull;
+  return length(Vec3d{held[0], held[1], held[2]});
+}
+
+double felt_by(const Operator& op, int hand) {
+  const double(&held)[3] = op.tool_state(hand).pull;
+  const double(&touched)[3] = op.tool_state(hand).contact_force;
   return length(Vec3d{held[0] + touched[0], held[1] + touched[1], held[2] + touched[2]});
 }
 

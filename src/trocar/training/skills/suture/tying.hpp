@@ -11,8 +11,11 @@ namespace trocar::training::tying {
 
 /// Where the thread leaves what a hand holds of the suture.
 Vec3d held_thread(const Operator& op, int hand);
-/// On the hand: of what it holds, and of thread that has been caught on its jaws [N].
+/// Of what the hand holds at it [N].
 double pull_of(const Operator& op, int hand);
+/// Of that and of whatever its instrument touches: a thread's end that lies round the jaws that hold it pulls at their
+/// outside [N].
+double felt_by(const Operator& op, int hand);
 /// Against gravity.
 Vec3d upwards(const Operator& op);
 /// The middle of the stitch, as high as the highest place where thread lies in tissue; jaws stay above it.

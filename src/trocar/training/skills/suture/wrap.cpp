@@ -93,17 +93,17 @@ class Wrap final : public Skill {
   /// other's too if these do not turn along.
   bool turn_swage(Operator& op, Vec3d towards) const {
     if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 1) return true;
-    constexpr double kTurns = 3, kNear = 0.06, kSeen = 0.3;  // [rad/s] [rad], sine of the angle to the shaft
-    constexpr double kOwn = 0.3;                             // turns
+    constexpr double kTurns = 3, kNear = 0.06, kOwn = 2, kSeen = 0.3;  // [rad/s] [rad], sine of the angle to the shaft
     Arms::Arm& arm = op.arm(m_hand);
     const suture::NeedleModel& m = suture_of(op.model()).needle;
     const Vec3d axis = normalised(arm.tip - arm.port), to = normalised(towards, axis);
-    if (length(cross(axis, to)) < kSeen) return true;
-    const Vec3d leaves = -suture::needle_direction(m, suture_of(op.state()).needle, m.length);
-    double off = portable::atan2(dot(cross(leaves, to), axis), dot(leaves, to) - dot(axis, leaves) * dot(axis, to));
     // what is wound round these jaws already is unwound first
-    const double wound = wraps_around(op.model(), op.state(), std::size_t(m_hand));
-    if (std::fabs(wound) > kOwn) off = portable::two_pi * wound;
+    double off = portable::two_pi * wraps_around(op.model(), op.state(), std::size_t(m_hand));
+    if (std::fabs(off) < kOwn) {
+      if (length(cross(axis, to)) < kSeen) return true;
+      const Vec3d leaves = -suture::needle_direction(m, suture_of(op.state()).needle, m.length);
+      off = portable::atan2(dot(cross(leaves, to), axis), dot(leaves, to) - dot(axis, leaves) * dot(axis, to));
+    }
     arm.roll -= std::clamp(off, -kTurns * sim::kTick, kTurns * sim::kTick);
     return std::fabs(off) < kNear;
   }
