@@ -2,7 +2,7 @@
 //
 //   build/release/bench/suture/suture_bench
 //
-// There is no rod or cable engine among Debian's packages to stand beside it.
+// No rod engine is among Debian's packages; Bullet's rope stands beside it in rope_bench.cpp.
 #include <vector>
 
 #include <benchmark/benchmark.h>

@@ -104,6 +104,18 @@ TEST(InstrumentMechanism, ACamOfTheHandleLikeTheJawsOwnMakesTheirWayTheHandlesTo
   }
 }
 
+TEST(InstrumentMechanism, ASlingsRodIsTheHandlesWayWhateverItsPulleysRatio) {
+  for (const double ratio : {0.5, 1.5, 3.0}) {
+    Instrument i = with_linkage("endoloop");
+    i.kind = interactions::ToolKind::endoloop;
+    kinematics::MechanismDescription changed = *i.linkage.description;
+    ASSERT_EQ(changed.parameters.at(0).name, "ratio");
+    changed.parameters[0].value = ratio;
+    i.linkage.description = std::make_shared<const kinematics::MechanismDescription>(changed);
+    EXPECT_FALSE(taken(i).linkage.there) << ratio << ": nothing is to be computed";
+  }
+}
+
 TEST(InstrumentMechanism, WhatIsDrawnOfALinkageStandsWhereItsMechanismHasIt) {
   const interactions::ToolModel tool = taken([] {
     Instrument i = with_linkage("claw_grasper");

@@ -154,6 +154,31 @@ TEST(Sling, CutsThroughAtEightNewtonsAndNotAtSix) {
   EXPECT_EQ(more.told(sim::Event::loop_cut), 1);
 }
 
+/// Drawn closed, then with so much more in two seconds that the loop bears `newtons`, and a second of that.
+struct DrawnWith {
+  SlingDriver d = closed();
+  double mean = 0, most = 0;  ///< of the loop's tension in that second, or until it cuts through [N]
+
+  explicit DrawnWith(double newtons) {
+    d.grip((newtons + 1) / 12, 2);
+    int ticks = 0;
+    for (; ticks < 1000 && d.told(sim::Event::loop_cut) == 0; ++ticks) {
+      d.step();
+      mean += d.sling().tension, most = std::max(most, d.sling().tension);
+    }
+    if (ticks > 0) mean /= ticks;
+  }
+};
+
+TEST(Sling, HoldsAtTwoTenthsOfANewtonBelowEightAndCutsThroughAtTwoTenthsAbove) {
+  const DrawnWith less(7.8), more(8.2);
+  std::printf("mean %.3f N, most %.3f N\n", less.mean, less.most);
+  EXPECT_NEAR(less.mean, 7.8, 0.1);
+  EXPECT_EQ(less.d.told(sim::Event::loop_cut), 0);
+  EXPECT_GE(cover_of(less.d), 0.98);
+  EXPECT_EQ(more.d.told(sim::Event::loop_cut), 1);
+}
+
 TEST(Sling, StaysWithItsKnotWhenTheTailIsCut) {
   EXPECT_EQ(left().sling().stage, interactions::SlingState::left);
   EXPECT_EQ(left().told(sim::Event::thread_cut), 1);

@@ -73,6 +73,11 @@ TEST(InjectionExercise, TheDemonstrationPassesOnSeveralSeeds) {
   for (const std::uint64_t seed : {0, 1, 2}) expect_passes(kInjection, seed);
 }
 
+// Into the gallbladder's bed: the demonstration alone, its errors have no runs of their own yet.
+TEST(HydrodissectionExercise, TheDemonstrationPassesOnSeveralSeeds) {
+  for (const std::uint64_t seed : {0, 1}) expect_passes("../cholecystectomy/hydrodissection", seed);
+}
+
 class InjectionFlaw : public testing::TestWithParam<Flaw> {};
 TEST_P(InjectionFlaw, TriggersItsErrorAndOnlyWhatTheTableSaysItImplies) {
   const Flaw& flaw = GetParam();

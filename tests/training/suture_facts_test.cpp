@@ -165,6 +165,28 @@ TEST(SutureFacts, ForcesAndWhatTheyHaveDoneAreTold) {
   expect_told(w.value(kSutureHarmed), 1);
 }
 
+TEST(SutureFacts, AClipIsAsFarFromTissueAsTheThreadBetweenThem) {
+  Sewn w;
+  const auto clip_at = [&](double s) {
+    suture::ThreadClip& c = w.suture().thread.clips[size_t(w.suture().thread.clip_count++)];
+    c = {};
+    c.count = 1, c.s[0] = s;
+  };
+  w.hole(0.040, 0);
+  expect_told(w.value(kSutureClips), 0);
+  EXPECT_UNTOLD(w.value(kSutureClipToTissue)) << "no clip";
+  clip_at(0.045);
+  expect_told(w.value(kSutureClips), 1);
+  expect_told(w.value(kSutureClipToTissue), 0.005, 1e-8);
+  w.hole(0.047, 1).kind = SutureHole::track;
+  expect_told(w.value(kSutureClipToTissue), 0.005, 1e-8);  // not where it goes in or comes out
+  clip_at(0.0385);
+  expect_told(w.value(kSutureClips), 2);
+  expect_told(w.value(kSutureClipToTissue), 0.0015, 1e-8);
+  w.suture().hole_count = 0;
+  EXPECT_UNTOLD(w.value(kSutureClipToTissue)) << "no stitch";
+}
+
 TEST(SutureFacts, AHandHoldsNeedleOrThreadByThePlaceThatIsBetweenItsJaws) {
   Sewn w;
   const int hand = w.model.hand_index("left");

@@ -1,10 +1,13 @@
 // A thread that touches nothing: hangs, stands, bends and falls as a rod does.
 #include <cmath>
+#include <cstdio>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <trocar/core/poison.hpp>
+#include <trocar/numerics/portable.hpp>
 #include <trocar/suture/thread/thread.hpp>
 
 #include "figures.hpp"
@@ -48,6 +51,60 @@ TEST(Thread, HangsInACatenary) {
   }
   expect_ratio("K1, sag of a catenary", -s.x[m.nodes / 2].z, low * (std::cosh(0.5 * span / low) - 1), 0.01);
   expect_ratio("K1, its horizontal pull", pulls[0].force.x, stuff.mass * 9.81 * low, 0.01);
+}
+
+/// Bessel's function J0, by its series; z up to some units.
+double bessel_j0(double z) {
+  double sum = 0, term = 1;
+  for (int k = 1; k < 20; ++k) sum += term, term *= -0.25 * z * z / (k * k);
+  return sum;
+}
+
+// J 12
+TEST(Thread, AHangingChainSwingsAtItsFirstFrequency) {
+  ThreadStuff stuff = elastic("3-0", "silk");
+  stuff.bend = 1e-12, stuff.twist = 1e-12;
+  const ThreadModel m = build({.stuff = stuff, .length = 0.15, .drag = 0});
+  ThreadState s = laid(m, straight({}, {0, 0, -1}, m.length));
+  ThreadWork w = make_work(m);
+  take_hold(m, s, 0, 0);
+  const Hold holds[1] = {};
+  // about its first shape, J0(2.4048 sqrt(1 - depth / length))
+  for (int i = 0; i < m.nodes; ++i) s.x[i].x += 0.002 * bessel_j0(2.4048 * std::sqrt(1 - double(i) / (m.nodes - 1)));
+  std::vector<double> crossings;  // [s]
+  double before = s.x[m.nodes - 1].x;
+  for (int k = 1; k <= 3000; ++k) {
+    advance(m, {.holds = holds}, {}, s, w);
+    const double now = s.x[m.nodes - 1].x;
+    if ((before > 0) != (now > 0)) crossings.push_back(1e-3 * (k - now / (now - before)));
+    before = now;
+  }
+  ASSERT_GE(crossings.size(), 6u);
+  const double omega = portable::pi * double(crossings.size() - 1) / (crossings.back() - crossings.front());
+  expect_ratio("J12, frequency of a hanging chain", omega, 1.2024 * std::sqrt(9.81 / m.length), 0.02);
+}
+
+// J 15: not inextensible, but stretched by T / EA.
+TEST(Thread, FiveNewtonStretchItByItsOwnStiffness) {
+  for (const auto& [size, make] : {std::pair{"3-0", "PDS"}, std::pair{"2-0", "silk"}}) {
+    const ThreadStuff stuff = elastic(size, make);
+    const ThreadModel m = build({.stuff = stuff, .length = 0.15, .gravity = {}});
+    ThreadState s = laid(m, straight({}, {1, 0, 0}, m.length));
+    ThreadWork w = make_work(m);
+    take_hold(m, s, 0, 0), take_hold(m, s, 1, m.length);
+    Hold holds[2];
+    holds[1].x = s.x[m.nodes - 1];
+    HoldReaction pulls[2];
+    for (int k = 0; k < 4000 && pulls[0].force.x < 5; ++k) {
+      holds[1].x.x += 1e-5;
+      advance(m, {.holds = holds}, {.holds = pulls}, s, w);
+    }
+    for (int k = 0; k < 300; ++k) advance(m, {.holds = holds}, {.holds = pulls}, s, w);
+    ASSERT_NEAR(pulls[0].force.x, 5, 0.2);
+    const double strain = (s.x[m.nodes - 1].x - s.x[0].x) / m.length - 1;
+    std::printf("%s %s: %.2f %% at %.2f N\n", size, make, 100 * strain, pulls[0].force.x);
+    expect_ratio("J15, strain over T / EA", strain, pulls[0].force.x / stuff.stretch, 0.01);
+  }
 }
 
 /// Stands on its clamped lower end, pushed aside a little; how far its tip is off after a while, over before.

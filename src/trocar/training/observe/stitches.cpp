@@ -68,6 +68,20 @@ int passages_through(const sim::State& state, BodyId body) {
   return count;
 }
 
+double clip_to_hole(const interactions::SutureState& suture) {
+  double least = -1;
+  const suture::ThreadState& thread = suture.thread;
+  for (int k = 0; k < thread.clip_count; ++k)
+    for (int i = 0; i < thread.clips[std::size_t(k)].count; ++i)
+      for (int h = 0; h < suture.hole_count; ++h) {
+        const interactions::SutureHole& hole = suture.holes[std::size_t(h)];
+        if (hole.slot < 0 || hole.kind == interactions::SutureHole::track) continue;
+        const double off = std::fabs(thread.clips[std::size_t(k)].s[std::size_t(i)] - double(hole.arc));
+        if (least < 0 || off < least) least = off;
+      }
+  return least;
+}
+
 int held_of_suture(const sim::Model& model, const sim::State& state, std::size_t hand) {
   const interactions::ToolState& tool = state.tools[hand];
   if (tool.holds == 0 || !tool.hold[0].body.is(BodyKind::suture)) return 0;

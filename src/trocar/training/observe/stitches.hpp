@@ -25,6 +25,9 @@ double bite_to_mark(const sim::Model& model, const sim::State& state, int target
 int passages_through(const sim::State& state, BodyId body);
 /// What the hand holds of it: 0 nothing, 1 the needle, 2 the thread.
 int held_of_suture(const sim::Model& model, const sim::State& state, std::size_t hand);
+/// Thread between a clip's legs and the nearest end of a way through tissue, of several clips the nearest [m]. Below 0:
+/// there is none, or the thread goes through nothing.
+double clip_to_hole(const interactions::SutureState& suture);
 /// Is the needle's middle or its tip where the endoscope points?
 bool needle_in_picture(const sim::Model& model, const sim::State& state);
 /// From the first throw to the nearest place of the bite: a straight line between places where the thread goes into

@@ -16,6 +16,11 @@ Value peak(const Moment& moment, const Arguments&) { return suture_of(moment.sta
 Value strain(const Moment& moment, const Arguments&) { return suture_of(moment.state).strain; }
 Value torn(const Moment& moment, const Arguments&) { return double(suture_of(moment.state).torn); }
 Value clips(const Moment& moment, const Arguments&) { return double(suture_of(moment.state).thread.clip_count); }
+/// Of the thread, from the clip that is nearest to tissue to where it goes in.
+Value clip_to_tissue(const Moment& moment, const Arguments&) {
+  const double off = clip_to_hole(suture_of(moment.state));
+  return off >= 0 ? Value(off) : kUnknown;
+}
 Value broken(const Moment& moment, const Arguments&) { return suture_of(moment.state).broken != 0; }
 Value harmed(const Moment& moment, const Arguments&) {
   const interactions::SutureState& s = suture_of(moment.state);
@@ -90,6 +95,14 @@ const Fact kSutureBroken{"suture.broken",    {},  0, 1, "The thread was pulled a
 const Fact kSutureClips{
     "suture.clips",   {}, 0, suture::kMostThreadClips, "How many clips sit on the thread.", needs_thread,
     &stateless<clips>};
+const Fact kSutureClipToTissue{"suture.clip_to_tissue_mm",
+                               {},
+                               0,
+                               1000,
+                               "Length of thread from a clip on it to the nearest place where it goes into tissue or "
+                               "comes out; of several clips the nearest. Unknown without a clip, or a stitch.",
+                               needs_thread,
+                               &stateless<clip_to_tissue>};
 const Fact kSutureHarmed{
     "suture.harmed",    {},  0, 1, "A stitch was pulled at with more than its tissue bears unharmed.", needs_suture,
     &stateless<harmed>, true};
