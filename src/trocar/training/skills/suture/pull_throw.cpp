@@ -71,7 +71,7 @@ class PullThrow final : public Skill {
       if (m_off_for > kStays || m_in_phase > kLongestOff) go(kPost);
       return Progress::working;
     }
-    const double tail = tying::felt_by(op, m_hand), other = tying::felt_by(op, m_with);
+    const double tail = tying::felt_by(op, m_hand, m_dir), other = tying::felt_by(op, m_with, -m_dir);
     const auto pace_at = [&](double pull) { return pull > kSlowly ? kTight : kPace; };
     const double step = pace_at(other) * sim::kTick;
     const Vec3d above = stitch + kAbove * tying::upwards(op);

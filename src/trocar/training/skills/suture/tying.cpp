@@ -21,10 +21,10 @@ double pull_of(const Operator& op, int hand) {
   return length(Vec3d{held[0], held[1], held[2]});
 }
 
-double felt_by(const Operator& op, int hand) {
+double felt_by(const Operator& op, int hand, Vec3d against) {
   const double(&held)[3] = op.tool_state(hand).pull;
   const double(&touched)[3] = op.tool_state(hand).contact_force;
-  return length(Vec3d{held[0] + touched[0], held[1] + touched[1], held[2] + touched[2]});
+  return std::max(0.0, -dot(Vec3d{held[0] + touched[0], held[1] + touched[1], held[2] + touched[2]}, against));
 }
 
 Vec3d upwards(const Operator& op) { return -normalised(op.model().gravity, {0, 0, -1}); }

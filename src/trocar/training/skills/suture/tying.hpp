@@ -13,9 +13,9 @@ namespace trocar::training::tying {
 Vec3d held_thread(const Operator& op, int hand);
 /// Of what the hand holds at it [N].
 double pull_of(const Operator& op, int hand);
-/// Of that and of whatever its instrument touches: a thread's end that lies round the jaws that hold it pulls at their
-/// outside [N].
-double felt_by(const Operator& op, int hand);
+/// Against a way that it is drawn, of that and of whatever its instrument touches: a thread's end that lies round the
+/// jaws that hold it pulls at their outside [N].
+double felt_by(const Operator& op, int hand, Vec3d against);
 /// Against gravity.
 Vec3d upwards(const Operator& op);
 /// The middle of the stitch, as high as the highest place where thread lies in tissue; jaws stay above it.

@@ -20,36 +20,53 @@ class Wrap final : public Skill {
         m_pull(given.number("pull_N", 0.3)) {}
 
  private:
-  enum Phase { kStand, kBegin, kTurn };
-  static constexpr double kMostMore = 4;                                                  // turns made again
+  enum Phase { kLay, kStand, kBegin, kTurn };
+  static constexpr double kMostMore = 2.5;                                                // turns made again
   static constexpr double kBeyond = 0.32, kUp = 0.3, kRadius = 0.21, kAhead = -0.18;      // of the thread that is free
-  static constexpr double kMostUsed = 0.112;                                              // [m] of it: there is a lid
+  static constexpr double kMostUsed = 0.118;                                              // [m] of it: there is a lid
+  static constexpr double kLaidBack[] = {0.5, 0, 0.7}, kLaidAside = 0.7, kLaidUp = 0.4;   // of it
+  static constexpr double kTaut = 0.1, kLongestLay = 5;                                   // [N], [s]
   static constexpr double kLongestStand = 6;                                              // [s]
   static constexpr double kSeenOf = 0.9;                                                  // of it is seen to be taut
   static constexpr double kSpare = 0.4;                                                   // of a turn, that is lost
   static constexpr double kPace = 0.035, kTighter = 0.03, kWider = 0.02, kLeast = 0.004;  // [m/s], [m]
 
-  void start(Operator& op, int) override {
+  void start(Operator& op, int tries) override {
     m_angle = 0;
     // with more thread the jaws stand farther from the stitch, as what is wound hangs between them
-    Vec3d stitch = op.arm(m_around).tip;
-    tying::find_stitch(op, stitch);
+    m_stitch = op.arm(m_around).tip;
+    tying::find_stitch(op, m_stitch);
     m_free = tying::free_thread(op, m_hand);
     const double size = std::min(m_free, kMostUsed);
-    const Vec3d up = tying::upwards(op), across = stitch - op.arm(m_around).port;
-    m_stand = stitch + kBeyond * size * normalised(across - dot(across, up) * up) + kUp * size * up;
+    const Vec3d up = tying::upwards(op), across = m_stitch - op.arm(m_around).port;
+    m_stand = m_stitch + kBeyond * size * normalised(across - dot(across, up) * up) + kUp * size * up;
     m_radius = kRadius * size, m_ahead = kAhead * size;
+    if (tries == 0) return go(kStand);
+    const Vec3d back = -normalised(across - dot(across, up) * up), beside = cross(up, back);
+    const double side = dot(tying::held_thread(op, m_hand) - m_stitch, beside) < 0 ? -1 : 1;
+    m_laid = m_stitch + size * (kLaidBack[(tries - 1) % 3] * back + side * kLaidAside * beside + kLaidUp * up);
+  }
+  /// What has come off is drawn straight, from another side each time, so that its slack does not bend as it did.
+  bool laid(Operator& op, Vec3d q) const {
+    const bool away = dot(m_laid - q, q - m_stitch) > 0;
+    const bool taut = tying::tension_from(op, m_hand, kSeenOf * m_free) > kTaut;
+    return (away && taut) || tying::lead(op, m_hand, m_laid, pace::kTravel) || m_in_phase > kLongestLay;
   }
   Progress work(Operator& op) override {
     if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) == 0) return fail("the jaws have lost the thread");
     op.want(op.arm(m_around).tip);
     op.want(op.arm(m_hand).tip);
     const Vec3d q = tying::held_thread(op, m_hand);
+    if (m_phase == kLay) {
+      turn_swage(op, m_stitch - q);
+      if (laid(op, q)) go(kStand);
+      return Progress::working;
+    }
     if (m_phase == kStand) {
       if (!op.arms().grip(m_around, 1, 0.5)) return Progress::working;  // open, they would take thread along
       const bool stands = op.arms().move(m_around, m_stand, pace::kTravel);
       m_axis = normalised(op.arm(m_around).tip - op.arm(m_around).port);
-      if ((turn_swage(op, -m_axis) && stands) || m_in_phase > kLongestStand) {
+      if ((turn_swage(op, m_stitch - q) && stands) || m_in_phase > kLongestStand) {
         m_centre = op.arm(m_around).tip + m_ahead * m_axis;
         const Vec3d off = q - m_centre;
         m_from = normalised(off - dot(off, m_axis) * m_axis, any_perpendicular(m_axis));
@@ -60,7 +77,7 @@ class Wrap final : public Skill {
       return Progress::working;
     }
     if (m_phase == kBegin) {
-      turn_swage(op, m_centre - q);
+      turn_swage(op, m_stitch - q);
       if (tying::lead(op, m_hand, m_centre + m_now * m_from, pace::kTravel)) go(kTurn);
       return Progress::working;
     }
@@ -112,7 +129,7 @@ class Wrap final : public Skill {
   double m_turns;
   int m_sense;
   double m_pull, m_free = 0, m_radius = 0, m_ahead = 0, m_angle = 0, m_now = 0;
-  Vec3d m_stand, m_axis, m_centre, m_from, m_to;
+  Vec3d m_stitch, m_laid, m_stand, m_axis, m_centre, m_from, m_to;
 };
 
 }  // namespace
