@@ -223,7 +223,9 @@ class Resting {
     if (nearest && nearest->distance - radius < kSkinAhead && !(on_skin && on.distance < nearest->distance)) {
       c = {n, nearest->point, nearest->normal, {0, 0, 0}, kHardStiffness, -1};
     } else if (on_skin) {
-      c = {n, on.point + m_dt * on.velocity, on.normal, on.velocity, kBodyStiffness, -1};
+      // what is found deep in it comes out as bodies do
+      const double deeper = std::max(0.0, radius - on.distance - kQuickestApart);
+      c = {n, on.point + m_dt * on.velocity - deeper * on.normal, on.normal, on.velocity, kBodyStiffness, -1};
       if (on.distance < radius) push_tissue(m_bodies, on, radius - on.distance, m_loads);
     } else {
       keep_in_cavity(n, p, c);
