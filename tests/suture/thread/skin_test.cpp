@@ -23,7 +23,7 @@ double pressed(double deep) {
   take_hold(m, s, 0, node * m.spacing);
   const std::vector<Hold> holds{{.x = s.x[std::size_t(node)], .friction_limit = 20}};
   std::vector<SkinContact> skins(std::size_t(m.nodes));
-  skins[std::size_t(node)] = {.node = node, .point = {0, 0, deep}, .stiffness = 150};
+  skins[std::size_t(node)] = {.node = node, .point = {0, 0, deep}, .stiffness = 150, .hardens = m.stuff.diameter};
   std::vector<Vec3d> forces(std::size_t(m.nodes));
   for (int k = 0; k < 20; ++k) advance(m, {.holds = holds, .skins = skins}, {.skins = forces}, s, w);
   return length(forces[std::size_t(node)]);

@@ -226,7 +226,8 @@ class Resting {
     } else if (on_skin) {
       // what is found deep in it comes out as bodies do
       const double deeper = std::max(0.0, radius - on.distance - kQuickestApart);
-      c = {n, on.point + m_dt * on.velocity - deeper * on.normal, on.normal, on.velocity, kBodyStiffness, -1};
+      c = {n,         on.point + m_dt * on.velocity - deeper * on.normal, on.normal, on.velocity, kBodyStiffness, -1,
+           2 * radius};
       if (on.distance < radius) push_tissue(m_bodies, on, radius - on.distance, m_loads);
     } else {
       keep_in_cavity(n, p, c);
