@@ -200,6 +200,23 @@ TEST(Suture, ThreadBetweenBladesStaysThereUntilTheyCutIt) {
   EXPECT_NEAR(double(std::find(alive.begin(), alive.end(), 0) - alive.begin()), s.node, 12);
 }
 
+TEST(Suture, ThreadFoundDeepInThePadComesOutAndIsNotThrown) {
+  NeedleDriver d(box(), right_hand());
+  suture::ThreadState& thread = d.state.objects.sutures.front().thread;
+  const Vec3d swage = thread.x[0], deep{0.028, 0.080, -0.0715}, end{-0.028, 0.080, -0.0715};
+  thread = suture::laid(d.model().thread, std::vector<Vec3d>{swage, deep, end});
+  suture::take_hold(d.model().thread, thread, interactions::kSwageSlot, 0);
+  const int first = int((length(deep - swage) + 0.005) / d.model().thread.spacing), last = first + 80;
+  ASSERT_LT(last, d.model().thread.nodes);
+  double fastest = 0;
+  for (int i = 0; i < 100; ++i) {
+    d.step();
+    for (int n = first; n < last; ++n) fastest = std::max(fastest, length(d.suture().thread.v[size_t(n)]));
+  }
+  for (int n = first; n < last; ++n) EXPECT_GT(d.suture().thread.x[size_t(n)].z, -0.0703) << n;
+  EXPECT_LT(fastest, 1.0);  // [m/s]
+}
+
 TEST(Suture, KeyframesHoldNeedleAndThread) {
   const NeedleDriver& d = driven();
   const std::vector<std::uint8_t> bytes = sim::display_bytes(box(), d.state);

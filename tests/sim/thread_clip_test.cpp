@@ -207,6 +207,24 @@ TEST(ThreadClip, WithNothingBetweenItsJawsAClipIsDroppedAsBefore) {
   EXPECT_EQ(a.events[size_t(sim::Event::dropped_clip)], 1);
 }
 
+TEST(ThreadClip, ClosedLegsWithoutThreadBetweenThemPushItAsideAndAreNotEntered) {
+  Applier a;
+  a.close();
+  ASSERT_EQ(a.events[size_t(sim::Event::dropped_clip)], 1);
+  a.lay(1, 0.004, 0.009);
+  const Vec3d up = a.shape().frame.opening();
+  double nearest = 1;
+  for (int i = 0; i < 200; ++i) {
+    a.tip += 2e-5 * up, a.lead(1), a.step();
+    const interactions::ToolShape legs = a.shape();
+    for (const Vec3d& x : a.thread().x)
+      for (const int part : {interactions::kJawA, interactions::kJawB})
+        nearest = std::min(nearest, length(x - collision::nearest_on_axis(legs.rod(part), x)) - legs.rod(part).radius);
+  }
+  EXPECT_LT(nearest, a.model().stuff.diameter) << "they never met";
+  EXPECT_GT(nearest, 0.25 * a.model().stuff.diameter);
+}
+
 TEST(ThreadClip, ASecondOneFitsBesideTheFirst) {
   Applier a = closed(1);
   a.hold_as_it_lies();

@@ -76,4 +76,23 @@ SkinPoint nearest_skin_point(const Surface& surface, int vertex, Vec3d p) noexce
   return best;
 }
 
+bool encloses(const Surface& surface, Vec3d p) noexcept {
+  constexpr double kLeansX = 0.0137, kLeansY = 0.0071;  // of a ray that rises, so that it meets no upright wall flatly
+  const tissue::Skin& skin = *surface.skin;
+  bool inside = false;
+  const auto seen_along = [&](int v) {
+    const Vec3d off = surface.position(v) - p;
+    return Vec3d{off.x - kLeansX * off.z, off.y - kLeansY * off.z, off.z};
+  };
+  for (const auto& t : skin.triangles) {
+    const Vec3d u = seen_along(t[0]), v = seen_along(t[1]), w = seen_along(t[2]);
+    const double uv = u.x * v.y - u.y * v.x, vw = v.x * w.y - v.y * w.x, wu = w.x * u.y - w.y * u.x;
+    if ((uv > 0) != (vw > 0) || (uv > 0) != (wu > 0)) continue;
+    if (!((vw * u.z + wu * v.z + uv * w.z) / (uv + vw + wu) > 0)) continue;
+    if (surface.torn(t[0]) || surface.torn(t[1]) || surface.torn(t[2])) return true;
+    inside = !inside;
+  }
+  return inside;
+}
+
 }  // namespace trocar::interactions

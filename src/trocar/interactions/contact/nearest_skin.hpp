@@ -24,4 +24,8 @@ SkinPoint nearest_on_faces(const Surface& surface, int vertex, Vec3d p) noexcept
 /// The same with it.
 SkinPoint nearest_skin_point(const Surface& surface, int vertex, Vec3d p) noexcept;
 
+/// Is p inside? By a ray through all of the skin: for what the side of the nearest triangle cannot tell, as where a lip
+/// is turned over. Where the ray goes through skin that is torn, it says yes.
+bool encloses(const Surface& surface, Vec3d p) noexcept;
+
 }  // namespace trocar::interactions

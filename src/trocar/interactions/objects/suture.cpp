@@ -47,6 +47,20 @@ Vec3d grip_of(const SutureModel& m, std::int32_t place) noexcept {
   return m.needle.place(s) + 0.5 * m.needle.wire * side[place % kAroundWire];
 }
 
+/// Legs that are about to set their clip, or have set it on a thread that still lies between them.
+bool stands_astride(const Suture::States& states, const ToolModel& tool, const ToolState& state,
+                    const ToolShape& shape) noexcept {
+  constexpr double kBeside = 0.003;  // [m]
+  if (state.armed > 0) return true;
+  for (const SutureState& s : states)
+    for (int k = 0; k < s.thread.clip_count; ++k) {
+      const Vec3d at = to_jaw(shape, s.thread.clips[size_t(k)].at);
+      const bool along = at.z > -kBeside && at.z < tool.jaw_length + kBeside;
+      if (along && std::fabs(at.x) < kBeside && std::fabs(at.y) < kBeside) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 std::int32_t grips_of(const suture::NeedleModel& needle) {
@@ -161,17 +175,18 @@ void Suture::clear(Work& all) noexcept {
   }
 }
 
-void Suture::touch(const Models& models, const States&, const ObjectHand& hand, Work& all) noexcept {
+void Suture::touch(const Models& models, const States& states, const ObjectHand& hand, Work& all) noexcept {
   if (models.list.empty()) return;
   const ToolShape& shape = hand.touching.shape;
   const Hold* held = hand.state.holds > 0 && hand.state.hold[0].body.is(kKind) ? &hand.state.hold[0] : nullptr;
   const double at_clip = hand.tool.jaw_length - 0.5 * hand.tool.clip_length;
-  const bool closing = shape.half_opening(at_clip) < kClipGathers;
+  const bool closed = hand.tool.can().set_clips && shape.half_opening(at_clip) < kClipGathers;
+  const bool astride = closed && stands_astride(states, hand.tool, hand.state, shape);
   for (int part = kShaft; part < end_of(shape) && all.rods.size() < all.rods.capacity(); part = next(part)) {
     SutureRod rod{hand.touching.before.rod(part), shape.rod(part), {Owner::tool_contact, hand.touching.tool, 0}};
     rod.slot = hand.touching.tool * kRodSlots + (part < kToolParts ? part : kToolParts + part - kFirstLink);
     rod.cuts = is_jaw(part) && hand.tool.can().cut;
-    rod.astride = is_jaw(part) && hand.tool.can().set_clips && closing;
+    rod.astride = is_jaw(part) && astride;
     if (held && is_jaw(part)) {
       rod.held = std::int32_t(held->body.index());
       rod.holds_needle = on_needle(models.list[size_t(rod.held)], held->element);

@@ -13,6 +13,7 @@ namespace {
 constexpr double kSkinReach = 0.006;      // [m] farther from a skin's vertices, it is not looked at
 constexpr double kSkinAhead = 0.0004;     // [m] contacts are there before they touch
 constexpr double kDeepestRest = 0.0025;   // [m] deeper is another side of the body
+constexpr double kSureOfSide = 0.00005;   // [m] below a skin from which on a node's side is made sure of
 constexpr std::uint64_t kLooksAnew = 16;  // ticks in which each bead and node looks for its skin anew
 constexpr double kCalms = 0.5;            // of what tissue resists, as damping beside a needle
 constexpr double kTurnsTo = 0.02;         // of the way a tick: skin under a tip is as it was for some 50 ms. Ours
@@ -214,7 +215,7 @@ class Resting {
     const NearSkin on = look(i, p, anew);
     suture::SkinContact& c = m_work.skins[size_t(n)];
     const bool on_skin = on.there() && on.distance - radius < kSkinAhead && on.distance > -kDeepestRest &&
-                         !goes_through(m_model, m_state, on.body, s, false) && !strangled(on.body);
+                         !goes_through(m_model, m_state, on.body, s, false) && !strangled(on.body) && !is_beside(on, p);
     // in a corner between both, what it is deeper in
     const WallPlaces walls = walls_near(m_models.walls, p);
     const WallPlace* nearest = nullptr;
@@ -223,11 +224,18 @@ class Resting {
     if (nearest && nearest->distance - radius < kSkinAhead && !(on_skin && on.distance < nearest->distance)) {
       c = {n, nearest->point, nearest->normal, {0, 0, 0}, kHardStiffness, -1};
     } else if (on_skin) {
-      c = {n, on.point + m_dt * on.velocity, on.normal, on.velocity, kBodyStiffness, -1};
+      // what is found deep in it comes out as bodies do
+      const double deeper = std::max(0.0, radius - on.distance - kQuickestApart);
+      c = {n,         on.point + m_dt * on.velocity - deeper * on.normal, on.normal, on.velocity, kBodyStiffness, -1,
+           2 * radius};
       if (on.distance < radius) push_tissue(m_bodies, on, radius - on.distance, m_loads);
     } else {
       keep_in_cavity(n, p, c);
     }
+  }
+  /// Below a patch of skin, but not in the organ: another side of it is nearer, whose vertices are farther away.
+  bool is_beside(const NearSkin& on, Vec3d p) const noexcept {
+    return on.body.is(BodyKind::organ) && on.distance < -kSureOfSide && !encloses(skin_of(m_bodies, on.body), p);
   }
   void keep_in_cavity(int n, Vec3d p, suture::SkinContact& c) const noexcept {
     for (int k = 0; k < 3; ++k) {

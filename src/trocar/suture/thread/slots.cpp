@@ -47,6 +47,16 @@ double turning(const Tick& t, int k, Vec3d across) {
   return std::max(1.0, 1 + dot(across, bend) / (t.m.spacing * t.m.spacing));
 }
 
+/// What hardens below a skin keeps a node that is pulled against it from going in. What is found deeper did not come
+/// there by a pull.
+void set_skin_press(Touch& touch, const SkinContact& c, double thickness, double gap) {
+  const bool deep = c.hardens > 0 && gap < -c.hardens;
+  set_press(touch, c.stiffness, thickness, deep ? -c.hardens : gap);
+  if (!deep) return;
+  touch.stiffness = touch.press / c.hardens;
+  touch.press = touch.stiffness * -gap;
+}
+
 /// A solve that was not taken in full says how hard the thread would press had it gone all of its way; and what holds
 /// it is strained by what is left of that.
 void keep_to_what_pulls(const Tick& t, std::span<ObstacleReaction> presses) {
@@ -171,7 +181,7 @@ Touch skin_touch(const Tick& t, int k) noexcept {
   const double gap = dot(x - c.point, c.normal) - 0.5 * t.m.stuff.diameter;
   Touch touch{.a = c.node, .b = k, .normal = c.normal};
   if (gap >= 0.02 * t.m.stuff.diameter) return touch;
-  set_press(touch, c.stiffness, t.m.stuff.diameter, gap);
+  set_skin_press(touch, c, t.m.stuff.diameter, gap);
   if (t.s.skins[k].node == c.node) {
     touch.strain = t.s.skins[k].rub.strain - dot(t.s.skins[k].rub.strain, c.normal) * c.normal;
     touch.reached = t.s.skins[k].rub.reached;

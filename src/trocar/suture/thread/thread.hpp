@@ -178,6 +178,7 @@ struct SkinContact {
   Vec3d velocity{0, 0, 0};  ///< of the skin there [m/s]
   double stiffness = 1000;  ///< of the tissue there [N/m]
   double friction = -1;     ///< below 0: the thread's on tissue
+  double hardens = 0;       ///< so far below it; deeper it is no harder than there [m]; 0: all the way
 };
 /// A point of tissue that the thread goes through. The thread slides through it, by friction: its drag, and the
 /// friction of the force that turns it there (so tensions keep to T2 <= T1 e^(mu theta) + drag).
