@@ -23,7 +23,7 @@ class Wrap final : public Skill {
   enum Phase { kLay, kStand, kBegin, kTurn };
   static constexpr double kMostMore = 2.5;                                                // turns made again
   static constexpr double kBeyond = 0.32, kUp = 0.3, kRadius = 0.21, kAhead = -0.18;      // of the thread that is free
-  static constexpr double kMostUsed = 0.118;                                              // [m] of it: there is a lid
+  static constexpr double kMostUsed = 0.112;                                              // [m] of it: there is a lid
   static constexpr double kLaidBack[] = {0.5, 0, 0.7}, kLaidAside = 0.7, kLaidUp = 0.4;   // of it
   static constexpr double kTaut = 0.1, kLongestLay = 5;                                   // [N], [s]
   static constexpr double kLongestStand = 6;                                              // [s]
@@ -66,7 +66,7 @@ class Wrap final : public Skill {
       if (!op.arms().grip(m_around, 1, 0.5)) return Progress::working;  // open, they would take thread along
       const bool stands = op.arms().move(m_around, m_stand, pace::kTravel);
       m_axis = normalised(op.arm(m_around).tip - op.arm(m_around).port);
-      if ((turn_swage(op, m_stitch - q) && stands) || m_in_phase > kLongestStand) {
+      if ((turn_swage(op, -m_axis) && stands) || m_in_phase > kLongestStand) {
         m_centre = op.arm(m_around).tip + m_ahead * m_axis;
         const Vec3d off = q - m_centre;
         m_from = normalised(off - dot(off, m_axis) * m_axis, any_perpendicular(m_axis));
@@ -77,7 +77,6 @@ class Wrap final : public Skill {
       return Progress::working;
     }
     if (m_phase == kBegin) {
-      turn_swage(op, m_stitch - q);
       if (tying::lead(op, m_hand, m_centre + m_now * m_from, pace::kTravel)) go(kTurn);
       return Progress::working;
     }
@@ -110,17 +109,14 @@ class Wrap final : public Skill {
   /// other's too if these do not turn along.
   bool turn_swage(Operator& op, Vec3d towards) const {
     if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 1) return true;
-    constexpr double kTurns = 3, kNear = 0.06, kOwn = 2, kSeen = 0.3;  // [rad/s] [rad], sine of the angle to the shaft
+    constexpr double kTurns = 2, kNear = 0.06, kSeen = 0.3;  // [rad/s] [rad], sine of the angle to the shaft
     Arms::Arm& arm = op.arm(m_hand);
     const suture::NeedleModel& m = suture_of(op.model()).needle;
     const Vec3d axis = normalised(arm.tip - arm.port), to = normalised(towards, axis);
-    // what is wound round these jaws already is unwound first
-    double off = portable::two_pi * wraps_around(op.model(), op.state(), std::size_t(m_hand));
-    if (std::fabs(off) < kOwn) {
-      if (length(cross(axis, to)) < kSeen) return true;
-      const Vec3d leaves = -suture::needle_direction(m, suture_of(op.state()).needle, m.length);
-      off = portable::atan2(dot(cross(leaves, to), axis), dot(leaves, to) - dot(axis, leaves) * dot(axis, to));
-    }
+    if (length(cross(axis, to)) < kSeen) return true;
+    const Vec3d leaves = -suture::needle_direction(m, suture_of(op.state()).needle, m.length);
+    const double off =
+        portable::atan2(dot(cross(leaves, to), axis), dot(leaves, to) - dot(axis, leaves) * dot(axis, to));
     arm.roll -= std::clamp(off, -kTurns * sim::kTick, kTurns * sim::kTick);
     return std::fabs(off) < kNear;
   }
