@@ -47,6 +47,7 @@ using Slip = std::function<void(sim::Input& input, const sim::State& state, cons
 struct Performed {
   Monitor monitor;
   sim::State state;
+  sim::Input last{};  ///< where hands are at the end
   bool gave_up = false;
   std::string difficulties;
 
@@ -60,6 +61,7 @@ struct Performed {
     for (int after = 0; !performer.done() && after < kAfter && int(state.tick) < kLongest;) {
       sim::Input input = performer.next(model, state);
       if (slip) slip(input, state, monitor);
+      last = input;
       const sim::StepReport report = step(model, input, state, work);
       performer.after(model, state, report);
       monitor.update(model, state, report);
