@@ -24,6 +24,7 @@
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/expert/performer.hpp>
 #include <trocar/training/observe/hands.hpp>
+#include <trocar/training/observe/stitches.hpp>
 
 #include "fingers.hpp"
 
@@ -170,8 +171,13 @@ class DeviceRobot {
   Vec3d goal(int hand, const sim::ToolInput& in, const sim::State& state) const {
     return hand == m_side[kLeft] ? tip(hand, in) + sway(state) : tip(hand, in);
   }
-  /// Jaws look the same after half a turn, a hook's foot does not.
-  static double turn_left(double angle, Grip grip) { return grip == Grip::jaws ? half_turn(angle) : full_turn(angle); }
+  /// Jaws look the same after half a turn, a hook's foot and a needle that is held do not.
+  bool looks_same_after_half(int hand, const sim::State& state) const {
+    return grip_of(hand, state) == Grip::jaws && training::held_of_suture(m_model, state, std::size_t(hand)) == 0;
+  }
+  double turn_left(double angle, int hand, const sim::State& state) const {
+    return looks_same_after_half(hand, state) ? half_turn(angle) : full_turn(angle);
+  }
   Lag lag_of(int h, const sim::State& state) const {
     if (exchanges(h, state)) return {};
     const sim::ToolInput& wanted = m_wanted.tools[h];
@@ -181,7 +187,7 @@ class DeviceRobot {
     // what a wall keeps from where it is wanted has been brought as near as a hand can
     const double way = std::min(length(to - training::tip_of(m_model, state, std::size_t(h))),
                                 length(to - tip(h, m_commanded.tools[h])));
-    return {way, std::fabs(turn_left(double(wanted.roll) - tool.roll, grip_of(h, state))),
+    return {way, std::fabs(turn_left(double(wanted.roll) - tool.roll, h, state)),
             jaws ? std::fabs(double(wanted.handle) - tool.handle) : 0};
   }
 
@@ -275,10 +281,10 @@ class DeviceRobot {
     }
     const double rolled = double(m_commanded.tools[hand].roll) - double(m_old.commanded.tools[hand].roll);
     const double now = m_old.tool[h].roll + kKnown * rolled;
-    double turn = turn_left(double(wanted.roll) - now, wish.grip);
+    double turn = turn_left(double(wanted.roll) - now, hand, state);
     // a wrist that can turn no further goes round the other way
     const double most = m_model.hands[h].rack[std::size_t(state.tools[h].instrument)].limits.roll - 0.05;
-    const double round = wish.grip == Grip::jaws ? portable::pi : 2 * portable::pi;
+    const double round = looks_same_after_half(hand, state) ? portable::pi : 2 * portable::pi;
     if (now + turn > most) turn -= round;
     if (now + turn < -most) turn += round;
     wish.roll = -turn;

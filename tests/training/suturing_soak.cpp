@@ -1,5 +1,5 @@
 // A stitch and its knot as they are shown: the stitch on seeds on which the needle once was thrown off the pad, or the
-// thread parted at its swage; the knot on three, and then pulled.
+// thread parted at its swage; the knot on twenty, and then pulled; a knot of throws that are alike beside it.
 #include <trocar/training/observe/stitches.hpp>
 #include <trocar/training/skills/registry.hpp>
 

@@ -12,6 +12,7 @@
 #include <string>
 
 #include <trocar/sim/model/host_views.hpp>
+#include <trocar/suture/knots/knots.hpp>
 #include <trocar/training/operator/arms.hpp>
 #include <trocar/training/operator/camera_hand.hpp>
 #include <trocar/training/operator/posture.hpp>
@@ -92,6 +93,9 @@ class Operator {
   };
   Target& target(int hand) { return m_target[size_t(hand)]; }
 
+  /// What thread is tied in, for skills that watch it.
+  suture::KnownKnot& known_knot() { return m_knot; }
+
   /// What this hand holds up while others work. Not `up`: nothing.
   Posture& posture(int hand) { return m_posture[size_t(hand)]; }
   /// The hand that holds this strand up; -1: none does.
@@ -109,6 +113,7 @@ class Operator {
   std::array<std::array<int, 2>, sim::kMaxTools> m_jaws{};  ///< (hands) targets of their tips
   std::array<Target, sim::kMaxTools> m_target{};
   std::array<Posture, sim::kMaxTools> m_posture{};
+  suture::KnownKnot m_knot;
   std::array<Vec3d, 8> m_points{};
   int m_point_count = 0;
   double m_distance = 0;

@@ -39,6 +39,7 @@ class GraspTail final : public Skill {
     op.arms().move(m_with, op.arm(m_hand).tip + m_offset, 2 * pace::kTravel);
   }
   Progress work(Operator& op) override {
+    tying::watch(op);
     const interactions::SutureModel& m = suture_of(op.model());
     const interactions::SutureState& s = suture_of(op.state());
     const double at = m.thread.length - m_at - m_beside, ahead = 0.002;

@@ -23,15 +23,19 @@ class PullThrow final : public Skill {
  private:
   enum Phase { kLift, kOff, kPost, kDraw, kKeep, kLoosen };
   static constexpr double kPace = 0.025, kTight = 0.004, kFarthest = 0.14, kGive = 0.002, kAbove = 0.004,
-                          kLifted = 0.022, kGently = 0.15, kOffAt = 0.25, kStays = 0.5, kStillOn = 0.6, kFirmly = 0.5,
-                          kAside = 1, kStraight = 0.25, kSlowly = 0.05, kEven = 0.2, kMostOf = 0.8, kLongest = 6,
-                          kLongestOff = 14;  // [m/s], [m], [s]
+                          kLifted = 0.022, kLeastLifted = 0.006, kGently = 0.15, kOffAt = 0.25, kStays = 0.5,
+                          kStillOn = 0.6, kFirmly = 0.5, kAside = 1, kStraight = 0.25, kSlowly = 0.05, kEven = 0.2,
+                          kMostOf = 0.8, kLongest = 6, kLongestOff = 14, kSeenOf = 0.9;  // [m/s], [m], [s]
 
   void start(Operator& op, int) override {
     m_offset = op.arm(m_with).tip - op.arm(m_hand).tip;
     m_reach_now = m_reach, m_ahead_now = m_ahead;
     m_gone = 0, m_off_for = 0, m_kept = 0;
-    m_ties = knot_of(op.model(), op.state()).count > 0;
+    m_ties = tying::ties(op);
+    m_free = tying::free_thread(op, m_with);
+    // the jaws draw back out of what is wound, and the tail must be long enough for it
+    const double tail = tying::free_thread(op, m_hand);
+    m_lifted = m_ties ? std::clamp(tail - m_back, kLeastLifted, kLifted) : kLifted;
     m_dir = normalised(m_way, {1, 0, 0});
   }
   bool both_hold(const Operator& op) const {
@@ -39,6 +43,7 @@ class PullThrow final : public Skill {
            held_of_suture(op.model(), op.state(), std::size_t(m_with)) != 0;
   }
   Progress work(Operator& op) override {
+    tying::watch(op);
     if (!both_hold(op)) return fail("the jaws have lost the thread");
     op.want(op.arm(m_hand).tip);
     op.want(op.arm(m_with).tip);
@@ -46,8 +51,8 @@ class PullThrow final : public Skill {
     if (!tying::find_stitch(op, stitch)) return fail("the thread is in no tissue");
     if (m_phase == kLift) {  // as far above the tissue as the tail lets it, so that there is room ahead of the jaws
       const Vec3d up = tying::upwards(op), home = op.arm(m_hand).port - stitch;
-      const Vec3d high = stitch + kLifted * (up + 0.3 * normalised(home - dot(home, up) * up));
-      const bool lifted = tying::pull_of(op, m_hand) > kGently || op.arms().move(m_hand, high, pace::kCareful);
+      const Vec3d high = stitch + m_lifted * (up + 0.3 * normalised(home - dot(home, up) * up));
+      const bool lifted = tying::pull_of(op, m_hand) > kFirmly || op.arms().move(m_hand, high, pace::kCareful);
       op.arms().move(m_with, op.arm(m_hand).tip + m_offset, 2 * pace::kTravel);
       if (lifted || m_in_phase > kLongest) {
         m_far = op.tool_state(m_hand).depth - m_back;
@@ -62,10 +67,16 @@ class PullThrow final : public Skill {
       // would not slide
       const Vec3d axis = normalised(op.arm(m_hand).tip - op.arm(m_hand).port);
       const Vec3d ahead = tying::above_tissue(op, op.arm(m_hand).tip + m_ahead_now * normalised(axis - kAside * m_dir));
-      // what is wide comes off later
-      if (tying::pull_of(op, m_with) < kFirmly && tying::lead(op, m_with, ahead, pace::kCareful))
+      // what is wide comes off later; who pulls gives way, or what is wound is drawn tight round the jaws
+      const double thread = tying::tension_from(op, m_with, kSeenOf * m_free);
+      if (thread > kFirmly) {
+        tying::lead(op, m_with, op.arm(m_hand).tip, kTight);
+        m_ahead_now = std::max(0.0, m_ahead_now - kTight * sim::kTick);
+      } else if (tying::lead(op, m_with, ahead, pace::kCareful)) {
         m_ahead_now += 0.5 * kPace * sim::kTick;
-      if (tying::pull_of(op, m_hand) < kGently) op.arms().move_to_depth(m_hand, m_far, pace::kTrack);
+      }
+      if (tying::pull_of(op, m_hand) < kGently && thread < kFirmly)
+        op.arms().move_to_depth(m_hand, m_far, pace::kTrack);
       // loops that are off lie about the tail beside the jaws for a while, and are counted with what is on them
       m_off_for = left < kOffAt ? m_off_for + sim::kTick : 0;
       if (m_off_for > kStays || m_in_phase > kLongestOff) go(kPost);
@@ -87,13 +98,14 @@ class PullThrow final : public Skill {
     if (m_phase == kDraw) {
       if (m_gone == 0) m_gone = std::max(0.0, dot(above - tying::held_thread(op, m_with), m_dir));
       m_gone += step, tying::lead(op, m_with, above - m_gone * m_dir, pace_at(other));
-      if (other >= kStraight) go(kKeep);
+      if (other >= kStraight || tail >= kFirmly) go(kKeep);
       return m_gone > kFarthest ? fail("it does not come tight") : Progress::working;
     }
     if (m_phase == kKeep) {
       // evenly: who pulls more waits, or the throw turns over and what is tied is drawn off the tissue
-      if (tail < std::min(m_pull, other + kEven)) op.arm(m_hand).tip += pace_at(tail) * sim::kTick * m_dir;
-      if (other < std::min(m_pull, tail + 2 * kEven)) op.arm(m_with).tip -= step * m_dir;
+      const bool borne = std::max(tail, other) < m_pull + kEven;  // thread may lie about jaws that do not feel it
+      if (borne && tail < std::min(m_pull, other + kEven)) op.arm(m_hand).tip += pace_at(tail) * sim::kTick * m_dir;
+      if (borne && other < std::min(m_pull, tail + 2 * kEven)) op.arm(m_with).tip -= step * m_dir;
       m_kept += tail >= kMostOf * m_pull && other >= kMostOf * m_pull ? sim::kTick : 0;
       if (m_kept > m_rest || m_in_phase > kLongestOff) go(kLoosen);
       return Progress::working;
@@ -107,7 +119,7 @@ class PullThrow final : public Skill {
   int m_hand, m_with;
   Vec3d m_way;
   double m_pull, m_back, m_ahead, m_reach, m_rest, m_reach_now = 0, m_ahead_now = 0, m_far = 0, m_gone = 0,
-                                                   m_off_for = 0, m_kept = 0;
+                                                   m_off_for = 0, m_kept = 0, m_free = 0, m_lifted = 0;
   bool m_ties = false;
   Vec3d m_dir, m_offset;
 };

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <trocar/suture/thread/chain.hpp>
 #include <trocar/training/skills/suture/tying.hpp>
@@ -52,9 +53,25 @@ double held_at(const Operator& op, int hand) {
 }
 
 double free_thread(const Operator& op, int hand) {
-  const suture::KnotReading knot = knot_of(op.model(), op.state());
-  const double stitch = arc_to_stitch(op.model(), op.state());
-  return std::max(0.0, (knot.count > 0 ? std::min(knot.tail, stitch) : stitch) - held_at(op, hand));
+  constexpr double kAtStitch = 0.006;  // [m]: a knot lies there
+  const interactions::SutureState& s = suture_of(op.state());
+  const suture::ThreadModel& m = suture_of(op.model()).thread;
+  const double from = held_at(op, hand), way = from < arc_to_stitch(op.model(), op.state()) ? m.spacing : -m.spacing;
+  for (double arc = from; arc >= 0 && arc <= m.length; arc += way)
+    for (int i = 0; i < s.hole_count; ++i) {
+      const auto& hole = s.holes[std::size_t(i)];
+      if (hole.slot < 0) continue;
+      const Vec3d apart = suture::point_at(m, s.thread, arc) - suture::point_at(m, s.thread, double(hole.arc));
+      if (length(apart) < kAtStitch) return std::fabs(arc - from);
+    }
+  return std::max(0.0, way > 0 ? m.length - from : from);
+}
+
+bool ties(Operator& op) { return op.known_knot().update(knot_of(op.model(), op.state())).count > 0; }
+
+void watch(Operator& op) {
+  constexpr std::uint64_t kEvery = 500;  // ticks: reading a knot takes some milliseconds
+  if (op.state().tick % kEvery == 0) ties(op);
 }
 
 double tension_from(const Operator& op, int hand, double much) {

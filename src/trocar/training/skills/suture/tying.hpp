@@ -22,8 +22,12 @@ Vec3d upwards(const Operator& op);
 bool find_stitch(const Operator& op, Vec3d& middle);
 /// Where the hand holds the thread, or the needle that it hangs on [m].
 double held_at(const Operator& op, int hand);
-/// Thread between what the hand holds of it and the last throw, or the stitch [m].
+/// Thread between what the hand holds of it and the stitch, where knots lie [m].
 double free_thread(const Operator& op, int hand);
+/// Something is tied, as far as who has watched it knows: what has been drawn tight is hard to read.
+bool ties(Operator& op);
+/// Every tick while thread is tied: what it is tied in is seen now and then.
+void watch(Operator& op);
 /// The largest tension in that much thread beyond the hand that holds it; in throws that have been drawn tight there is
 /// some that is no business of the hand's [N].
 double tension_from(const Operator& op, int hand, double much);

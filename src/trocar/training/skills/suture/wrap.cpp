@@ -21,9 +21,11 @@ class Wrap final : public Skill {
 
  private:
   enum Phase { kLay, kStand, kBegin, kTurn };
-  static constexpr double kMostMore = 2.5;                                                // turns made again
-  static constexpr double kBeyond = 0.32, kUp = 0.3, kRadius = 0.21, kAhead = -0.18;      // of the thread that is free
-  static constexpr double kMostUsed = 0.112;                                              // [m] of it: there is a lid
+  static constexpr double kMostMore = 2.5;                                      // turns made again
+  static constexpr double kBeyond = 0.034, kRadius = 0.023, kBehind = 0.021;    // [m] of the stitch, of the jaws' tip,
+  static constexpr double kBeyondOf = 0.42, kRadiusOf = 0.3, kBehindOf = 0.28;  // and of thread that is short
+  static constexpr double kUp = 0.3;                                            // of the thread that is free
+  static constexpr double kMostUsed = 0.112;                                    // [m] of it: there is a lid
   static constexpr double kLaidBack[] = {0.5, 0, 0.7}, kLaidAside = 0.7, kLaidUp = 0.4;   // of it
   static constexpr double kTaut = 0.1, kLongestLay = 5;                                   // [N], [s]
   static constexpr double kLongestStand = 6;                                              // [s]
@@ -39,20 +41,23 @@ class Wrap final : public Skill {
     m_free = tying::free_thread(op, m_hand);
     const double size = std::min(m_free, kMostUsed);
     const Vec3d up = tying::upwards(op), across = m_stitch - op.arm(m_around).port;
-    m_stand = m_stitch + kBeyond * size * normalised(across - dot(across, up) * up) + kUp * size * up;
-    m_radius = kRadius * size, m_ahead = kAhead * size;
-    if (tries == 0) return go(kStand);
     const Vec3d back = -normalised(across - dot(across, up) * up), beside = cross(up, back);
+    m_stand = m_stitch - std::min(kBeyond, kBeyondOf * size) * back + kUp * size * up;
+    m_radius = std::min(kRadius, kRadiusOf * size), m_ahead = -std::min(kBehind, kBehindOf * size);
+    // for the first throw it has just been drawn straight
+    if (const bool first = !tying::ties(op); tries == 0 && first) return go(kStand);
     const double side = dot(tying::held_thread(op, m_hand) - m_stitch, beside) < 0 ? -1 : 1;
-    m_laid = m_stitch + size * (kLaidBack[(tries - 1) % 3] * back + side * kLaidAside * beside + kLaidUp * up);
+    m_laid = m_stitch + size * (kLaidBack[tries % 3] * back + side * kLaidAside * beside + kLaidUp * up);
   }
-  /// What has come off is drawn straight, from another side each time, so that its slack does not bend as it did.
+  /// Thread is drawn straight behind the jaws that it will be wound round, so that its slack does not bend before them;
+  /// from another side each time.
   bool laid(Operator& op, Vec3d q) const {
     const bool away = dot(m_laid - q, q - m_stitch) > 0;
     const bool taut = tying::tension_from(op, m_hand, kSeenOf * m_free) > kTaut;
     return (away && taut) || tying::lead(op, m_hand, m_laid, pace::kTravel) || m_in_phase > kLongestLay;
   }
   Progress work(Operator& op) override {
+    tying::watch(op);
     if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) == 0) return fail("the jaws have lost the thread");
     op.want(op.arm(m_around).tip);
     op.want(op.arm(m_hand).tip);
