@@ -3,8 +3,9 @@
 # three instruction sets, with one and two threads, every SIMD width, drawn and not drawn; then every recording is
 # verified by another build.
 #
-#   tools/determinism_matrix.sh [-k] [-i INPUT] [WORKDIR]
+#   tools/determinism_matrix.sh [-k] [-x EXERCISE] [-i INPUT] [WORKDIR]
 #       WORKDIR  default build/matrix; about an hour on two cores without ccache
+#       -x       default gynaecology/sterilisation; suturing/double-throw ties thread
 #       -i       whose hands: demo, or motion:FILE (default demo)
 #       -k       keep the recordings
 #
@@ -13,16 +14,17 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 keep=false
 input=demo
-while getopts ki: option; do
+exercise=gynaecology/sterilisation
+while getopts kx:i: option; do
   case $option in
     k) keep=true ;;
+    x) exercise=$OPTARG ;;
     i) input=$OPTARG ;;
     *) exit 2 ;;
   esac
 done
 shift $((OPTIND - 1))
 work=${1:-$root/build/matrix}
-exercise=gynaecology/sterilisation
 mkdir -p "$work"
 cd "$root"
 

@@ -105,7 +105,7 @@ def scene(called, title, surface, thread_mm, thread_line):
 def files():
     """Names below scenes/ with what they shall hold. What is tied takes more thread than a stitch alone."""
     stitch = scene("box_suture", "Box trainer: a pad to be sutured", "pad.obj", 120, [65, 180, -72])
-    knot = scene("box_knot", "Box trainer: a pad to be sutured, thread to tie a knot", "../box_suture/pad.obj", 150,
+    knot = scene("box_knot", "Box trainer: a pad to be sutured, thread to tie a knot", "../box_suture/pad.obj", 156,
                  [75, 205, -72])
     return [("box_suture/pad.obj", pad()), ("box_suture/scene.json", HEAD + text(stitch) + "\n"),
             ("box_knot/scene.json", HEAD + text(knot) + "\n")]

@@ -196,12 +196,15 @@ class DeviceRobot {
   void think(const sim::State& state) {
     constexpr double kFar = 0.006, kTurned = 0.35, kShut = 0.06, kHalf = 0.2;  // [m] [rad] of the handle
     constexpr double kThere = 0.0015, kSquare = 0.2;                           // [m] [rad]
+    constexpr double kNeedleFar = 0.002, kNeedleTurned = 0.15;                 // a needle goes where it is led
     constexpr int kPatience = 8000, kSettles = 1500;                           // ticks
     bool behind = m_menu != Menu::closed, off = false;
     for (const int h : m_led) {
       behind |= m_pilot.inserting(h) || (m_inserts[std::size_t(h)] && !exchanges(h, state));
       const Lag lag = lag_of(h, state);
-      behind |= lag.way > kFar || lag.turn > kTurned || lag.handle > (m_wanted.tools[h].handle > 0.8f ? kShut : kHalf);
+      const bool needle = training::held_of_suture(m_model, state, std::size_t(h)) == 1;
+      behind |= lag.way > (needle ? kNeedleFar : kFar) || lag.turn > (needle ? kNeedleTurned : kTurned);
+      behind |= lag.handle > (m_wanted.tools[h].handle > 0.8f ? kShut : kHalf);
       off |= lag.way > kThere || lag.turn > kSquare;
     }
     if (m_settles > 0 && (--m_settles == 0 || !off)) m_wanted = m_closing, m_settles = 0;

@@ -27,7 +27,7 @@ class Wrap final : public Skill {
   static constexpr double kUp = 0.3;                                            // of the thread that is free
   static constexpr double kMostUsed = 0.112;                                    // [m] of it: there is a lid
   static constexpr double kLaidBack[] = {0.5, 0, 0.7}, kLaidAside = 0.7, kLaidUp = 0.4;   // of it
-  static constexpr double kTaut = 0.1, kLongestLay = 5;                                   // [N], [s]
+  static constexpr double kTaut = 0.4, kLongestLay = 5;                                   // [N], [s]
   static constexpr double kLongestStand = 6;                                              // [s]
   static constexpr double kSeenOf = 0.9;                                                  // of it is seen to be taut
   static constexpr double kSpare = 0.4;                                                   // of a turn, that is lost
