@@ -21,18 +21,6 @@ TEST(DeviceRobot, DissectsTheTriangleWithOneGamepadBothHandsAtOnce) { dissects<P
 
 TEST(DeviceRobot, DissectsTheTriangleWithMouseAndKeyboardBothHandsAtOnce) { dissects<MouseAndKeysFingers>(); }
 
-/// A stitch: the needle is taken over by the other hand while the first one still holds it.
-template <class Fingers>
-void stitches() {
-  const Done done = do_with<Fingers>("suturing/needle-through", kLongest);
-  EXPECT_TRUE(done.finished);
-  EXPECT_TRUE(done.score.passed) << done.score.total;
-}
-
-TEST(DeviceRobot, StitchesWithOneGamepad) { stitches<PadFingers>(); }
-
-TEST(DeviceRobot, StitchesWithMouseAndKeyboard) { stitches<MouseAndKeysFingers>(); }
-
 TEST(DeviceRobot, SterilisesWithThreePadsInThreeRolesAtOneMachine) {
   const Done done = do_with<PadFingers>("gynaecology/sterilisation", kLongest, 0, false);
   EXPECT_TRUE(done.finished);
