@@ -1,4 +1,5 @@
-// The hepatocystic triangle dissected by who has one gamepad, and by who has mouse and keyboard: both hands at once.
+// The hepatocystic triangle dissected, and a slit stitched, by who has one gamepad, and by who has mouse and keyboard:
+// both hands at once.
 #include <gtest/gtest.h>
 
 #include "device_robot.hpp"
@@ -20,6 +21,17 @@ void dissects() {
 TEST(DeviceRobot, DissectsTheTriangleWithOneGamepadBothHandsAtOnce) { dissects<PadFingers>(); }
 
 TEST(DeviceRobot, DissectsTheTriangleWithMouseAndKeyboardBothHandsAtOnce) { dissects<MouseAndKeysFingers>(); }
+
+template <class Fingers>
+void stitches() {
+  const Done done = do_with<Fingers>("suturing/needle-through", kLongest);
+  EXPECT_TRUE(done.finished);
+  EXPECT_TRUE(done.score.passed) << done.score.total;
+}
+
+TEST(DeviceRobot, DrivesANeedleThroughBothLipsWithOneGamepad) { stitches<PadFingers>(); }
+
+TEST(DeviceRobot, DrivesANeedleThroughBothLipsWithMouseAndKeyboard) { stitches<MouseAndKeysFingers>(); }
 
 TEST(DeviceRobot, SterilisesWithThreePadsInThreeRolesAtOneMachine) {
   const Done done = do_with<PadFingers>("gynaecology/sterilisation", kLongest, 0, false);

@@ -9,6 +9,7 @@
 #include <trocar/suture/thread/paths.hpp>
 #include <trocar/training/facts/registry.hpp>
 #include <trocar/training/observe/stitches.hpp>
+#include <trocar/training/observe/watches.hpp>
 
 #include "../sim/shipped.hpp"
 #include "../sim/small_scene.hpp"
@@ -114,6 +115,29 @@ interactions::TissuePoint node(int n) {
   p.node[0] = n;
   p.weight[0] = 1;
   return p;
+}
+
+/// With what both hands pull at the suture in box(), for longer than an excursion; told as too hard so often.
+int told_too_hard(Vec3d left, Vec3d right) {
+  Sewn sewn;
+  const Vec3d pull[] = {left, right};
+  for (std::size_t h = 0; h < 2; ++h) {
+    interactions::ToolState& tool = sewn.state.tools[h];
+    tool.holds = 1, tool.hold[0].body = BodyId{BodyKind::suture, 0};
+    tool.pull[0] = pull[h].x, tool.pull[1] = pull[h].y, tool.pull[2] = pull[h].z;
+  }
+  PullWatch watch;
+  Mishaps mishaps;
+  for (int tick = 0; tick < 300; ++tick)
+    watch.update({.pull_limit = 5, .pull_limit_other = 8, .pull_excursion = 0.2}, {}, sewn.model, sewn.state, mishaps);
+  return mishaps.count;
+}
+
+TEST(PullAtASuture, IsTooHardByWhatIsLeftForTissueWhenHandsPullAtEachOther) {
+  EXPECT_EQ(told_too_hard({9, 0, 0}, {-9, 0, 0}), 0) << "two hands hold the needle";
+  EXPECT_EQ(told_too_hard({9, 0, 0}, {0, 0, 0}), 1) << "the other hand only holds on";
+  EXPECT_EQ(told_too_hard({5, 0, 0}, {5, 0, 0}), 2) << "together";
+  EXPECT_EQ(told_too_hard({4, 0, 0}, {3, 0, 0}), 0);
 }
 
 TEST(SutureFacts, BitesAreAsFarFromMarksAsTheyWereDrawn) {

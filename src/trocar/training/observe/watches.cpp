@@ -6,6 +6,28 @@
 #include <trocar/training/observe/watches.hpp>
 
 namespace trocar::training {
+namespace {
+
+bool is_tissue(BodyId body) {
+  return !body.is(BodyKind::rigid) && !body.is(BodyKind::bag) && !body.is(BodyKind::suture);
+}
+
+/// What a hand pulls at tissue with [N]. Hands that hold one needle pull at each other through it: of that tissue bears
+/// only what is left over, and the hand that makes most of it is to blame.
+double pull_at_tissue(const sim::Model& model, const sim::State& state, std::size_t hand) {
+  const auto pull_of = [&](std::size_t h) {
+    const double(&pull)[3] = state.tools[h].pull;
+    return Vec3d{pull[0], pull[1], pull[2]};
+  };
+  const BodyId body = state.tools[hand].hold[0].body;
+  if (is_tissue(body)) return length(pull_of(hand));
+  Vec3d left;
+  for (std::size_t h = 0; h < hands(model); ++h)
+    if (state.tools[h].holds > 0 && state.tools[h].hold[0].body == body) left += pull_of(h);
+  return 2 * dot(pull_of(hand), left) < dot(left, left) ? 0 : length(left);
+}
+
+}  // namespace
 
 void PullWatch::update(const Handling& limits, const Tissues& tissues, const sim::Model& model, const sim::State& state,
                        Mishaps& out) {
@@ -14,7 +36,7 @@ void PullWatch::update(const Handling& limits, const Tissues& tissues, const sim
     const bool delicate = tool.holds > 0 && has(tissues.delicate, tool.hold[0].body);
     const double limit = delicate ? limits.pull_limit : limits.pull_limit_other;
     const double before = m_over_for[h];
-    m_over_for[h] = tool.holds > 0 && norm(tool.pull) > limit ? before + sim::kTick : 0;
+    m_over_for[h] = tool.holds > 0 && pull_at_tissue(model, state, h) > limit ? before + sim::kTick : 0;
     if (before < limits.pull_excursion && m_over_for[h] >= limits.pull_excursion)
       out.add({Mishap::overpulled, int(h), tip_of(model, state, h), delicate ? "delicate tissue" : "other tissue"});
   }

@@ -22,6 +22,8 @@ class GraspTail final : public Skill {
   enum Phase { kAway, kReach, kEnter, kClose };
   static constexpr double kInside = 0.7, kFeels = 0.3, kBare = 0.5, kLongest = 4, kThere = 0.001,
                           kShift = 0.0015;  // of the jaws' length, [s], [m]
+  /// Jaws that have missed it draw back just far enough, or what is wound round them comes off.
+  static constexpr double kBefore = 0.014, kBeforeAgain = 0.008;  // [m]
   static constexpr int kMostAgain = 5;
 
   void start(Operator& op, int tries) override {
@@ -59,7 +61,8 @@ class GraspTail final : public Skill {
     } else if (m_phase == kReach) {
       op.arms().turn_across(m_hand, runs);
       const bool open = op.arms().grip(m_hand, m_open, 0.8);
-      if (op.arms().move(m_hand, tip - 0.014 * along, pace::kCareful) && open) go(kEnter);
+      const double before = m_again == 0 ? kBefore : kBeforeAgain;
+      if (op.arms().move(m_hand, tip - before * along, pace::kCareful) && open) go(kEnter);
     } else if (m_phase == kEnter) {
       op.arms().turn_across(m_hand, runs);
       if (op.arms().move(m_hand, tip, pace::kCareful) || m_in_phase > kLongest) go(kClose);

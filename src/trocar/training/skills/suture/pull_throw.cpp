@@ -25,18 +25,32 @@ class PullThrow final : public Skill {
   static constexpr double kPace = 0.025, kTight = 0.004, kFarthest = 0.14, kGive = 0.002, kAbove = 0.004,
                           kLifted = 0.022, kLeastLifted = 0.006, kGently = 0.15, kOffAt = 0.25, kStays = 0.5,
                           kStillOn = 0.6, kFirmly = 0.5, kAside = 1, kStraight = 0.25, kSlowly = 0.05, kEven = 0.2,
-                          kMostOf = 0.8, kLongest = 6, kLongestOff = 14, kSeenOf = 0.9;  // [m/s], [m], [s]
+                          kMostOf = 0.8, kLongest = 6, kLongestOff = 14, kSeenOf = 0.9,
+                          kPressed = 0.6;  // [m/s], [m], [s], [N]
+  static constexpr int kMostAgain = 2;
 
   void start(Operator& op, int) override {
     m_offset = op.arm(m_with).tip - op.arm(m_hand).tip;
     m_reach_now = m_reach, m_ahead_now = m_ahead;
-    m_gone = 0, m_off_for = 0, m_kept = 0;
+    m_gone = 0, m_off_for = 0, m_kept = 0, m_again = 0;
     m_ties = tying::ties(op);
     m_free = tying::free_thread(op, m_with);
     // the jaws draw back out of what is wound, and the tail must be long enough for it
     const double tail = tying::free_thread(op, m_hand);
     m_lifted = m_ties ? std::clamp(tail - m_back, kLeastLifted, kLifted) : kLifted;
     m_dir = normalised(m_way, {1, 0, 0});
+  }
+  void off(Operator& op) {
+    m_far = op.tool_state(m_hand).depth - m_back;
+    m_off_for = 0, m_gone = 0;
+    go(kOff);
+  }
+  /// What is wound is drawn tight round the jaws instead of over the tail: they are pressed, and the tail is not
+  /// pulled.
+  bool lies_on_jaws(const Operator& op) const {
+    const double(&touched)[3] = op.tool_state(m_hand).contact_force;
+    const double pressed = -dot(Vec3d{touched[0], touched[1], touched[2]}, m_dir);
+    return pressed > kPressed && pressed > 2 * tying::pull_of(op, m_hand);
   }
   bool both_hold(const Operator& op) const {
     return held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 0 &&
@@ -54,11 +68,7 @@ class PullThrow final : public Skill {
       const Vec3d high = stitch + m_lifted * (up + 0.3 * normalised(home - dot(home, up) * up));
       const bool lifted = tying::pull_of(op, m_hand) > kFirmly || op.arms().move(m_hand, high, pace::kCareful);
       op.arms().move(m_with, op.arm(m_hand).tip + m_offset, 2 * pace::kTravel);
-      if (lifted || m_in_phase > kLongest) {
-        m_far = op.tool_state(m_hand).depth - m_back;
-        m_off_for = 0;
-        go(kOff);
-      }
+      if (lifted || m_in_phase > kLongest) off(op);
       return Progress::working;
     }
     const double left = std::fabs(wraps_around(op.model(), op.state(), m_hand));
@@ -66,7 +76,8 @@ class PullThrow final : public Skill {
       // the thread is led ahead of the jaws, along them, and these are drawn out of what is wound: pulled tight it
       // would not slide
       const Vec3d axis = normalised(op.arm(m_hand).tip - op.arm(m_hand).port);
-      const Vec3d ahead = tying::above_tissue(op, op.arm(m_hand).tip + m_ahead_now * normalised(axis - kAside * m_dir));
+      const Vec3d ahead =
+          tying::above_tissue(op, m_with, op.arm(m_hand).tip + m_ahead_now * normalised(axis - kAside * m_dir));
       // what is wide comes off later; who pulls gives way, or what is wound is drawn tight round the jaws
       const double thread = tying::tension_from(op, m_with, kSeenOf * m_free);
       if (thread > kFirmly) {
@@ -96,6 +107,7 @@ class PullThrow final : public Skill {
       return m_reach_now > kFarthest ? fail("the tail does not come straight") : Progress::working;
     }
     if (m_phase == kDraw) {
+      if (tail < kFirmly && lies_on_jaws(op) && m_again++ < kMostAgain) return off(op), Progress::working;
       if (m_gone == 0) m_gone = std::max(0.0, dot(above - tying::held_thread(op, m_with), m_dir));
       m_gone += step, tying::lead(op, m_with, above - m_gone * m_dir, pace_at(other));
       if (other >= kStraight || tail >= kFirmly) go(kKeep);
@@ -120,6 +132,7 @@ class PullThrow final : public Skill {
   Vec3d m_way;
   double m_pull, m_back, m_ahead, m_reach, m_rest, m_reach_now = 0, m_ahead_now = 0, m_far = 0, m_gone = 0,
                                                    m_off_for = 0, m_kept = 0, m_free = 0, m_lifted = 0;
+  int m_again = 0;
   bool m_ties = false;
   Vec3d m_dir, m_offset;
 };
@@ -139,7 +152,7 @@ const SkillKind kPullThrow{
      number_parameter("ahead_mm", "of its jaws that the thread is led meanwhile; 25", 0, 150),
      number_parameter("reach_mm", "of the stitch's middle to which the tail's hand goes; 22", 5, 100),
      number_parameter("for_s", "how long they pull then; 0.5", 0, 10)},
-    30,
+    45,
     "Draws what is wound round the jaws over the tail, and both hands apart.",
     &tying::lacks_thread,
     &making<PullThrow>};

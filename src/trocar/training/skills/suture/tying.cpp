@@ -82,12 +82,30 @@ double tension_from(const Operator& op, int hand, double much) {
   return most;
 }
 
-Vec3d above_tissue(const Operator& op, Vec3d at) {
-  constexpr double kLow = 0.010;  // [m]
+namespace {
+
+/// How far a needle in the hand reaches below where its thread leaves it [m].
+double hangs_below(const Operator& op, int hand) {
+  if (held_of_suture(op.model(), op.state(), std::size_t(hand)) != 1) return 0;
+  constexpr int kPlaces = 12;
+  const suture::NeedleModel& m = suture_of(op.model()).needle;
+  const suture::NeedleState& s = suture_of(op.state()).needle;
+  const Vec3d up = upwards(op), leaves = suture::needle_point(m, s, m.length);
+  double deepest = 0;
+  for (int i = 0; i < kPlaces; ++i)
+    deepest = std::max(deepest, dot(up, leaves - suture::needle_point(m, s, m.length * i / kPlaces)));
+  return deepest;
+}
+
+}  // namespace
+
+Vec3d above_tissue(const Operator& op, int hand, Vec3d at) {
+  constexpr double kLow = 0.010, kClear = 0.004;  // [m] of thread, of steel
   Vec3d stitch;
   if (!find_stitch(op, stitch)) return at;
   const Vec3d up = upwards(op);
-  return at + std::max(0.0, kLow + dot(up, stitch - at)) * up;
+  const double lowest = std::max(kLow, hangs_below(op, hand) + kClear);
+  return at + std::max(0.0, lowest + dot(up, stitch - at)) * up;
 }
 
 bool lead(Operator& op, int hand, Vec3d to, double speed) {

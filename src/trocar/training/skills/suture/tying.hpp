@@ -31,8 +31,8 @@ void watch(Operator& op);
 /// The largest tension in that much thread beyond the hand that holds it; in throws that have been drawn tight there is
 /// some that is no business of the hand's [N].
 double tension_from(const Operator& op, int hand, double much);
-/// No lower than a little above where the thread leaves tissue.
-Vec3d above_tissue(const Operator& op, Vec3d at);
+/// No lower than a little above where the thread leaves tissue, and no part of a needle that the hand holds lower.
+Vec3d above_tissue(const Operator& op, int hand, Vec3d at);
 /// The place where the thread is held to there.
 bool lead(Operator& op, int hand, Vec3d to, double speed);
 /// Empty: the scene has thread, and the hand can hold it.

@@ -91,7 +91,7 @@ class Wrap final : public Skill {
     if (taut < 0.5 * m_pull) m_now = std::min(m_radius, m_now + kWider * sim::kTick);
     if (taut < 4 * m_pull) m_angle += kPace / std::max(0.01, m_now) * sim::kTick;
     const Vec3d round = m_centre + m_now * (portable::cos(m_angle) * m_from + portable::sin(m_angle) * m_to);
-    tying::lead(op, m_hand, before_jaws(op, tying::above_tissue(op, round)), 2 * pace::kTravel);
+    tying::lead(op, m_hand, before_jaws(op, tying::above_tissue(op, m_hand, round)), 2 * pace::kTravel);
     // what lies round jaws loosely may come off over their tip, and then it is wound anew; counted from the needle
     const double wound = -double(m_sense) * wraps_around(op.model(), op.state(), m_around);
     if (wound > m_turns + kSpare) return Progress::done;
