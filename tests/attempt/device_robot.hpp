@@ -152,7 +152,7 @@ class DeviceRobot {
 
   /// How far a hand is behind what is wanted of it.
   struct Lag {
-    double way = 0, turn = 0, handle = 0;  ///< [m] [rad] of the handle
+    double way = 0, turn = 0, handle = 0;  ///< [m] [rad] of the handle, that is to be closed
   };
   /// The right hand works: it is wanted elsewhere than a second ago, or burns. Nobody draws at tissue only to look at
   /// it.
@@ -188,7 +188,7 @@ class DeviceRobot {
     const double way = std::min(length(to - training::tip_of(m_model, state, std::size_t(h))),
                                 length(to - tip(h, m_commanded.tools[h])));
     return {way, std::fabs(turn_left(double(wanted.roll) - tool.roll, h, state)),
-            jaws ? std::fabs(double(wanted.handle) - tool.handle) : 0};
+            jaws ? double(wanted.handle) - tool.handle : 0};
   }
 
   /// The demonstration goes on unless a hand is far behind; jaws close only where they were to. It does not wait for
@@ -196,7 +196,7 @@ class DeviceRobot {
   void think(const sim::State& state) {
     constexpr double kFar = 0.006, kTurned = 0.35, kShut = 0.06, kHalf = 0.2;  // [m] [rad] of the handle
     constexpr double kThere = 0.0015, kSquare = 0.2;                           // [m] [rad]
-    constexpr double kNeedleFar = 0.002, kNeedleTurned = 0.15;                 // a needle goes where it is led
+    constexpr double kNeedleFar = 0.0012, kNeedleTurned = 0.1;                 // a needle goes where it is led
     constexpr int kPatience = 8000, kSettles = 1500;                           // ticks
     bool behind = m_menu != Menu::closed, off = false;
     for (const int h : m_led) {
@@ -204,7 +204,7 @@ class DeviceRobot {
       const Lag lag = lag_of(h, state);
       const bool needle = training::held_of_suture(m_model, state, std::size_t(h)) == 1;
       behind |= lag.way > (needle ? kNeedleFar : kFar) || lag.turn > (needle ? kNeedleTurned : kTurned);
-      behind |= lag.handle > (m_wanted.tools[h].handle > 0.8f ? kShut : kHalf);
+      behind |= lag.handle > (m_wanted.tools[h].handle > 0.8f ? kShut : kHalf) || lag.handle < -kHalf;
       off |= lag.way > kThere || lag.turn > kSquare;
     }
     if (m_settles > 0 && (--m_settles == 0 || !off)) m_wanted = m_closing, m_settles = 0;
@@ -347,6 +347,7 @@ class DeviceRobot {
         if (wants_another(m_side[std::size_t(s)], state)) wish.menu = s;
     bring_in(state, wish);
     const devices::HandSample sample = m_fingers.play(m_pilot.settings(), wish);
+    if (std::getenv("TROCAR_ROBOT_TRACE") && state.tick % 500 < 17) for (int s=0;s<2;++s) { const auto&h=wish.side[size_t(s)]; std::fprintf(stderr,"W %.2f %d right %.2f up %.2f in %.2f roll %.2f handle %.2f seen %.2f lock %d pull %.2f %.2f %.2f\n",double(state.tick)*1e-3,s,1e3*h.right,1e3*h.up,1e3*h.in,h.roll,h.handle,h.handle_seen,int(h.locked),state.tools[size_t(m_side[size_t(s)])].pull[0],state.tools[size_t(m_side[size_t(s)])].pull[1],state.tools[size_t(m_side[size_t(s)])].pull[2]); }
     m_commanded = with_others(m_pilot.lead(sample, state), state);
     if (m_pilot.asks_for_rack()) {
       m_menu = Menu::open;

@@ -23,7 +23,8 @@ class GraspTail final : public Skill {
   static constexpr double kInside = 0.7, kFeels = 0.3, kBare = 0.5, kLongest = 4, kThere = 0.001,
                           kShift = 0.0015;  // of the jaws' length, [s], [m]
   /// Jaws that have missed it draw back just far enough, or what is wound round them comes off.
-  static constexpr double kBefore = 0.014, kBeforeAgain = 0.008;  // [m]
+  static constexpr double kBefore = 0.014, kBeforeAgain = 0.008;           // [m]
+  static constexpr double kSwings = 2, kNearer = 0.004, kNearest = 0.016;  // [s], [m/s], [m] from its end
   static constexpr int kMostAgain = 5;
 
   void start(Operator& op, int tries) override {
@@ -56,6 +57,10 @@ class GraspTail final : public Skill {
     m_bare_for =
         m_with >= 0 && std::fabs(wraps_around(op.model(), op.state(), m_hand)) < kBare ? m_bare_for + sim::kTick : 0;
     if (m_bare_for > kFeels) return fail("what was wound has come off");
+    // A tail turns with its knot, and that with the thread that jaws which are wound round draw after them: nearer to
+    // the knot it can be caught up with.
+    if (m_phase == kReach && m_in_phase > kSwings)
+      m_beside = std::min(kNearest - m_at, m_beside + kNearer * sim::kTick);
     if (m_phase == kAway) {  // the other hand draws back, so that its jaws are not within what is wound
       if (length(op.arm(m_with).tip - op.arm(m_hand).tip - m_offset) < kThere || m_in_phase > kFeels + 2) go(kReach);
     } else if (m_phase == kReach) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/suture/thread/chain.hpp>
 #include <trocar/training/skills/suture/tying.hpp>
 
@@ -56,15 +57,21 @@ double free_thread(const Operator& op, int hand) {
   constexpr double kAtStitch = 0.006;  // [m]: a knot lies there
   const interactions::SutureState& s = suture_of(op.state());
   const suture::ThreadModel& m = suture_of(op.model()).thread;
-  const double from = held_at(op, hand), way = from < arc_to_stitch(op.model(), op.state()) ? m.spacing : -m.spacing;
-  for (double arc = from; arc >= 0 && arc <= m.length; arc += way)
-    for (int i = 0; i < s.hole_count; ++i) {
-      const auto& hole = s.holes[std::size_t(i)];
-      if (hole.slot < 0) continue;
-      const Vec3d apart = suture::point_at(m, s.thread, arc) - suture::point_at(m, s.thread, double(hole.arc));
-      if (length(apart) < kAtStitch) return std::fabs(arc - from);
-    }
-  return std::max(0.0, way > 0 ? m.length - from : from);
+  const double from = held_at(op, hand);
+  double first = m.length, last = 0;
+  for (int i = 0; i < s.hole_count; ++i)
+    if (const auto& hole = s.holes[std::size_t(i)]; hole.slot >= 0)
+      first = std::min(first, double(hole.arc)), last = std::max(last, double(hole.arc));
+  if (first > last) return m.length - from;
+  // outwards from the stitch, past what is tied: slack that hangs over the stitch is free
+  const Vec3d in = suture::point_at(m, s.thread, first), out = suture::point_at(m, s.thread, last);
+  const double way = from < first ? -m.spacing : m.spacing;
+  double arc = from < first ? first : last;
+  for (; (from - arc) * way > 0; arc += way) {
+    const Vec3d at = suture::point_at(m, s.thread, arc);
+    if (length(in + geometry::closest_on_segment(at, in, out) * (out - in) - at) > kAtStitch) break;
+  }
+  return std::fabs(arc - from);
 }
 
 bool ties(Operator& op) { return op.known_knot().update(knot_of(op.model(), op.state())).count > 0; }
@@ -84,14 +91,14 @@ double tension_from(const Operator& op, int hand, double much) {
 
 namespace {
 
-/// How far a needle in the hand reaches below where its thread leaves it [m].
+/// How far jaws and a needle in them reach below where its thread leaves it [m].
 double hangs_below(const Operator& op, int hand) {
   if (held_of_suture(op.model(), op.state(), std::size_t(hand)) != 1) return 0;
   constexpr int kPlaces = 12;
   const suture::NeedleModel& m = suture_of(op.model()).needle;
   const suture::NeedleState& s = suture_of(op.state()).needle;
   const Vec3d up = upwards(op), leaves = suture::needle_point(m, s, m.length);
-  double deepest = 0;
+  double deepest = std::max(0.0, dot(up, leaves - op.arm(hand).tip));
   for (int i = 0; i < kPlaces; ++i)
     deepest = std::max(deepest, dot(up, leaves - suture::needle_point(m, s, m.length * i / kPlaces)));
   return deepest;
