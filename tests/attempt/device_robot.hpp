@@ -347,7 +347,6 @@ class DeviceRobot {
         if (wants_another(m_side[std::size_t(s)], state)) wish.menu = s;
     bring_in(state, wish);
     const devices::HandSample sample = m_fingers.play(m_pilot.settings(), wish);
-    if (std::getenv("TROCAR_ROBOT_TRACE") && state.tick % 500 < 17) for (int s=0;s<2;++s) { const auto&h=wish.side[size_t(s)]; std::fprintf(stderr,"W %.2f %d right %.2f up %.2f in %.2f roll %.2f handle %.2f seen %.2f lock %d pull %.2f %.2f %.2f\n",double(state.tick)*1e-3,s,1e3*h.right,1e3*h.up,1e3*h.in,h.roll,h.handle,h.handle_seen,int(h.locked),state.tools[size_t(m_side[size_t(s)])].pull[0],state.tools[size_t(m_side[size_t(s)])].pull[1],state.tools[size_t(m_side[size_t(s)])].pull[2]); }
     m_commanded = with_others(m_pilot.lead(sample, state), state);
     if (m_pilot.asks_for_rack()) {
       m_menu = Menu::open;
