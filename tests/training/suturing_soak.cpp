@@ -53,9 +53,9 @@ struct Drawn {
   double least = 1e9, most = 0;
   std::string difficulties;
 };
-/// [m] from the ends, between what is held and the knot. Thread lies round the jaws that hold the needle, and bears less
-/// there.
-constexpr double kStandingFrom = 0.030, kStandingTo = 0.070, kTail = 0.015;
+/// [m] from the needle, and from where the tail is held: between there and the knot. Thread lies round the jaws that
+/// hold the needle, and bears less there.
+constexpr double kStandingFrom = 0.030, kStandingTo = 0.070, kTail = 0.003;
 /// On a state of its own. @param pull  of either hand [N]
 Drawn drawn_with(double pull_by_hand, const sim::Model& model, sim::State state) {
   Demonstration pull;
@@ -74,12 +74,12 @@ Drawn drawn_with(double pull_by_hand, const sim::Model& model, sim::State state)
   Performer performer(model, std::move(pull), {});
   sim::Work work = sim::make_work(model);
   Drawn drawn;
-  const double length_of_thread = suture_of(model).thread.length;
   double first = -1;
   while (!performer.done()) {
     const sim::StepReport report = step(model, performer.next(model, state), state, work);
     performer.after(model, state, report);
-    const double tail = most_tension(model, state, length_of_thread - kTail, length_of_thread - kTail);
+    const double held = suture_of(state).thread.holds[std::size_t(interactions::kFirstHandSlot + kLeft)].s;
+    const double tail = most_tension(model, state, held - kTail, held - kTail);
     const double weaker = std::min(most_tension(model, state, kStandingFrom, kStandingTo), tail);
     if (weaker < 5) continue;
     const double apart =

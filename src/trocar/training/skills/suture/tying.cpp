@@ -83,9 +83,12 @@ void watch(Operator& op) {
 
 double tension_from(const Operator& op, int hand, double much) {
   const suture::ThreadModel& m = suture_of(op.model()).thread;
-  const int from = int(held_at(op, hand) / m.spacing), to = std::min(m.nodes - 1, from + int(much / m.spacing));
+  const double at = held_at(op, hand);
+  const double other = at < arc_to_stitch(op.model(), op.state()) ? at + much : at - much;
+  const int last = std::min(m.nodes - 1, int(std::max(at, other) / m.spacing));
   double most = 0;
-  for (int e = from; e < to; ++e) most = std::max(most, suture::tension(m, suture_of(op.state()).thread, e));
+  for (int e = std::max(0, int(std::min(at, other) / m.spacing)); e < last; ++e)
+    most = std::max(most, suture::tension(m, suture_of(op.state()).thread, e));
   return most;
 }
 
