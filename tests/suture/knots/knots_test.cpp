@@ -194,6 +194,27 @@ TEST(Knots, DrawnTightStayWhatTheyWereWhenTheyLayLoosely) {
   EXPECT_EQ(known.update(read_knot(untied())).count, 0) << "untied";
 }
 
+KnotReading told(double determinant, double agree, const std::vector<int>& throws) {
+  KnotReading knot;
+  knot.determinant = determinant, knot.agree = agree;
+  for (const int t : throws) {
+    KnotThrow& next = knot.throws[std::size_t(knot.count++)];
+    next.turns = std::abs(t), next.sign = t < 0 ? -1 : 1;
+  }
+  return knot;
+}
+
+TEST(Knots, AThrowIsLaidUponThoseThatAreThere) {
+  // as told of a throw that was drawn tight at once: three pictures of 64 are of another knot, two are right
+  const std::vector<int> square{2, -1, 1}, granny{1, 1, -2};
+  KnownKnot known;
+  known.update(told(15, 0.59, {2, -1}));
+  known.update(told(45, 0.09, granny));
+  EXPECT_EQ(throws_of(known.update(told(45, 0.03, square))), square);
+  EXPECT_EQ(throws_of(known.update(told(45, 0.09, granny))), square);
+  EXPECT_EQ(throws_of(known.update(told(15, 0.3, {2, -1}))), (std::vector<int>{2, -1})) << "it came undone";
+}
+
 TEST(Knots, WhereOneSideIsTakenRoundAStraightOneAreSlipKnots) {
   for (const int sign : {1, -1}) EXPECT_EQ(read_knot(lay({{1, sign}, {1, sign}}, true)).kind, KnotKind::slip);
 }

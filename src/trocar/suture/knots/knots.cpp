@@ -15,6 +15,7 @@ constexpr std::size_t kThrow = 3, kHitch = 2;  // crossings, at least
 constexpr double kStraight = 1.25;             // arc over chord of a side that does not turn: a post
 constexpr double kUnlikely = 1e-6;             // that a picture is right which tells of another knot
 constexpr double kSure = 0.25;                 // share of pictures that need not be compared with earlier ones
+constexpr double kTrusted = 0.15;              // of a knot upon which the next throw is laid
 constexpr double kTurned = 1.5;                // of one that turns round it
 
 /// Where both sides cross in a picture.
@@ -341,9 +342,24 @@ KnotReading read_knot(std::span<const Vec3d> p, const KnotQuestion& question) {
   return knot;
 }
 
+bool KnownKnot::goes_on(const KnotReading& seen) const noexcept {
+  if (m_before.agree < kTrusted) return true;  // nothing is known to have been there
+  for (int i = 0; i < std::min(m_before.count, seen.count); ++i) {
+    const KnotThrow &was = m_before.throws[std::size_t(i)], &is = seen.throws[std::size_t(i)];
+    if (was.turns != is.turns || was.sign != is.sign) return false;
+  }
+  return true;
+}
+
 const KnotReading& KnownKnot::update(const KnotReading& seen) noexcept {
   const bool same = m_knot.agree > 0 && seen.determinant == m_knot.determinant;
-  if (seen.agree > (same ? std::min(kSure, m_knot.agree) : 0)) return m_knot = seen;
+  if (!same && seen.agree > 0) {
+    m_before = m_knot;
+    return m_knot = seen;
+  }
+  const bool did = goes_on(m_knot), does = goes_on(seen);
+  const bool more = seen.agree > std::min(kSure, m_knot.agree);
+  if (seen.agree > 0 && (did == does ? more : does)) return m_knot = seen;
   if (seen.count == 0 || m_knot.count == 0) return m_knot;
   m_knot.place = seen.place, m_knot.tail = seen.tail, m_knot.standing = seen.standing;
   return m_knot;

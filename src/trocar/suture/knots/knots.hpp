@@ -50,15 +50,19 @@ struct KnotQuestion {
 KnotReading read_knot(std::span<const Vec3d> points, const KnotQuestion& question = {});
 
 /// What a thread is tied in, from readings in a row. One that lies tight may show nothing but pictures of other knots;
-/// but what it is tied in stays while the determinant does, and is best told from when it lay loosely.
+/// but what it is tied in stays while the determinant does, and is best told from when it lay loosely. A throw is laid
+/// upon those that are there, and comes undone before them: readings that keep these are believed first.
 class KnownKnot {
  public:
-  /// Throws as most pictures of all readings since the knot last changed told; place and ends as of the last one.
+  /// Throws as told, since the knot last changed, by the reading in which most pictures agreed; place and ends as of
+  /// the last one.
   const KnotReading& update(const KnotReading& seen) noexcept;
   const KnotReading& knot() const noexcept { return m_knot; }
 
  private:
-  KnotReading m_knot;
+  bool goes_on(const KnotReading& seen) const noexcept;
+
+  KnotReading m_knot, m_before;  ///< with this determinant, with the one before
 };
 
 /// How often a thread's stretch winds round a segment, signed: right-handed about a -> b is positive.
