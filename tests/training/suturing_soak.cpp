@@ -1,5 +1,6 @@
 // A stitch and its knot as they are shown: the stitch on seeds on which the needle once was thrown off the pad, or the
 // thread parted at its swage; the knot on twenty, and then pulled.
+#include <trocar/suture/thread/chain.hpp>
 #include <trocar/training/observe/stitches.hpp>
 #include <trocar/training/skills/registry.hpp>
 
@@ -49,7 +50,7 @@ double most_tension(const sim::Model& model, const sim::State& state, double fro
 /// How a knot bears what its ends are drawn with.
 struct Drawn {
   double held = 0;   ///< how long both ends bore 5 N [s]
-  double given = 0;  ///< how much farther apart they came meanwhile: what has slipped, and what tissue gave [m]
+  double given = 0;  ///< how much farther apart thread on either side came meanwhile: what slipped in the knot [m]
   double least = 1e9, most = 0;
   std::string difficulties;
 };
@@ -82,8 +83,9 @@ Drawn drawn_with(double pull_by_hand, const sim::Model& model, sim::State state)
     const double tail = most_tension(model, state, held - kTail, held - kTail);
     const double weaker = std::min(most_tension(model, state, kStandingFrom, kStandingTo), tail);
     if (weaker < 5) continue;
-    const double apart =
-        length(sim::shape_of(model, state, kLeft).frame.tip - sim::shape_of(model, state, kRight).frame.tip);
+    const suture::ThreadModel& m = suture_of(model).thread;
+    const suture::ThreadState& s = suture_of(state).thread;
+    const double apart = length(suture::point_at(m, s, kStandingTo) - suture::point_at(m, s, held - kTail));
     if (first < 0) first = apart;
     drawn.held += sim::kTick;
     drawn.given = apart - first;

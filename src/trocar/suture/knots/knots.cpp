@@ -16,6 +16,8 @@ constexpr double kStraight = 1.25;             // arc over chord of a side that 
 constexpr double kUnlikely = 1e-6;             // that a picture is right which tells of another knot
 constexpr double kSure = 0.25;                 // share of pictures that need not be compared with earlier ones
 constexpr double kTrusted = 0.15;              // of a knot upon which the next throw is laid
+constexpr double kFew = 0.03;                  // of a knot that has another throw, or one less: two pictures of 64
+constexpr int kTwice = 2, kOften = 12;         // readings in a row that tell of such a knot, of any other one
 constexpr double kTurned = 1.5;                // of one that turns round it
 
 /// Where both sides cross in a picture.
@@ -342,24 +344,33 @@ KnotReading read_knot(std::span<const Vec3d> p, const KnotQuestion& question) {
   return knot;
 }
 
-bool KnownKnot::goes_on(const KnotReading& seen) const noexcept {
-  if (m_before.agree < kTrusted) return true;  // nothing is known to have been there
-  for (int i = 0; i < std::min(m_before.count, seen.count); ++i) {
-    const KnotThrow &was = m_before.throws[std::size_t(i)], &is = seen.throws[std::size_t(i)];
-    if (was.turns != is.turns || was.sign != is.sign) return false;
-  }
+namespace {
+
+/// As far as both have throws.
+bool same_throws(const KnotReading& a, const KnotReading& b) noexcept {
+  for (int i = 0; i < std::min(a.count, b.count); ++i)
+    if (a.throws[std::size_t(i)].turns != b.throws[std::size_t(i)].turns ||
+        a.throws[std::size_t(i)].sign != b.throws[std::size_t(i)].sign)
+      return false;
   return true;
+}
+
+}  // namespace
+
+bool KnownKnot::convinces(const KnotReading& seen) noexcept {
+  const bool goes_on = m_knot.agree < kTrusted || same_throws(m_knot, seen);
+  if (seen.agree >= (goes_on ? kFew : kSure)) return true;
+  m_told = seen.count == m_doubted.count && same_throws(seen, m_doubted) ? m_told + 1 : 1;
+  m_doubted = seen;
+  return m_told >= (goes_on ? kTwice : kOften);
 }
 
 const KnotReading& KnownKnot::update(const KnotReading& seen) noexcept {
   const bool same = m_knot.agree > 0 && seen.determinant == m_knot.determinant;
-  if (!same && seen.agree > 0) {
-    m_before = m_knot;
+  if (seen.agree > 0 && (same ? seen.agree > std::min(kSure, m_knot.agree) : convinces(seen))) {
+    m_told = 0;
     return m_knot = seen;
   }
-  const bool did = goes_on(m_knot), does = goes_on(seen);
-  const bool more = seen.agree > std::min(kSure, m_knot.agree);
-  if (seen.agree > 0 && (did == does ? more : does)) return m_knot = seen;
   if (seen.count == 0 || m_knot.count == 0) return m_knot;
   m_knot.place = seen.place, m_knot.tail = seen.tail, m_knot.standing = seen.standing;
   return m_knot;

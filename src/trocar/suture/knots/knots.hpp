@@ -51,7 +51,8 @@ KnotReading read_knot(std::span<const Vec3d> points, const KnotQuestion& questio
 
 /// What a thread is tied in, from readings in a row. One that lies tight may show nothing but pictures of other knots;
 /// but what it is tied in stays while the determinant does, and is best told from when it lay loosely. A throw is laid
-/// upon those that are there, and comes undone before them: readings that keep these are believed first.
+/// upon those that are there, and comes undone before them: a reading that keeps these is believed at
+/// once, another only when it is sure or told again and again.
 class KnownKnot {
  public:
   /// Throws as told, since the knot last changed, by the reading in which most pictures agreed; place and ends as of
@@ -60,9 +61,11 @@ class KnownKnot {
   const KnotReading& knot() const noexcept { return m_knot; }
 
  private:
-  bool goes_on(const KnotReading& seen) const noexcept;
+  /// The knot has changed, and into this.
+  bool convinces(const KnotReading& seen) noexcept;
 
-  KnotReading m_knot, m_before;  ///< with this determinant, with the one before
+  KnotReading m_knot, m_doubted;
+  int m_told = 0;  ///< m_doubted, by so many readings in a row
 };
 
 /// How often a thread's stretch winds round a segment, signed: right-handed about a -> b is positive.
