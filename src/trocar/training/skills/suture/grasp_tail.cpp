@@ -23,9 +23,7 @@ class GraspTail final : public Skill {
   static constexpr double kInside = 0.7, kFeels = 0.3, kBare = 0.5, kLongest = 4, kThere = 0.001,
                           kShift = 0.0015;  // of the jaws' length, [s], [m]
   /// Jaws that have missed it draw back just far enough, or what is wound round them comes off.
-  static constexpr double kBefore = 0.014, kBeforeAgain = 0.008;  // [m]
-  static constexpr double kHigher =
-      0.012;  // [m] up the shaft that turns are drawn, or they come off as it is drawn back
+  static constexpr double kBefore = 0.014, kBeforeAgain = 0.008;           // [m]
   static constexpr double kSwings = 2, kNearer = 0.004, kNearest = 0.016;  // [s], [m/s], [m] from its end
   static constexpr int kMostAgain = 5;
 
@@ -36,7 +34,6 @@ class GraspTail final : public Skill {
     m_free = 0.9 * tying::free_thread(op, m_with);
     m_offset = op.arm(m_with).tip - op.arm(m_hand).tip;
     m_offset += m_apart * normalised(op.arm(m_with).port - op.arm(m_with).tip);
-    m_offset += kHigher * normalised(op.arm(m_hand).port - op.arm(m_hand).tip);
   }
   /// As far as the hand that reaches, and nearer when the thread is taut.
   void follow(Operator& op) {

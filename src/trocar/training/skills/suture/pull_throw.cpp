@@ -122,22 +122,17 @@ class PullThrow final : public Skill {
     return m_reach_now > kFarthest ? fail("the tail does not come straight") : Progress::working;
   }
 
-  /// What is wound is drawn tight round the jaws instead of over the tail: these are pressed, and the tail bears
-  /// little.
+  /// What is wound is drawn tight round the jaws instead of over the tail: they are pressed, and the tail is not
+  /// pulled.
   bool lies_on_jaws(const Operator& op) const {
-    constexpr double kPressed = 0.6, kBears = 0.4, kTail = 0.012;  // [N], of what the hand feels, [m]
-    return m_tail > kPressed && tying::tension_from(op, m_hand, kTail) < kBears * m_tail;
-  }
-  bool is_drawn_off_again(Operator& op) {
-    constexpr int kMostAgain = 2;
-    constexpr double kLonger = 2.5;  // [s]
-    if (!lies_on_jaws(op) || m_again++ >= kMostAgain) return false;
-    begin_off(op);
-    m_off_for = -kLonger;
-    return true;
+    constexpr double kPressed = 0.6;  // [N]
+    const double(&touched)[3] = op.tool_state(m_hand).contact_force;
+    const double pressed = -dot(Vec3d{touched[0], touched[1], touched[2]}, m_dir);
+    return pressed > kPressed && pressed > 2 * tying::pull_of(op, m_hand);
   }
   Progress draw(Operator& op, Vec3d above) {
-    if (is_drawn_off_again(op)) return Progress::working;
+    constexpr int kMostAgain = 2;
+    if (m_tail < kFirmly && lies_on_jaws(op) && m_again++ < kMostAgain) return begin_off(op), Progress::working;
     if (m_gone == 0) m_gone = std::max(0.0, dot(above - tying::held_thread(op, m_with), m_dir));
     m_gone += step_at(m_other), tying::lead(op, m_with, above - m_gone * m_dir, pace_at(m_other));
     if (m_other >= kStraight || m_tail >= kFirmly) go(kKeep);
@@ -146,8 +141,7 @@ class PullThrow final : public Skill {
 
   /// Evenly: who pulls more waits, or the throw turns over and what is tied is drawn off the tissue.
   Progress keep(Operator& op) {
-    constexpr double kEven = 0.2, kMostOf = 0.8, kLongest = 14;  // [N], of the pull, [s]
-    if (is_drawn_off_again(op)) return Progress::working;
+    constexpr double kEven = 0.2, kMostOf = 0.8, kLongest = 14;     // [N], of the pull, [s]
     const bool borne = std::max(m_tail, m_other) < m_pull + kEven;  // thread may lie about jaws that do not feel it
     if (borne && m_tail < std::min(m_pull, m_other + kEven)) op.arm(m_hand).tip += step_at(m_tail) * m_dir;
     if (borne && m_other < std::min(m_pull, m_tail + 2 * kEven)) op.arm(m_with).tip -= step_at(m_other) * m_dir;
