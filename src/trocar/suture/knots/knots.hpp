@@ -51,8 +51,8 @@ KnotReading read_knot(std::span<const Vec3d> points, const KnotQuestion& questio
 
 /// What a thread is tied in, from readings in a row. One that lies tight may show nothing but pictures of other knots;
 /// but what it is tied in stays while the determinant does, and is best told from when it lay loosely. A throw is laid
-/// upon those that are there, and comes undone before them: a reading that keeps these is believed at once, another only
-/// when it is sure or told again and again.
+/// upon those that are there, and comes undone before them: a reading that keeps these is believed at once, another
+/// only when it is sure or told again and again.
 class KnownKnot {
  public:
   /// Throws as told, since the knot last changed, by the reading in which most pictures agreed; place and ends as of
