@@ -28,8 +28,8 @@ double free_thread(const Operator& op, int hand);
 bool ties(Operator& op);
 /// Every tick while thread is tied: what it is tied in is seen now and then.
 void watch(Operator& op);
-/// The largest tension in that much thread from the hand that holds it towards the stitch; in throws that have been drawn
-/// tight there is some that is no business of the hand's [N].
+/// The largest tension in that much thread from the hand that holds it towards the stitch; in throws that have been
+/// drawn tight there is some that is no business of the hand's [N].
 double tension_from(const Operator& op, int hand, double much);
 /// No lower than a little above where the thread leaves tissue, and no part of a needle that the hand holds lower.
 Vec3d above_tissue(const Operator& op, int hand, Vec3d at);
