@@ -64,6 +64,7 @@ void add_rehearse(CLI::App& program, Chosen& chosen) {
   c->add_option("--most-seconds", o->patience.seconds, "of simulated time, all attempts together")
       ->capture_default_str()
       ->check(number_above(0, kLongestRun, "s"));
+  c->add_flag("--at-first", o->patience.at_first, "a try that fails counts, though its goal may be tried again");
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return rehearse(*o, chosen.json); }; });
 }
 

@@ -12,21 +12,22 @@ namespace trocar::attempt {
 namespace {
 
 /// A disc seen from 55 mm, where 50 to 52 are asked for.
-std::string exercise_seen_from(const char* near, const char* rehearsed = "") {
+std::string exercise_seen_from(const char* near, const char* rehearsed = "", const char* tries = "1") {
   return std::string(R"({"format": 3, "name": "see", "title": "See a disc", "scene": "../box_pegs/scene.json",
  "limits": {"near_mm": {"value": )") +
          near + R"(, "source": "test"}},
  "steps": [{"step": "see", "title": "see it", "when": {"fact": "mark.distance_mm", "of": "target_1", "in": "$near_mm"}, "for_s": 0.5}],
- "demonstration": [{"goals": [{"goal": "show it", "until": {"step": "see"}, "tries": 1,
+ "demonstration": [{"goals": [{"goal": "show it", "until": {"step": "see"}, "tries": )" +
+         tries + R"(,
    "do": [{"skill": "view", "mark": "target_1", "from_mm": 55, "for_s": 1}]}]}],)" +
          rehearsed + R"(
  "score": {"quality": 100, "time": 0, "motion": 0, "source": "test"},
  "hold_s": 0.2, "expert_s": 10, "longest_s": 100, "pass_mark": 50})";
 }
 
-Lesson lesson_seen_from(const char* near) {
+Lesson lesson_seen_from(const char* near, const char* tries = "1") {
   Lesson lesson;
-  lesson.exercise = training::read_exercise(kChanged, files_with(exercise_seen_from(near)));
+  lesson.exercise = training::read_exercise(kChanged, files_with(exercise_seen_from(near, "", tries)));
   lesson.model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/box_pegs/scene.json"));
   return lesson;
 }
@@ -64,6 +65,15 @@ TEST(Rehearsal, WhatComesOffAsItIsWrittenNeedsNoChoice) {
   EXPECT_TRUE(r.passed) << r.obstacle;
   EXPECT_EQ(r.attempts, 1);
   EXPECT_TRUE(r.choices.empty());
+}
+
+TEST(Rehearsal, ATryThatFailsIsTheLastOneWhereAllIsWantedToComeOffAtFirst) {
+  const Lesson lesson = lesson_seen_from("[300, 301]", "3");
+  const Rehearsal in_the_end = rehearse(lesson, {.points = 8, .seconds = 20});
+  const Rehearsal at_first = rehearse(lesson, {.points = 8, .seconds = 20, .at_first = true});
+  EXPECT_FALSE(in_the_end.passed);
+  EXPECT_FALSE(at_first.passed);
+  EXPECT_LT(at_first.lasted, in_the_end.lasted - 1) << "of three tries";
 }
 
 TEST(Rehearsal, WhatNoWayLeadsToIsGivenUpWhenTheTimeIsSpentAndSaysWhy) {

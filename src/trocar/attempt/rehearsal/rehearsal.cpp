@@ -132,7 +132,8 @@ class Attempt {
     for (const training::ErrorMade& e : errors) points += e.points;
     const bool failed = std::any_of(errors.begin(), errors.end(), [](const training::ErrorMade& e) { return e.fail; });
     if (failed || points > m_patience.points) fail(what_went_wrong(errors));
-    if (m_performer.gave_up())
+    const bool in_vain = m_patience.at_first && !m_performer.difficulties().empty();
+    if (in_vain || m_performer.gave_up())
       fail(m_performer.difficulties().empty() ? "given up" : m_performer.difficulties().back());
   }
 

@@ -15,6 +15,7 @@ namespace trocar::attempt {
 struct Patience {
   double points = 8;      ///< that errors cost in all, at most
   double seconds = 3000;  ///< of simulated time, all attempts together [s]
+  bool at_first = false;  ///< a try that failed is one too many, though its goal may be tried again
 };
 
 struct Rehearsal {
