@@ -27,6 +27,7 @@ class NeedleDriver {
 
   const interactions::SutureModel& model() const { return m_model.objects.sutures.list.front(); }
   const interactions::SutureState& suture() const { return state.objects.sutures.front(); }
+  int hand() const { return m_hand; }
   Vec3d tip() const { return suture::needle_point(model().needle, suture().needle, 0); }
 
   sim::StepReport step() {
