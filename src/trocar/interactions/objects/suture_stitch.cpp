@@ -20,6 +20,8 @@ constexpr double kFirm = 0.004;        // [m] of thread that is through a hole w
 constexpr double kThreadDrag = 0.01;   // [N] of a hole on the thread in it.                           Ours
 constexpr double kKept = 0.003;        // [m] of a bite's way the thread's holes are apart
 constexpr double kCutsThrough = 3;     // times the force that harms
+constexpr double kSkinNear = 0.010;    // [m] from a hole, skin is looked for
+constexpr double kOffEdge = 0.0003;    // [m] beside a fold it is out of it
 constexpr double kNeedleTorque =
     0.003;                         // [N m] that fully pinched jaws bear of a needle's turning between their faces. [d]
 constexpr double kFullPinch = 25;  // [N] of a needle holder
@@ -188,7 +190,7 @@ class Sewing {
     // what friction does not hold of its way
     const Vec3d at = point_of(m_bodies, t.at), slipped = across_of(p - at, normal) + vector_of(t.slid);
     if (length(slipped) < kSlips) return;
-    const NearSkin on = nearest_skin(m_bodies, t.at.body, at + slipped, 0.010);
+    const NearSkin on = nearest_skin(m_bodies, t.at.body, at + slipped, kSkinNear);
     if (on.there()) t.at = stick_to(m_bodies, t.at.body, on.point);
   }
 
@@ -395,13 +397,36 @@ class Sewing {
     bite.peak = std::max(bite.peak, float(pulled));
     if (pulled > harms) bite.harmed = 1;
     const double most = kCutsThrough * harms;
-    if (pulled <= most || h.at.body.is(BodyKind::strand)) return;
-    const double way = (pulled - most) / kThreadHole;
-    const Vec3d to = point_of(m_bodies, h.at) + (way / pulled) * force;
-    h.at = stick_to(m_bodies, h.at.body, to);
+    if (pulled > most) cut_on(h, (1 / pulled) * force, (pulled - most) / kThreadHole);
+  }
+  /// The thread cuts its way on, in a fold along it, until it is out.
+  void cut_on(SutureHole& h, Vec3d towards, double way) noexcept {
+    const Vec3d at = point_of(m_bodies, h.at);
+    const bool in_fold = h.at.body.is(BodyKind::membrane);
+    if (in_fold) towards = across_of(towards, nearest_skin(m_bodies, h.at.body, at, kSkinNear).normal);
+    const Vec3d to = at + way * towards;
+    const NearSkin skin = nearest_skin(m_bodies, h.at.body, to, kSkinNear);
+    h.at = stick_to(m_bodies, h.at.body, in_fold && skin.there() ? skin.point : to);
     h.way += float(way);
-    const NearSkin skin = nearest_skin(m_bodies, h.at.body, to, 0.010);
-    if (h.kind == SutureHole::track && (!skin.there() || skin.distance > 0)) tear_out(h.bite);
+    if (in_fold ? !skin.there() || skin.distance > kOffEdge : is_out(h)) tear_out(h.bite);
+  }
+  /// Of a body: by a place on the bite's way in it. Between entry and exit, where it is too short to have one.
+  bool is_out(const SutureHole& h) const noexcept {
+    Vec3d way = point_of(m_bodies, h.at);
+    if (h.kind != SutureHole::track) {
+      Vec3d middle;
+      int ends = 0;
+      for (int i = 0; i < m_state.hole_count; ++i) {
+        const SutureHole& other = m_state.holes[size_t(i)];
+        if (other.bite != h.bite) continue;
+        if (other.kind == SutureHole::track) return false;
+        middle += point_of(m_bodies, other.at), ++ends;
+      }
+      if (ends < 2) return false;
+      way = (1.0 / ends) * middle;
+    }
+    const NearSkin skin = nearest_skin(m_bodies, h.at.body, way, kSkinNear);
+    return !skin.there() || skin.distance > 0;
   }
   void tear_out(std::int32_t number) noexcept {
     SutureBite& bite = m_state.bites[size_t(number)];

@@ -17,13 +17,14 @@ using interactions::SutureModels;
 
 constexpr int kCornersCut = 5;         // times over
 constexpr double kLeaves = 0.006;      // [m] that a thread goes on as the wire ends
+constexpr double kNoneDoes = 1e9;      // [N] that no needle presses with
 constexpr double kWallReach = 0.0025;  // [m] from which on needles and threads know of walls
 
 StitchTissue stitch_of(const Description& d, const std::string& tissue) {
   StitchTissue t;
   for (const Tissue& row : d.tissues) {
     if (row.name != tissue) continue;
-    if (row.puncture > 0) t.puncture = row.puncture;
+    t.puncture = row.puncture > 0 ? row.puncture : kNoneDoes;
     if (row.stitch_damage > 0) t.damage = row.stitch_damage;
   }
   return t;
