@@ -181,6 +181,7 @@ class SutureAbuse {
       }
       if (held) continue;
       for (int part = interactions::kShaft; part < end_of(shape); part = interactions::next(part)) {
+        if (interactions::is_jaw(part) && closes_a_clip_on_it(h)) continue;
         const collision::Capsule& rod = shape.rod(part);
         const Vec3d along = rod.b - rod.a;
         const double t = std::clamp(dot(x - rod.a, along) / std::max(1e-12, dot(along, along)), 0.0, 1.0);
@@ -188,6 +189,12 @@ class SutureAbuse {
       }
     }
     return false;
+  }
+  /// Thread lies between the legs of an applier that sets its clip on it.
+  bool closes_a_clip_on_it(size_t h) const {
+    const auto& rods = m_work.objects.sutures.rods;
+    return std::any_of(rods.begin(), rods.end(),
+                       [&](const interactions::SutureRod& rod) { return rod.astride && size_t(rod.tag.index) == h; });
   }
   bool in_passage(const interactions::SutureModel& m, const interactions::SutureState& s, int n) const {
     const double arc = n * m.thread.spacing;

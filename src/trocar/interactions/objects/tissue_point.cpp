@@ -33,37 +33,63 @@ NearNodes nearest_nodes(const tissue::NodeView& nodes, Vec3d p) noexcept {
   return near;
 }
 
-/// w_i = g_i (z0 + z . d_i) with sum w = 1 and sum w d = 0, as a strand's end has them; what is singular, as nodes in a
-/// plane are, is left out by a ridge far below what counts.
-void affine_weights(const tissue::NodeView& nodes, const NearNodes& near, Vec3d p, TissuePoint& out) noexcept {
-  const double scale = std::max(1e-4, std::sqrt(near.square[std::size_t(near.count - 1)]));
-  double a[4][5] = {}, g[kPointNodes] = {}, total = 0;
+/// What a weighted fit of an affine function to the nodes about a place is made of.
+struct Fit {
+  double a[4][4] = {}, g[kPointNodes] = {};
   Vec3d d[kPointNodes];
-  for (int i = 0; i < near.count; ++i) {
-    d[i] = (nodes.position(near.node[std::size_t(i)]) - p) / scale;
-    g[i] = 1 / (dot(d[i], d[i]) + 0.05);
-    total += g[i];
-  }
-  for (int i = 0; i < near.count; ++i) {
-    const double basis[4] = {1, d[i].x, d[i].y, d[i].z};
-    for (int r = 0; r < 4; ++r)
-      for (int c = 0; c < 4; ++c) a[r][c] += g[i] / total * basis[r] * basis[c];
-  }
-  for (int r = 1; r < 4; ++r) a[r][r] += 1e-6;
-  a[0][4] = 1;
-  for (int c = 0; c < 4; ++c)  // positive definite: no pivoting
-    for (int r = 0; r < 4; ++r) {
-      if (r == c) continue;
-      const double f = a[r][c] / a[c][c];
-      for (int k = c; k < 5; ++k) a[r][k] -= f * a[c][k];
+
+  Fit(const tissue::NodeView& nodes, const NearNodes& near, Vec3d p) noexcept {
+    const double scale = std::max(1e-4, std::sqrt(near.square[std::size_t(near.count - 1)]));
+    double total = 0;
+    for (int i = 0; i < near.count; ++i) {
+      d[i] = (nodes.position(near.node[std::size_t(i)]) - p) / scale;
+      g[i] = 1 / (dot(d[i], d[i]) + 0.05);
+      total += g[i];
     }
-  const double z0 = a[0][4] / a[0][0];
-  const Vec3d z{a[1][4] / a[1][1], a[2][4] / a[2][2], a[3][4] / a[3][3]};
+    for (int i = 0; i < near.count; ++i) {
+      g[i] /= total;
+      const double basis[4] = {1, d[i].x, d[i].y, d[i].z};
+      for (int r = 0; r < 4; ++r)
+        for (int c = 0; c < 4; ++c) a[r][c] += g[i] * basis[r] * basis[c];
+    }
+  }
+
+  /// w_i = g_i (z0 + z . d_i) with sum w = 1 and sum w d = 0, as a strand's end has them; a ridge leaves out what nodes
+  /// do not tell, as across the plane that they lie in. @return sum |w|
+  double weights(double ridge, int count, std::array<float, kPointNodes>& w) const noexcept {
+    double m[4][5] = {};
+    for (int r = 0; r < 4; ++r)
+      for (int c = 0; c < 4; ++c) m[r][c] = a[r][c];
+    for (int r = 1; r < 4; ++r) m[r][r] += ridge;
+    m[0][4] = 1;
+    for (int c = 0; c < 4; ++c)  // positive definite: no pivoting
+      for (int r = 0; r < 4; ++r) {
+        if (r == c) continue;
+        const double f = m[r][c] / m[c][c];
+        for (int k = c; k < 5; ++k) m[r][k] -= f * m[c][k];
+      }
+    const double z0 = m[0][4] / m[0][0];
+    const Vec3d z{m[1][4] / m[1][1], m[2][4] / m[2][2], m[3][4] / m[3][3]};
+    double sum = 0;
+    for (int i = 0; i < count; ++i) {
+      w[std::size_t(i)] = float(g[i] * (z0 + dot(z, d[i])));
+      sum += std::fabs(double(w[std::size_t(i)]));
+    }
+    return sum;
+  }
+};
+
+/// In tissue that is crushed the nodes about a place lie all but in a plane, and what they do across it would count a
+/// hundredfold: it counts the less, then, the more that is.
+void affine_weights(const tissue::NodeView& nodes, const NearNodes& near, Vec3d p, TissuePoint& out) noexcept {
+  constexpr double kMostWeights = 8;  // sum |w|; in tissue as it lies 1 to 3
+  const Fit fit(nodes, near, p);
   out.count = near.count;
+  double ridge = 1e-6;
+  while (!(fit.weights(ridge, near.count, out.weight) <= kMostWeights) && ridge < 1) ridge *= 10;
   double sum = 0;
   for (int i = 0; i < near.count; ++i) {
     out.node[std::size_t(i)] = near.node[std::size_t(i)];
-    out.weight[std::size_t(i)] = float(g[i] / total * (z0 + dot(z, d[i])));
     sum += double(out.weight[std::size_t(i)]);
   }
   if (!(std::fabs(sum - 1) < 0.01)) {  // nothing to go by: the nearest node alone

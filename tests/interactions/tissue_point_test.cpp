@@ -1,0 +1,63 @@
+// Places of tissue by weights of the nodes about them.
+#include <gtest/gtest.h>
+
+#include <trocar/interactions/objects/tissue_point.hpp>
+
+using namespace trocar;
+using namespace trocar::interactions;
+
+namespace {
+
+/// A cell of 2.5 mm and a ninth node, flattened across z to `share` of its height; a body of its own.
+struct Cell {
+  std::vector<tissue::NodeState> rows;
+  std::vector<int> row_of_node;
+  std::vector<Surface> organs{1};
+
+  explicit Cell(double share) {
+    constexpr double kEdge = 0.0025;
+    for (int i = 0; i < 9; ++i) {
+      tissue::NodeState n{};
+      const double z = i == 8 ? 2 : i / 4;
+      n.x = float(kEdge * (i % 2)), n.y = float(kEdge * (i / 2 % 2)), n.z = float(kEdge * share * z);
+      rows.push_back(n);
+      row_of_node.push_back(i);
+    }
+    organs[0].nodes = {rows, row_of_node, {0, 0, 0}};
+  }
+  TissueBodies bodies() const { return {{}, {}, organs, {}}; }
+};
+double weights(const TissuePoint& p) {
+  double sum = 0;
+  for (int i = 0; i < p.count; ++i) sum += std::fabs(double(p.weight[std::size_t(i)]));
+  return sum;
+}
+
+TEST(TissuePoint, GoesWithEveryAffineMotionOfItsNodes) {
+  Cell cell(1);
+  const Vec3d at{0.0009, 0.0014, 0.0017};
+  const TissuePoint point = stick_to(cell.bodies(), BodyId::organ(0), at);
+  EXPECT_LT(weights(point), 1.5);
+  const auto moved = [](Vec3d p) {
+    return Vec3d{0.001 + 1.2 * p.x + 0.3 * p.z, 0.9 * p.y - 0.2 * p.x, p.z + 0.1 * p.y};
+  };
+  for (tissue::NodeState& n : cell.rows) {
+    const Vec3d to = moved({double(n.x), double(n.y), double(n.z)});
+    n.x = float(to.x), n.y = float(to.y), n.z = float(to.z);
+  }
+  EXPECT_LT(length(point_of(cell.bodies(), point) - moved(at)), 1e-6);
+}
+
+TEST(TissuePoint, InACrushedCellFollowsItsNodesAndIsNotFlungAbout) {
+  for (const double share : {0.1, 0.02, 0.004, 0.0}) {
+    Cell cell(share);
+    const Vec3d at{0.0009, 0.0014, 0.0015};  // above all of them
+    const TissuePoint point = stick_to(cell.bodies(), BodyId::organ(0), at);
+    EXPECT_LE(weights(point), 8) << share;
+    EXPECT_LT(length(point_of(cell.bodies(), point) - at), 1e-8);
+    cell.rows[3].z += 0.0005f;
+    EXPECT_LT(length(point_of(cell.bodies(), point) - at), 0.002) << share;
+  }
+}
+
+}  // namespace
