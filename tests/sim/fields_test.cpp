@@ -326,11 +326,12 @@ const Model& pegs_model() { return shipped("peg_transfer"); }
 const Model& suture_model() { return shipped("box_suture"); }
 const Model& loop_model() { return shipped("box_loop"); }
 const Model& injection_model() { return shipped("gynaecology_injection"); }
-/// With a hole, a bite, a clip, and thread that lies on itself and on a shaft.
+/// With a hole, a bite, a clip, and thread that lies on itself and on a shaft, and is crushed there.
 State stitched() {
   State s = initial_state(suture_model());
   interactions::SutureState& suture = interactions::part_of<interactions::Suture>(s.objects).front();
   suture.hole_count = suture.bite_count = 1;
+  suture.crushed = 1;
   suture.thread.self_count = suture.thread.touch_count = suture.thread.clip_count = 1;
   return s;
 }

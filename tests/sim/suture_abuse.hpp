@@ -148,7 +148,7 @@ class SutureAbuse {
       for (int n = 0; n < m.thread.nodes; ++n) {
         const Vec3d x = s.thread.x[size_t(n)];
         if (!(length(x) < 0.6)) lost = m.name + "'s thread";
-        note(in_steel(i, n, x), m_in_steel[i][size_t(n)], most_in_steel);
+        note(is_thread(s, n) && in_steel(i, n, x), m_in_steel[i][size_t(n)], most_in_steel);
         note(!in_passage(m, s, n) && in_organ(x), m_in_organ[i][size_t(n)], most_in_organ);
       }
     }
@@ -181,7 +181,7 @@ class SutureAbuse {
       }
       if (held) continue;
       for (int part = interactions::kShaft; part < end_of(shape); part = interactions::next(part)) {
-        if (interactions::is_jaw(part) && closes_a_clip_on_it(h)) continue;
+        if (interactions::is_jaw(part) && is_gathered(i, n)) continue;
         const collision::Capsule& rod = shape.rod(part);
         const Vec3d along = rod.b - rod.a;
         const double t = std::clamp(dot(x - rod.a, along) / std::max(1e-12, dot(along, along)), 0.0, 1.0);
@@ -190,11 +190,15 @@ class SutureAbuse {
     }
     return false;
   }
-  /// Thread lies between the legs of an applier that sets its clip on it.
-  bool closes_a_clip_on_it(size_t h) const {
-    const auto& rods = m_work.objects.sutures.rods;
-    return std::any_of(rods.begin(), rods.end(),
-                       [&](const interactions::SutureRod& rod) { return rod.astride && size_t(rod.tag.index) == h; });
+  /// Between the legs of an applier that has closed on it.
+  bool is_gathered(size_t i, int n) const {
+    const std::vector<std::uint8_t>& gathered = m_work.objects.sutures.list[i].gathered;
+    return (n > 0 && gathered[size_t(n) - 1]) || (size_t(n) < gathered.size() && gathered[size_t(n)]);
+  }
+  /// Not a crumb between two cuts.
+  static bool is_thread(const interactions::SutureState& s, int n) {
+    const std::vector<std::uint8_t>& alive = s.thread.alive;
+    return (n > 0 && alive[size_t(n) - 1]) || (size_t(n) < alive.size() && alive[size_t(n)]);
   }
   bool in_passage(const interactions::SutureModel& m, const interactions::SutureState& s, int n) const {
     const double arc = n * m.thread.spacing;

@@ -1,4 +1,5 @@
-// A clip applier closes on thread: the box trainer's suture, led between the legs of an applier in the left hand.
+// A clip applier closes on thread: the box trainer's suture, led between the legs of an applier in the left hand. And
+// what becomes of thread between its shaft and another instrument.
 #include <map>
 
 #include <gtest/gtest.h>
@@ -225,6 +226,28 @@ TEST(ThreadClip, ClosedLegsWithoutThreadBetweenThemPushItAsideAndAreNotEntered) 
   EXPECT_GT(nearest, 0.25 * a.model().stuff.diameter);
 }
 
+TEST(ThreadClip, LegsOfAnEmptyApplierSqueezeNoThreadThatLiesBetweenThem) {
+  Applier a;
+  a.state.tools[a.hand].clips_left = a.state.tools[a.hand].armed = 0;
+  a.lay(6);
+  a.close();
+  a.rest(0.1);
+  EXPECT_EQ(a.state.clip_count, 0);
+  double most = 0;
+  for (int k = 0; k < a.thread().touch_count; ++k) most = std::max(most, a.thread().touch[size_t(k)].press);
+  EXPECT_LT(most, 2) << "[N] on an element";
+}
+
+TEST(ThreadClip, LegsAreSteelToWhatDoesNotLieBetweenThem) {
+  Applier a = closed(2);
+  a.step();
+  const auto& gathered = a.work.objects.sutures.list[0].gathered;
+  const double between = a.model().spacing * double(std::count(gathered.begin(), gathered.end(), 1));
+  const double wide = 2 * a.shape().rod(interactions::kJawA).radius;  // of the legs
+  EXPECT_GT(between, 2 * wide);
+  EXPECT_LT(between, 3 * wide);
+}
+
 TEST(ThreadClip, ASecondOneFitsBesideTheFirst) {
   Applier a = closed(1);
   a.hold_as_it_lies();
@@ -280,6 +303,50 @@ TEST(ThreadClip, LetGoFallsWithANeedleAndComesToRest) {
   ASSERT_TRUE(a.clip());
   EXPECT_LT(a.clip()->at.z, -0.06);
   EXPECT_LT(a.suture().strain, 1);
+  EXPECT_EQ(a.suture().broken, 0);
+}
+
+/// Thread that lies straight over the applier's shaft, and a jaw of the other hand's that comes down on it until so
+/// much of the thread's diameter is left between both.
+Applier crushed(double left) {
+  Applier a;
+  const size_t right = size_t(a.m.hand_index("right"));
+  a.input.tools[right].handle = 0;  // the needle falls
+  a.rest(0.3);
+  const interactions::ToolShape applier = a.shape();
+  const collision::Capsule& rod = applier.rod(interactions::kShaft);
+  const Vec3d port = a.m.hands[right].port, axis = normalised(rod.b - rod.a), on = rod.a + 0.9 * (rod.b - rod.a);
+  const Vec3d up = normalised(port - on - dot(port - on, axis) * axis), across = cross(axis, up);
+  const double d = a.model().stuff.diameter;
+  const Vec3d top = on + (rod.radius + 0.5 * d) * up;
+  a.thread() = suture::laid(a.model(), std::vector<Vec3d>{top - 0.06 * across, top + 0.06 * across});
+  const std::vector<Vec3d> held = a.thread().x;
+  const double roll = sim::pose_of(a.input.tools[right]).roll;
+  const auto lead = [&](double above) {  // of the jaw's end over the shaft
+    const interactions::ToolShape now = sim::shape_of(a.m, a.state, right);
+    const collision::Capsule& jaw = now.rod(interactions::kJawA);
+    const Vec3d end = length(jaw.a - port) > length(jaw.b - port) ? jaw.a : jaw.b;
+    const Vec3d to = on + (rod.radius + jaw.radius + above) * up + (now.frame.tip - end);
+    a.input.tools[right] = sim::tool_input(kinematics::inverse(port, to, roll), 1.0f);
+    for (size_t n = 0; n < held.size(); ++n)
+      if (length(held[n] - top) > 0.012) a.thread().x[n] = held[n], a.thread().v[n] = {};
+    a.step();
+  };
+  for (int i = 0; i < 400; ++i) lead(0.005);
+  for (int i = 0; i < 300; ++i) lead(0.005 - (0.005 - left * d) * i / 300.0);
+  for (int i = 0; i < 50; ++i) lead(left * d);
+  return a;
+}
+
+TEST(ThreadCrush, SteelThatIsPushedOntoSteelPartsTheThreadBetween) {
+  Applier a = crushed(0.2);
+  EXPECT_EQ(a.suture().broken, 1);
+  EXPECT_EQ(std::count(a.thread().alive.begin(), a.thread().alive.end(), 0), 1);
+}
+
+TEST(ThreadCrush, OneThatIsPinchedStaysWhole) {
+  Applier a = crushed(0.9);
+  EXPECT_GT(a.thread().touch_count, 1) << "nothing touches it";
   EXPECT_EQ(a.suture().broken, 0);
 }
 

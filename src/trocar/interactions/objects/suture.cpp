@@ -47,20 +47,6 @@ Vec3d grip_of(const SutureModel& m, std::int32_t place) noexcept {
   return m.needle.place(s) + 0.5 * m.needle.wire * side[place % kAroundWire];
 }
 
-/// Legs that are about to set their clip, or have set it on a thread that still lies between them.
-bool stands_astride(const Suture::States& states, const ToolModel& tool, const ToolState& state,
-                    const ToolShape& shape) noexcept {
-  constexpr double kBeside = 0.003;  // [m]
-  if (state.armed > 0) return true;
-  for (const SutureState& s : states)
-    for (int k = 0; k < s.thread.clip_count; ++k) {
-      const Vec3d at = to_jaw(shape, s.thread.clips[size_t(k)].at);
-      const bool along = at.z > -kBeside && at.z < tool.jaw_length + kBeside;
-      if (along && std::fabs(at.x) < kBeside && std::fabs(at.y) < kBeside) return true;
-    }
-  return false;
-}
-
 }  // namespace
 
 std::int32_t grips_of(const suture::NeedleModel& needle) {
@@ -143,6 +129,7 @@ Suture::Work Suture::make_work(const Models& models, int hands) {
       w.obstacles.resize(size_t(m.thread.obstacles));
       w.skins.resize(size_t(m.thread.skins));
       w.passages.resize(size_t(m.thread.passages));
+      w.gathered.resize(size_t(m.thread.nodes - 1));
       w.hold_reactions.resize(w.holds.size());
       w.obstacle_reactions.resize(w.obstacles.size());
       w.skin_reactions.resize(w.skins.size());
@@ -167,6 +154,7 @@ void Suture::clear(Work& all) noexcept {
     w.hold_tags.clear();
     w.contact_rods.clear();
     std::fill(w.skins.begin(), w.skins.end(), suture::SkinContact{});
+    std::fill(w.gathered.begin(), w.gathered.end(), std::uint8_t(0));
     std::fill(w.obstacles.begin(), w.obstacles.end(), suture::Obstacle{});
     std::fill(w.obstacle_reactions.begin(), w.obstacle_reactions.end(), suture::ObstacleReaction{});
     w.thread_report = {};
@@ -180,8 +168,7 @@ void Suture::touch(const Models& models, const States& states, const ObjectHand&
   const ToolShape& shape = hand.touching.shape;
   const Hold* held = hand.state.holds > 0 && hand.state.hold[0].body.is(kKind) ? &hand.state.hold[0] : nullptr;
   const double at_clip = hand.tool.jaw_length - 0.5 * hand.tool.clip_length;
-  const bool closed = hand.tool.can().set_clips && shape.half_opening(at_clip) < kClipGathers;
-  const bool astride = closed && stands_astride(states, hand.tool, hand.state, shape);
+  const bool astride = hand.tool.can().set_clips && shape.half_opening(at_clip) < kClipGathers;
   for (int part = kShaft; part < end_of(shape) && all.rods.size() < all.rods.capacity(); part = next(part)) {
     SutureRod rod{hand.touching.before.rod(part), shape.rod(part), {Owner::tool_contact, hand.touching.tool, 0}};
     rod.slot = hand.touching.tool * kRodSlots + (part < kToolParts ? part : kToolParts + part - kFirstLink);
@@ -193,6 +180,8 @@ void Suture::touch(const Models& models, const States& states, const ObjectHand&
     }
     all.rods.push_back(rod);
   }
+  for (size_t i = 0; astride && i < states.size(); ++i)
+    gather_thread(models.list[i], states[i], hand.tool, shape, all.list[i].gathered);
   if (hand.touching.tool < int(all.pinches.size()))
     all.pinches[size_t(hand.touching.tool)].bears = hand.tool.friction * hand.state.pinch;
 }

@@ -163,8 +163,9 @@ struct SutureState {
   double peak = 0;                ///< the most that it did to tissue so far, at one hole or under the tip [N]
   double strain = 0;              ///< the thread's greatest tension now [N]
   std::int32_t torn = 0;          ///< bites that were torn out so far
-  std::int32_t broken = 0;        ///< 1: the thread was pulled apart
+  std::int32_t broken = 0;        ///< 1: the thread was pulled apart, or crushed between steel
   std::int32_t strained = 0;      ///< ticks in a row in which it bore more than it bears
+  std::int32_t crushed = 0;       ///< ticks in a row in which steel pressed on it harder than it bears
   SlingState sling;
 
   template <class S, class V>
@@ -173,7 +174,8 @@ struct SutureState {
         v("hole_count", s.hole_count), v("bite_count", s.bite_count), v("holes", s.holes, core::first(s.hole_count)),
         v("bites", s.bites, core::first(s.bite_count)), v("near", s.near), v("cut", s.cut), v("tail", s.tail),
         v("tail_force", s.tail_force), v("peak", s.peak), v("strain", s.strain), v("torn", s.torn),
-        v("broken", s.broken), v("strained", s.strained), v("sling", s.sling, core::only_if(s.sling.fed > 0));
+        v("broken", s.broken), v("strained", s.strained), v("crushed", s.crushed, core::only_if(s.crushed > 0)),
+        v("sling", s.sling, core::only_if(s.sling.fed > 0));
   }
 };
 
@@ -185,7 +187,7 @@ struct SutureRod {
   std::int32_t held = -1;  ///< the suture that its jaws hold
   bool holds_needle = false;
   bool cuts = false;     ///< a blade, which thread lies between
-  bool astride = false;  ///< a leg of a clip that has all but closed: it does not push thread
+  bool astride = false;  ///< a leg of an applier that has all but closed: it does not push what is between both
 };
 /// What a hand's jaws do to a thread: the mean of the places between them.
 struct SuturePinch {
@@ -207,6 +209,7 @@ struct SutureWork {
   std::vector<suture::Obstacle> obstacles;           ///< (slots)
   std::vector<suture::SkinContact> skins;            ///< (nodes)
   std::vector<suture::Passage> passages;             ///< (slots)
+  std::vector<std::uint8_t> gathered;                ///< (elements) 1: between the legs of an applier
   std::vector<suture::HoldReaction> hold_reactions;  ///< (slots)
   std::vector<suture::ObstacleReaction> obstacle_reactions;
   std::vector<Vec3d> skin_reactions;
@@ -218,7 +221,7 @@ struct SutureWork {
   static void fields(S& s, V&& v) {
     v("needle", s.needle), v("thread", s.thread), v("hold_tags", s.hold_tags), v("contact_rods", s.contact_rods),
         v("holds", s.holds), v("obstacles", s.obstacles), v("skins", s.skins), v("passages", s.passages),
-        v("hold_reactions", s.hold_reactions), v("obstacle_reactions", s.obstacle_reactions),
+        v("gathered", s.gathered), v("hold_reactions", s.hold_reactions), v("obstacle_reactions", s.obstacle_reactions),
         v("skin_reactions", s.skin_reactions), v("passage_reactions", s.passage_reactions),
         v("thread_report", s.thread_report), v("sling", s.sling);
   }

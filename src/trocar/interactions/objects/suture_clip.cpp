@@ -27,8 +27,10 @@ struct Legs {
   }
 };
 
-Legs between_legs(const SutureModel& m, const SutureState& s, const ToolModel& tool, const ToolShape& shape) noexcept {
-  Legs legs;
+/// Calls `found(e, where)` for each element that crosses the middle plane between the legs.
+template <class Found>
+void each_between(const SutureModel& m, const SutureState& s, const ToolModel& tool, const ToolShape& shape,
+                  Found&& found) noexcept {
   const double near = tool.jaw_length + 0.005, radius = 0.5 * m.thread.stuff.diameter;
   for (std::int32_t e = 0; e + 1 < m.thread.nodes; ++e) {
     const Vec3d a = s.thread.x[size_t(e)], b = s.thread.x[size_t(e) + 1], off = a - shape.pivot;
@@ -36,13 +38,34 @@ Legs between_legs(const SutureModel& m, const SutureState& s, const ToolModel& t
     const BetweenJaws where = between_jaws(tool, shape, a, b, radius);
     if (!where.crosses || where.local.z < 0 || where.local.z > tool.jaw_length) continue;
     if (std::fabs(where.local.x) > shape.half_opening(where.local.z) + kClipGathers) continue;
-    if (leg_cover(from_bend(tool, where.local.z), radius, tool.clip_length) <= 0) continue;
-    legs.add((e + where.w) * m.thread.spacing, where.local.z);
+    found(e, where);
   }
+}
+
+Legs between_legs(const SutureModel& m, const SutureState& s, const ToolModel& tool, const ToolShape& shape) noexcept {
+  Legs legs;
+  each_between(m, s, tool, shape, [&](std::int32_t e, const BetweenJaws& where) {
+    if (leg_cover(from_bend(tool, where.local.z), 0.5 * m.thread.stuff.diameter, tool.clip_length) > 0)
+      legs.add((e + where.w) * m.thread.spacing, where.local.z);
+  });
   return legs;
 }
 
 }  // namespace
+
+void gather_thread(const SutureModel& m, const SutureState& s, const ToolModel& tool, const ToolShape& shape,
+                   std::vector<std::uint8_t>& gathered) noexcept {
+  const double wide = shape.rod(kJawA).radius + 0.5 * m.thread.stuff.diameter;
+  each_between(m, s, tool, shape, [&](std::int32_t crossing, const BetweenJaws&) {
+    gathered[size_t(crossing)] = 1;
+    for (const int step : {-1, 1})
+      for (std::int32_t e = crossing + step; e >= 0 && e + 1 < m.thread.nodes; e += step) {
+        const Vec3d enters = s.thread.x[size_t(step < 0 ? e + 1 : e)];
+        if (!s.thread.alive[size_t(e)] || std::fabs(to_jaw(shape, enters).y) > wide) break;
+        gathered[size_t(e)] = 1;
+      }
+  });
+}
 
 bool clip_thread(const SutureModels& models, const ToolModel& tool, const ToolShape& shape, std::int32_t number,
                  Suture::States& states, Clip& clip) noexcept {

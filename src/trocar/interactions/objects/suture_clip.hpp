@@ -10,6 +10,10 @@ namespace trocar::interactions {
 /// How far closing legs gather thread before them; what lies nearer to their middle than that is between them [m].
 inline constexpr double kClipGathers = 0.0008;
 
+/// Elements of a thread that lie between closed legs, as far as these are wide, become 1 in `gathered`.
+void gather_thread(const SutureModel& m, const SutureState& s, const ToolModel& tool, const ToolShape& shape,
+                   std::vector<std::uint8_t>& gathered) noexcept;
+
 /// Of all threads that with most stretches between the legs.
 /// @param clip  has closed on nothing else; out: its place on the thread, and which
 /// @param number  of the clip in the State's book

@@ -293,8 +293,7 @@ class Resting {
       const SutureRod& rod = m_all.rods[i];
       const bool held = rod.held == std::int32_t(m_index);
       if (m_model.has_needle() && !(held && rod.holds_needle)) at_rod(int(i), rod);
-      if (m_model.has_thread() && !rod.astride && !is_own_mouth(m_model, m_state, rod))
-        keep_off(rod, held && !rod.holds_needle);
+      if (m_model.has_thread() && !is_own_mouth(m_model, m_state, rod)) keep_off(rod, held && !rod.holds_needle);
     }
     if (m_model.has_thread() && m_model.has_needle()) keep_off_needle();
   }
@@ -319,6 +318,7 @@ class Resting {
   void keep_off(const SutureRod& rod, bool holds) noexcept {
     const double sunk = rod.cuts ? 0.5 * m_model.thread.stuff.diameter : 0;
     suture::Obstacle o{true, rod.now.a, rod.now.b, std::max(0.0, rod.now.radius - sunk), -1};
+    if (rod.astride) o.gathered = m_work.gathered;
     if (holds) {
       const SuturePinch& p = m_all.pinches[size_t(rod.tag.index)];
       const int room = int(kRoomAtPinch / m_model.thread.spacing) + 1;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <trocar/interactions/objects/suture_on_tissue.hpp>
 #include <trocar/interactions/objects/suture_sling_step.hpp>
@@ -26,6 +27,8 @@ constexpr double kNeedleTorque =
     0.003;                         // [N m] that fully pinched jaws bear of a needle's turning between their faces. [d]
 constexpr double kFullPinch = 25;  // [N] of a needle holder
 constexpr int kPartsAfter = 20;    // ticks beyond what a thread bears until it parts.            Ours
+constexpr double kCrushes = 2;     // breaking forces on an element: no pull of its own presses it harder on steel. Ours
+constexpr int kCrushedAfter = 3;   // ticks of that until it parts.                               Ours
 constexpr double kBendsWith = 0.05;   // [N] of a thread that leaves its swage aslant
 constexpr int kAtSwage = 4;           // elements
 constexpr double kTightens = 0.1;     // [N] a tick: a thread that is drawn at 50 mm/s tightens by a third of that
@@ -78,18 +81,28 @@ class Sewing {
     m_state.strain = r.tension;
     if (r.flags & suture::ThreadReport::kNonFinite && !m_report.bad.exists())
       m_report.bad = BodyId(BodyKind::suture, size_t(m_index));
-    // a jerk that the solver shows for a tick or two parts nothing
-    m_state.strained = r.tension > m_model.thread.stuff.break_force ? m_state.strained + 1 : 0;
-    if (m_state.strained >= kPartsAfter) {
-      suture::cut(m_model.thread, m_state.thread, r.weakest);
-      m_state.broken = 1;
-      m_state.strained = 0;
-    }
+    part_thread(r);
     take_reactions();
     if (m_model.sling.there()) settle_sling(m_model, m_dt, m_state, m_work);
   }
 
  private:
+  /// Where it is pulled apart, or crushed between steel and steel. A jerk that the solver shows for a tick or two parts
+  /// nothing.
+  void part_thread(const suture::ThreadReport& r) noexcept {
+    const double bears = m_model.thread.stuff.break_force;
+    const auto touches = std::span(m_state.thread.touch).first(size_t(m_state.thread.touch_count));
+    const auto hardest = std::max_element(touches.begin(), touches.end(),
+                                          [](const auto& a, const auto& b) { return a.press < b.press; });
+    m_state.strained = r.tension > bears ? m_state.strained + 1 : 0;
+    m_state.crushed = hardest != touches.end() && hardest->press > kCrushes * bears ? m_state.crushed + 1 : 0;
+    const bool crushed = m_state.crushed >= kCrushedAfter;
+    if (!crushed && m_state.strained < kPartsAfter) return;
+    suture::cut(m_model.thread, m_state.thread, crushed ? (hardest->a + 0.5) * m_model.thread.spacing : r.weakest);
+    m_state.broken = 1;
+    m_state.strained = m_state.crushed = 0;
+  }
+
   double drag(const SutureHole& h) const noexcept { return m_models.of(h.at.body).drag * kTrackApart; }
   double puncture(BodyId body) const noexcept { return m_models.of(body).puncture; }
   Vec3d tip() const noexcept { return suture::needle_point(m_model.needle, m_state.needle, 0); }

@@ -84,7 +84,6 @@ void cut_through(StepContext& c, SlingState& g, SlingAround& a) noexcept {
 
 void watch(StepContext& c, SlingState& g) noexcept {
   std::int32_t is = 0;
-  BodyId body;
   for (std::int32_t k = 0; k < g.around_count; ++k) {
     SlingAround& a = g.around[std::size_t(k)];
     if (a.squeeze > kTightFrom && has_sunk_in(c.model.strand_bodies[std::size_t(a.strand)], a)) is |= kWasTight;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/suture/thread/chain.hpp>
 #include <trocar/suture/thread/contacts.hpp>
 #include <trocar/suture/thread/tick.hpp>
 

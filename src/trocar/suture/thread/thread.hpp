@@ -163,12 +163,15 @@ struct Hold {
 /// A capsule at the end of the tick: a shaft, a jaw, a needle's piece. Its slot's number stays with the same body.
 struct Obstacle {
   bool present = false;
-  Vec3d a{0, 0, 0}, b{0, 0, 0};             ///< ends of its axis [m]
-  double radius = 0;                        ///< [m]
-  double friction = -1;                     ///< below 0: the thread's on steel
-  std::int32_t spared = 0, spared_end = 0;  ///< elements that it holds itself: they go through it
+  Vec3d a{0, 0, 0}, b{0, 0, 0};              ///< ends of its axis [m]
+  double radius = 0;                         ///< [m]
+  double friction = -1;                      ///< below 0: the thread's on steel
+  std::int32_t spared = 0, spared_end = 0;   ///< elements that it holds itself: they go through it
+  std::span<const std::uint8_t> gathered{};  ///< (n - 1) 1: spared, too; empty: none
 
-  bool spares(int element) const noexcept { return element >= spared && element < spared_end; }
+  bool spares(int element) const noexcept {
+    return (element >= spared && element < spared_end) || (!gathered.empty() && gathered[std::size_t(element)] != 0);
+  }
 };
 /// A plane that a node lies on.
 struct SkinContact {

@@ -90,8 +90,9 @@ const Fact kSutureTension{"suture.tension_N", {}, 0, 1000, "The thread's greates
                           &stateless<strain>};
 const Fact kSutureTorn{"suture.torn_out", {}, 0, 32, "How many stitches were torn out of tissue so far.", needs_suture,
                        &stateless<torn>};
-const Fact kSutureBroken{"suture.broken",    {},  0, 1, "The thread was pulled apart.", needs_thread,
-                         &stateless<broken>, true};
+const Fact kSutureBroken{
+    "suture.broken",    {},  0, 1, "The thread was pulled apart, or crushed between instruments.", needs_thread,
+    &stateless<broken>, true};
 const Fact kSutureClips{
     "suture.clips",   {}, 0, suture::kMostThreadClips, "How many clips sit on the thread.", needs_thread,
     &stateless<clips>};
