@@ -19,7 +19,7 @@ constexpr float kHidden = -0.0001f;                    // [m] ... and at least s
 constexpr double kBedHigh = 0.00015;                   // [m] above it, where it is bare ...
 constexpr double kCrustHigh = 0.00040;                 // [m] ... and more, where eschar is thickest
 constexpr double kGranular = 0.00013;                  // [m] how uneven it is
-constexpr int kEscharSpots = 7, kOozingSpots = 3;      // of a bond
+constexpr int kOozingSpots = 3;                        // of a bond
 constexpr float kScattered = 0.0036f;                  // [m] around its foot
 constexpr double kTanned = 0.70, kCharred = 0.30;      // of Paint::burn: a crust, and more where it is black
 constexpr double kBlanchedRim = 0.10, kPalest = 0.16;  // of Paint::burn: around it

@@ -188,7 +188,7 @@ void RoomDrawing::move(const Scenery& s) {
     const auto [u, v] = room::across(n);
     for (int k = 0; k < 48; ++k) {
       const double a = portable::two_pi * k / 48, e = portable::two_pi * (k + 1) / 48;
-      const auto at = [&](double angle) {
+      const auto at = [&, u = u, v = v](double angle) {
         return c + 0.0025 * n + 0.009 * (std::cos(angle) * u + std::sin(angle) * v);
       };
       room::add_rod(b, at(a), at(e), 0.0016, 0.0016, {252, 252, 252}, 10);
