@@ -9,6 +9,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 
 namespace trocar::app {
