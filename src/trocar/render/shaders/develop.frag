@@ -87,6 +87,22 @@ Outline on_outline(ivec2 at, float distance, float unit, float near_one) {
 }
 #endif
 
+#ifdef EFFECTS
+// What the surface here gets farther from pixel to pixel [m]: to each side, the smaller of two differences, as in the
+// other direction something may stand before it.
+vec2 slope_at(ivec2 at, float distance) {
+  const int kApart = 8;  // [px] half precision tells no less apart
+  vec2 slope;
+  for (int k = 0; k < 2; ++k) {
+    ivec2 aside = kApart * ivec2(1 - k, k), most = textureSize(u_scene, 0) - 1;
+    float on = texelFetch(u_scene, min(at + aside, most), 0).a - distance;
+    float back = distance - texelFetch(u_scene, max(at - aside, ivec2(0)), 0).a;
+    slope[k] = (abs(on) < abs(back) ? on : back) / float(kApart);
+  }
+  return slope;
+}
+#endif
+
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 scene = texelFetch(u_scene, pixel, 0);
@@ -148,14 +164,30 @@ void main() {
   colour = mix(colour, min(colour, 1.4 * soft.rgb), on.is);  // one sample that glitters there would be a spark
   vec2 behind = (vec2(on.far) - vec2(soft.a, softer.a)) / (unit * vec2(0.02, 0.05));
   // What stands far before it touches nothing and leaves no rim (instruments' shadows are another pass); at the border of
-  // a mean it seems near, so what is around counts, too.
+  // a mean it seems near, so what is around counts, too. A thread hardly moves the mean: it is looked for where that comes
+  // nearer, and it shades less than what is as far off and broad.
   vec2 touches = clamp(vec2(1.5, 2.2) - behind.y, 0.0, 1.0);
   if (max(behind.x, behind.y) > 0.02) {
-    vec2 reach = 18.0 / vec2(textureSize(u_scene, 0));
+    const float kReach = 18.0, kStep = 4.5;  // [px]
+    vec2 size = vec2(textureSize(u_scene, 0)), slope = slope_at(pixel, scene.a), nearer = 4.0 * kReach * slope;
     float stands = nearest;
-    for (int k = 0; k < 4; ++k)
-      stands = min(stands, texture(u_smaller, v_uv + reach * vec2(ivec2(2 * (k & 1) - 1, (k & 2) - 1))).a);
-    touches *= 1.0 - smoothstep(0.08, 0.2, (scene.a - stands) / unit);
+    for (int k = 0; k < 4; ++k) {
+      vec2 corner = vec2(ivec2(2 * (k & 1) - 1, (k & 2) - 1));
+      float far = texture(u_smaller, v_uv + kReach / size * corner).a;
+      stands = min(stands, far);
+      nearer -= far * corner;
+    }
+    nearer *= kStep / max(length(nearer), 1e-6);
+    float line = 0.0, thin = 0.0;
+    for (int k = 0; k < 7; ++k) {
+      vec2 at = v_uv + float(k) / size * nearer;
+      float far = texture(u_small, at).a, before = scene.a + float(k) * dot(slope, nearer) - far;
+      if (before <= line) continue;
+      line = before;
+      thin = (texture(u_smaller, at).a - far) / before;
+    }
+    thin = smoothstep(0.3, 0.55, thin) * smoothstep(0.002, 0.008, line / unit);
+    touches *= (1.0 - thin) * (1.0 - smoothstep(0.08, 0.2, (scene.a - stands) / unit));
   }
   behind = clamp(behind, 0.0, 1.0) * clamp(3.0 - 0.5 * behind, 0.0, 1.0) * touches;
   float open = 1.0 - u_depth.z * max(0.9 * behind.x, 0.7 * behind.y);

@@ -387,6 +387,14 @@ bool BodyDrawing::is_wall(render::MeshHandle mesh) const {
   return std::any_of(m_walls.begin(), m_walls.end(), [&](const OwnedMesh& w) { return w.handle().id == mesh.id; });
 }
 
+Vec3f BodyDrawing::returned() const {
+  const Vec3f pink = render::Light{}.bounce_colour;
+  const render::Material& m = m_wall_look->material;
+  if (m.shading == render::Shading::tissue && m.glow_amount > 0) return pink;
+  const Vec3f share{0.2126f, 0.7152f, 0.0722f};  // CIE luminance: as much light as tissue returns, our choice
+  return (dot(pink, share) / std::max(dot(m.colour, share), 1e-3f)) * m.colour;
+}
+
 /// Vessels of walls, and of what lies on them, go on from mesh to mesh.
 DrawItem BodyDrawing::as_lining(DrawItem item) const {
   if (!item.material.lining) return item;

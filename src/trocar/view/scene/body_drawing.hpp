@@ -53,6 +53,8 @@ class BodyDrawing {
   std::vector<std::string> vessel_kinds() const;
   /// What goes on from the model's walls: trocars come through it, too.
   const MeshBuffer& cavity() const { return m_cavity_shape; }
+  /// Colour of the light that the walls return: tissue's pink, or a box's own.
+  Vec3f returned() const;
   /// Of the model's walls: seen from outside only their inner side is drawn.
   bool is_wall(render::MeshHandle mesh) const;
 

@@ -63,6 +63,7 @@ void SceneView::Parts::aim(const sim::State& state, const ViewOptions& options, 
   } else {
     const kinematics::ScopeFrame scope = sim::scope_of(model, state);
     frame.camera = scope_camera(scope, model.scope.field_of_view);
+    frame.light.bounce_colour = body.returned();
     kinematics::FulcrumPose shaft = pose_of(state.scope);
     shaft.roll = 0;
     const kinematics::TipFrame tip = kinematics::forward(model.scope.port, shaft);
