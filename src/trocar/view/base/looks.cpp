@@ -97,6 +97,14 @@ int Look::count(Generator generator) const {
   return 0;
 }
 
+const Look& wall_look(const sim::Model& model) {
+  return look(model, model.walls.empty() ? "peritoneum" : model.walls.front().look);
+}
+
+bool is_alive(const Look& look) {
+  return look.material.shading == render::Shading::tissue && look.material.glow_amount > 0;
+}
+
 const std::vector<Look>& all_looks(const sim::Model& model) {
   if (!model.looks) return neutral();
   static std::mutex mutex;

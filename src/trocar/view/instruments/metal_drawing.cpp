@@ -22,9 +22,10 @@ constexpr double kInGroove = 0.00025;   // [m] that the legs of a loaded clip li
 render::Mat4 to_world(const Placement& p) { return render::placement(p.rotation, p.translation); }
 
 /// How much of Paint's blood and burn is on a hand's instrument, 0..1. It passed a bleeding wall; each grip that
-/// slipped, each cut and each vessel that opened adds to it, and current burns it on.
-float soil_on(const sim::State& state, std::size_t hand) {
+/// slipped, each cut and each vessel that opened adds to it, and current burns it on. A box does not bleed.
+float soil_on(const sim::Model& model, const sim::State& state, std::size_t hand) {
   constexpr double kPassedTheWall = 0.8, kSlip = 0.06, kHold = 0.1, kCut = 0.07, kOpened = 0.2, kScar = 0.004;
+  if (!is_alive(wall_look(model))) return 0;
   const interactions::ToolState& tool = state.tools[hand];
   double soil = kPassedTheWall + kSlip * std::min(tool.slipped, 4) + (tool.holds > 0 ? kHold : 0);
   soil += kCut * std::min(state.cut_count, 5) + kOpened * std::min(state.opening_count, 2);
@@ -170,7 +171,7 @@ void MetalDrawing::list_tools(const sim::State& state, const std::vector<PartSty
 
 void MetalDrawing::list_hand(const sim::State& state, std::size_t h, const FirstParts& first, const Listing& to) {
   const interactions::ToolShape shape = shape_in_trocar(state, h);
-  const float soil = soil_on(state, h);
+  const float soil = soil_on(*m_model, state, h);
   const Placement axis = placement_of(InstrumentPart::Joint::shaft, shape);
   for (DrawnPart& part : m_sleeves[h]) {
     DrawItem drawn = item({}, *part.look, first.tool + h);

@@ -53,7 +53,7 @@ std::vector<Paint> shaded(const render::OpennessBaker& baker, std::span<const Ve
 
 BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
     : m_model(&model),
-      m_wall_look(&look(model, model.walls.empty() ? "peritoneum" : model.walls.front().look)),
+      m_wall_look(&wall_look(model)),
       m_lining(lining(m_wall_look->material, model)) {
   const WallSurface walls(model);
   make_tubes(walls);
@@ -389,10 +389,10 @@ bool BodyDrawing::is_wall(render::MeshHandle mesh) const {
 
 Vec3f BodyDrawing::returned() const {
   const Vec3f pink = render::Light{}.bounce_colour;
-  const render::Material& m = m_wall_look->material;
-  if (m.shading == render::Shading::tissue && m.glow_amount > 0) return pink;
+  if (is_alive(*m_wall_look)) return pink;
   const Vec3f share{0.2126f, 0.7152f, 0.0722f};  // CIE luminance: as much light as tissue returns, our choice
-  return (dot(pink, share) / std::max(dot(m.colour, share), 1e-3f)) * m.colour;
+  const Vec3f own = m_wall_look->material.colour;
+  return (dot(pink, share) / std::max(dot(own, share), 1e-3f)) * own;
 }
 
 /// Vessels of walls, and of what lies on them, go on from mesh to mesh.
