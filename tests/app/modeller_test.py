@@ -306,10 +306,11 @@ def kills(program, folder, count, seed):
     m.keys("ctrl+q")
     m.process.wait(timeout=20)
     file = Path(folder) / "mine.json"
-    start = centre_of(file)[0]
+    start, moves = centre_of(file)[0], 0
     for i in range(count):
         m = Modeller(program, folder, file, name=f"kill{i}")
-        m.hands.press("solid:organ")
+        m.hands.press("solid:organ")  # a slow picture chooses it late: x alone would delete it
+        m.eyes.wait("the ball chosen", lambda: m.eyes.screen["selected"] == "solid:organ", 30)
         m.over_view()
         done = []
         until = time.monotonic() + random_moment.uniform(0.5, 6)
@@ -331,6 +332,8 @@ def kills(program, folder, count, seed):
             lost[0].unlink()
         check(found >= sure, f"kill {i}: {sure} moves were older than {MOST_LOST} s, {found} came back")
         print(f"kill {i}: {len(done)} moves, {found:.0f} kept")
+        moves += len(done)
+    check(moves > count, f"somebody worked: {moves} moves before {count} kills")
 
 
 def main():
