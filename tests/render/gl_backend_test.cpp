@@ -299,6 +299,54 @@ TEST_F(GlBackend, OnlyWhatIsNearerThanTheFocusHasASoftOutline) {
   EXPECT_LT(steepest(0.015f, pupil), 0.45 * sharp);
 }
 
+/// A tilted wall with an upright bar before it, across the picture's middle row: how much darker than without the bar
+/// the darkest pixel beside it is, of 1. @param gap, radius [m]
+double darkest_beside_a_bar(Backend& backend, Frame& frame, float gap, float radius) {
+  constexpr int kSize = 400;
+  constexpr float kFar = 0.10f, kTilt = 0.8f;
+  const auto made = [&backend](sample::Shape shape) {
+    shape.paint.assign(shape.positions.size(), Paint{255, 255, 255, 255});
+    return sample::create(backend, shape);
+  };
+  const MeshHandle wall = made(sample::sheet(2, 2, [](float u, float v) {
+    const float y = 0.3f * (v - 0.5f);
+    return Vec3f{0.3f * (u - 0.5f), y, kTilt * y - kFar};
+  }));
+  constexpr float kHalf = 0.03f, kRise = kTilt * kHalf;
+  const Vec3f from{0, -kHalf, gap - kRise - kFar}, to{0, kHalf, gap + kRise - kFar};
+  const MeshHandle bar = made(sample::tube({from, to}, {radius, radius}, 12));
+  frame.look = plain_look();
+  frame.look.contact = EndoscopeLook{}.contact;
+  frame.look.exposure_ev = 0;
+  const auto drawn = [&](bool with_bar) {
+    frame.items = {{wall, white(), {}, false}};
+    if (with_bar) frame.items.push_back({bar, white(), {}, false});
+    draw_frame(backend, frame, Target::off_screen(kSize, kSize));
+    return backend.read_pixels();
+  };
+  const Image bare = drawn(false), both = drawn(true);
+  const float tall = 2 * (kFar - gap) * std::tan(0.5f * frame.camera.vertical_fov);  // of the picture, at the bar
+  const int edge = int(std::ceil(radius / tall * kSize)) + 2;                        // its outline is smoothed
+  double darkest = 0;
+  for (int side : {-1, 1})
+    for (int x = edge; x < edge + 40; ++x) {
+      const int at = kSize / 2 + side * x;
+      const double before = bare.at(at, kSize / 2)[1], after = both.at(at, kSize / 2)[1];
+      darkest = std::max(darkest, (before - after) / before);
+    }
+  return darkest;
+}
+
+TEST_F(GlBackend, AThreadFarBeforeAWallLeavesNoDarkRim) {
+  for (const float gap : {0.008f, 0.02f, 0.05f})
+    for (const float radius : {0.00015f, 0.0003f, 0.0006f})
+      EXPECT_LT(darkest_beside_a_bar(*backend, frame, gap, radius), 0.03) << gap << " m before it, " << radius;
+}
+
+TEST_F(GlBackend, AShaftCloseToAWallDarkensItBesideIt) {
+  EXPECT_GT(darkest_beside_a_bar(*backend, frame, 0.006f, 0.005f), 0.06);
+}
+
 TEST_F(GlBackend, TranslucentItemsShowWhatIsBehind) {
   frame.look = plain_look();
   frame.items.push_back({white_ball({0, 0, -0.09f}, 0.02f), white(), {}, false});

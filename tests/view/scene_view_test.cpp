@@ -46,6 +46,11 @@ void expect_drawable(SceneView& view, render::Backend& backend, const sim::State
   }
 }
 
+const sim::Model& loop_box() {
+  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/box_loop/scene.json"));
+  return model;
+}
+
 int left_tube() { return pelvis().strand_index("tube_left"); }
 
 void cut(sim::State& state, int strand, double s, double fraction = 1) {
@@ -777,6 +782,32 @@ TEST(PortSite, WithoutAWallNothingIsDrawn) {
   const FlatWall wall;
   EXPECT_EQ(PortSite({0, 0, 0.2}, {0, 0, -1}, 0.003, wall.walls, *backend).mesh().id, 0u) << "too far off";
   EXPECT_EQ(PortSite({0.1, 0, 0.01}, {0, 0, -1}, 0.003, wall.walls, *backend).mesh().id, 0u) << "beside it";
+}
+
+TEST(SceneView, ABoxReturnsItsOwnLightAndTissuePink) {
+  auto backend = render::make_null_backend();
+  const auto returned = [&](const sim::Model& model) {
+    SceneView view(model, *backend);
+    return view.frame(sim::initial_state(model), {}).light.bounce_colour;
+  };
+  const Vec3f body = returned(pelvis()), box = returned(loop_box());
+  EXPECT_GT(body.x, 2 * body.y);
+  EXPECT_LT(box.x, box.y);  // its board is bluish grey
+  EXPECT_LT(box.y, box.z);
+  const Vec3f share{0.2126f, 0.7152f, 0.0722f};
+  EXPECT_NEAR(dot(box, share), dot(body, share), 1e-4f);
+}
+
+TEST(SceneView, ABoxDoesNotSoilInstruments) {
+  auto backend = render::make_null_backend();
+  SceneView view(loop_box(), *backend);
+  int metal = 0;
+  for (const render::DrawItem& item : view.frame(sim::initial_state(loop_box()), {}).items) {
+    if (item.material.shading != render::Shading::metal) continue;
+    ++metal;
+    EXPECT_EQ(item.material.soil, 0);
+  }
+  EXPECT_GT(metal, 3);
 }
 
 TEST(SceneView, WorkSoilsInstruments) {

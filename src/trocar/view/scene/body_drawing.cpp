@@ -52,9 +52,7 @@ std::vector<Paint> shaded(const render::OpennessBaker& baker, std::span<const Ve
 }  // namespace
 
 BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
-    : m_model(&model),
-      m_wall_look(&wall_look(model)),
-      m_lining(lining(m_wall_look->material, model)) {
+    : m_model(&model), m_wall_look(&wall_look(model)), m_lining(lining(m_wall_look->material, model)) {
   const WallSurface walls(model);
   make_tubes(walls);
   make_cuttables(backend);
