@@ -166,6 +166,7 @@ void main() {
   // What stands far before it touches nothing and leaves no rim (instruments' shadows are another pass); at the border of
   // a mean it seems near, so what is around counts, too. A thread hardly moves the mean: it is looked for where that comes
   // nearer, and what lies here is as dark as without it.
+  vec2 touches = clamp(vec2(1.5, 2.2) - behind.y, 0.0, 1.0);
   if (max(behind.x, behind.y) > 0.02) {
     const float kReach = 18.0, kStep = 4.5;  // [px]
     vec2 size = vec2(textureSize(u_scene, 0)), slope = slope_at(pixel, scene.a), nearer = 4.0 * kReach * slope;
@@ -185,11 +186,13 @@ void main() {
       line = before;
       thin = (texture(u_smaller, at).a - far) / before;
     }
+    float wide = (1.0 - thin) * 32.0 * unit / size.y;  // [m] at most: the coarser mean reaches over 32 pixels
     thin = smoothstep(0.3, 0.55, thin) * smoothstep(0.002, 0.008, line / unit);
-    float before = max(thin, smoothstep(0.08, 0.2, (scene.a - stands) / unit));
-    behind = mix(behind, vec2(0.0, -dot(slope, u_shadow * size) / (0.05 * unit)), before);
+    thin *= 1.0 - smoothstep(0.0035, 0.005, wide);
+    touches *= 1.0 - smoothstep(0.08, 0.2, (scene.a - stands) / unit);
+    touches = mix(touches, vec2(1.0), thin);
+    behind = mix(behind, vec2(0.0, -dot(slope, u_shadow * size) / (0.05 * unit)), thin);
   }
-  vec2 touches = clamp(vec2(1.5, 2.2) - behind.y, 0.0, 1.0);
   behind = clamp(behind, 0.0, 1.0) * clamp(3.0 - 0.5 * behind, 0.0, 1.0) * touches;
   float open = 1.0 - u_depth.z * max(0.9 * behind.x, 0.7 * behind.y);
   open = mix(1.0, open, mix(1.0, on.behind, on.is));
