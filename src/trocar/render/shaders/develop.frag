@@ -177,21 +177,24 @@ void main() {
       stands = min(stands, far);
       nearer -= far * corner;
     }
-    nearer *= kStep / max(length(nearer), 1e-6);
-    float line = 0.0, thin = 0.0;
-    for (int k = 0; k < 7; ++k) {
-      vec2 at = v_uv + float(k) / size * nearer;
-      float far = texture(u_small, at).a, before = scene.a + float(k) * dot(slope, nearer) - far;
-      if (before <= line) continue;
-      line = before;
-      thin = (texture(u_smaller, at).a - far) / before;
-    }
-    float wide = (1.0 - thin) * 32.0 * unit / size.y;  // [m] at most: the coarser mean reaches over 32 pixels
-    thin = smoothstep(0.3, 0.55, thin) * smoothstep(0.002, 0.008, line / unit);
-    thin *= 1.0 - smoothstep(0.0035, 0.005, wide);
     touches *= 1.0 - smoothstep(0.08, 0.2, (scene.a - stands) / unit);
-    touches = mix(touches, vec2(1.0), thin);
-    behind = mix(behind, vec2(0.0, -dot(slope, u_shadow * size) / (0.05 * unit)), thin);
+    vec2 plane = vec2(0.0, -dot(slope, u_shadow * size) / (0.05 * unit));  // as dark as it is without anything before it
+    if (any(greaterThan(behind - plane, vec2(0.02)))) {
+      nearer *= kStep / max(length(nearer), 1e-6);
+      float line = 0.0, thin = 0.0;
+      for (int k = 0; k < 7; ++k) {
+        vec2 at = v_uv + float(k) / size * nearer;
+        float far = texture(u_small, at).a, before = scene.a + float(k) * dot(slope, nearer) - far;
+        if (before <= line) continue;
+        line = before;
+        thin = (texture(u_smaller, at).a - far) / before;
+      }
+      float wide = (1.0 - thin) * 32.0 * unit / size.y;  // [m] at most: the coarser mean reaches over 32 pixels
+      thin = smoothstep(0.3, 0.55, thin) * smoothstep(0.002, 0.008, line / unit);
+      thin *= 1.0 - smoothstep(0.0035, 0.005, wide);
+      touches = mix(touches, vec2(1.0), thin);
+      behind = mix(behind, plane, thin);
+    }
   }
   behind = clamp(behind, 0.0, 1.0) * clamp(3.0 - 0.5 * behind, 0.0, 1.0) * touches;
   float open = 1.0 - u_depth.z * max(0.9 * behind.x, 0.7 * behind.y);
