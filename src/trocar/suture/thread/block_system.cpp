@@ -3,7 +3,8 @@
 namespace trocar::suture {
 namespace {
 
-typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));  // a column of a block
+typedef double Four __attribute__((vector_size(32), may_alias));  // a column of a block
+static_assert(alignof(Block) >= alignof(Four), "columns are read and written in one move");
 
 inline const Four& column(const Block& b, int c) { return *reinterpret_cast<const Four*>(b.c[c]); }
 inline void set_column(Block& b, int c, const Four& a) { *reinterpret_cast<Four*>(b.c[c]) = a; }

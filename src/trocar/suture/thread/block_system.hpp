@@ -36,8 +36,9 @@ inline Symmetric operator+(Symmetric a, Symmetric b) {
   return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
 }
 
-/// Column by column, each filled up to four numbers.
-struct Block {
+/// Column by column, each filled up to four numbers and aligned for a move of all four: compilers may choose one that
+/// faults where it is not.
+struct alignas(32) Block {
   double c[3][4];
 };
 
