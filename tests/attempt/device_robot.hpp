@@ -196,8 +196,9 @@ class DeviceRobot {
   void think(const sim::State& state) {
     constexpr double kFar = 0.006, kTurned = 0.35, kShut = 0.06, kHalf = 0.2;  // [m] [rad] of the handle
     constexpr double kThere = 0.0015, kSquare = 0.2;                           // [m] [rad]
-    constexpr double kNeedleFar = 0.0012, kNeedleTurned = 0.1;                 // a needle goes where it is led
-    constexpr int kPatience = 8000, kSettles = 1500;                           // ticks
+    constexpr double kNeedleFar = Fingers::kNeedleFar,
+                     kNeedleTurned = Fingers::kNeedleTurned;  // it goes where it is led
+    constexpr int kPatience = 8000, kSettles = 1500;          // ticks
     bool behind = m_menu != Menu::closed, off = false;
     for (const int h : m_led) {
       behind |= m_pilot.inserting(h) || (m_inserts[std::size_t(h)] && !exchanges(h, state));

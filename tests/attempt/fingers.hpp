@@ -85,6 +85,7 @@ inline float stick_share(const devices::HandSettings& settings, double way, doub
 class PadFingers {
  public:
   static constexpr const char* kName = "gamepad";
+  static constexpr double kNeedleFar = 0.0012, kNeedleTurned = 0.1;  ///< [m] [rad] that a needle may be behind
 
   devices::HandSample play(const devices::HandSettings& settings, const Wish& wish) {
     devices::HandSample sample;
@@ -247,6 +248,7 @@ class CameraFingers {
 class MouseAndKeysFingers {
  public:
   static constexpr const char* kName = "mouse and keyboard";
+  static constexpr double kNeedleFar = 0.002, kNeedleTurned = 0.15;  ///< [m] [rad]; keys roll by steps of a tenth
 
   devices::HandSample play(const devices::HandSettings& settings, const Wish& wish) {
     devices::HandSample sample;
