@@ -85,7 +85,7 @@ inline float stick_share(const devices::HandSettings& settings, double way, doub
 class PadFingers {
  public:
   static constexpr const char* kName = "gamepad";
-  static constexpr double kNeedleFar = 0.0012, kNeedleTurned = 0.1;  ///< [m] [rad] that a needle may be behind
+  static constexpr double kNeedleFar = 0.001, kNeedleTurned = 0.08;  ///< [m] [rad] that a needle may be behind
 
   devices::HandSample play(const devices::HandSettings& settings, const Wish& wish) {
     devices::HandSample sample;
