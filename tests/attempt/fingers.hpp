@@ -248,7 +248,7 @@ class CameraFingers {
 class MouseAndKeysFingers {
  public:
   static constexpr const char* kName = "mouse and keyboard";
-  static constexpr double kNeedleFar = 0.002, kNeedleTurned = 0.15;  ///< [m] [rad]; keys roll by steps of a tenth
+  static constexpr double kNeedleFar = 0.002, kNeedleTurned = 0.15;  ///< [m] [rad]; no drag begins below kFarRoll
 
   devices::HandSample play(const devices::HandSettings& settings, const Wish& wish) {
     devices::HandSample sample;
