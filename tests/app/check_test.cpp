@@ -79,6 +79,28 @@ TEST_F(Check, ShippedScenesAreGood) {
   }
 }
 
+TEST_F(Check, TellsWhatKindEveryShippedFileIsByItsFolder) {
+  const std::pair<const char*, const char*> folders[] = {
+      {"common", "rules"}, {"inputs", "input map"}, {"instruments", "instrument"}, {"looks", "look"}};
+  for (const auto& [folder, kind] : folders)
+    for (const fs::directory_entry& file : fs::directory_iterator(scenes(folder)))
+      EXPECT_EQ(checked(std::string(folder) + "/" + file.path().filename().string(), core::kDone)["kind"], kind);
+}
+
+TEST_F(Check, AnOrganOfPouchesAloneIsAnOrgan) {
+  EXPECT_EQ(checked("organs/gallbladder_free.json", core::kDone)["kind"], "organ");
+}
+
+TEST_F(Check, AFaultInRulesIsToldAsOfTheirOwnFile) {
+  setenv("TROCAR_SCENES", scenes("").c_str(), 1);
+  replace("common/stitch.json", "\"off_mark_mm\": \\{\"value\": 1", "\"off_mark_mm\": {\"value\": \"one\"");
+  const Outcome o = trocar({"check", scenes("common/stitch.json").string()});
+  unsetenv("TROCAR_SCENES");
+  EXPECT_EQ(o.exit, core::kBadInput);
+  EXPECT_NE(o.err.find("common/stitch.json:8:"), std::string::npos) << o.err;
+  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+}
+
 TEST_F(Check, TissueTooHeavyForItsSpringsDoesNotHangStill) {
   scale("tissues.json", "density_kg_m3", 10);
   const Json r = checked("gynaecology/scene.json", core::kGoalNotReached);

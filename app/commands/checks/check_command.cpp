@@ -1,10 +1,11 @@
 // trocar check: what a scene, organ, instrument, tissue table or exercise compiles to, what flows in a file of vessels,
-// how an operating room stands and whether a programme can be done, what a mesh of tetrahedra holds, or every fault
-// that they have.
+// what takes an exercise's rules, how an operating room stands and whether a programme can be done, what a mesh of
+// tetrahedra holds, or every fault that they have.
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include <trocar/attempt/inputs/input_map.hpp>
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
@@ -37,26 +38,13 @@ std::vector<std::string> names_under(const scene::JsonValue& root, const char* k
   return names;
 }
 
-/// Does the scene's list `organs` name this file?
-bool includes(const fs::path& scene_file, const fs::path& organ) {
-  std::vector<core::Fault> faults;
-  const scene::JsonDocument document = scene::load_json(scene_file, faults);
-  const scene::JsonMember* organs = document.root.find("organs");
-  if (!organs) return false;
-  std::error_code error;
-  return std::any_of(organs->value.items.begin(), organs->value.items.end(), [&](const scene::JsonValue& item) {
-    return item.kind == scene::JsonValue::Kind::string &&
-           fs::equivalent(scene_file.parent_path() / item.text, organ, error);
-  });
-}
-
 /// An organ hangs on others, so its numbers are those in the first scene that uses it.
 Json describe_organ(const fs::path& path, const scene::JsonValue& root) {
   std::vector<std::string> names;
   for (const char* key : {"solids", "strands", "walls", "membranes", "pouches"})
     for (std::string& name : names_under(root, key)) names.push_back(std::move(name));
   for (const scene::SceneEntry& s : scene::list_scenes(attempt::scenes_folder()))
-    if (includes(s.path, path)) return describe_scene(s.path, names);
+    if (lists_file(s.path, "organs", path)) return describe_scene(s.path, names);
   return {{"note", "no scene uses this organ, so there is nothing to compile it in"}};
 }
 
@@ -79,6 +67,13 @@ void print_tissues(const Json& tissues) {
     for (const auto& [key, figure] : t["figures"].items())
       fmt::print("    {:15} {:>9}  {}\n", key, figure["value"].get<double>(), figure["source"].get<std::string>());
   }
+}
+
+Json describe_input_map(const fs::path& path) {
+  Json out{{"file", path.string()}, {"kind", "input map"}, {"parts", Json::array()}};
+  for (const attempt::InputMap::Part& part : attempt::read_input_map(path).parts)
+    out["parts"].push_back({{"role", part.role}, {"device", part.device}});
+  return out;
 }
 
 bool is_mechanism_file(const fs::path& path) {
@@ -111,6 +106,8 @@ Json check_one(const fs::path& path, double unit) {
   const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
   if (is_programme_file(document.root)) return describe_programme(path);
   if (is_room_file(document.root)) return describe_room(path);
+  if (is_rules_file(document.root)) return describe_rules(path);
+  if (has("parts") && !has("name")) return describe_input_map(path);
   if (attempt::is_exercise(path)) {
     out["kind"] = "exercise";
     out.update(describe_exercise(path));
@@ -124,7 +121,7 @@ Json check_one(const fs::path& path, double unit) {
   } else if (has("organs") || has("scope") || has("like")) {
     out["kind"] = "scene";
     out.update(describe_scene(path, {}));
-  } else if (has("solids") || has("strands") || has("walls") || has("membranes") || has("pouches")) {
+  } else if (scene::kind_of_file(path) == scene::FileKind::organ) {
     out["kind"] = "organ";
     out.update(describe_organ(path, document.root));
   } else if (has("kind")) {
@@ -140,6 +137,10 @@ void print_checks(const Json& r) {
   fmt::print("{}: {}, {}\n", r["file"].get<std::string>(), r["kind"].get<std::string>(),
              r.value("verdict", std::string("good")));
   if (r["kind"] == "exercise") return print_exercise(r);
+  if (r["kind"] == "rules") return print_rules(r);
+  if (r["kind"] == "input map")
+    for (const Json& part : r["parts"])
+      fmt::print("  {}: {}\n", part["role"].get<std::string>(), part["device"].get<std::string>());
   if (r.contains("wrong")) print_room(r);
   if (r.contains("mesh")) print_mesh(r);
   if (r.contains("vessels")) print_vessels(r);
@@ -177,10 +178,10 @@ void add_check(CLI::App& program, Chosen& chosen) {
   auto unit_mm = std::make_shared<double>(1.0);
   CLI::App* c = add_command(program, chosen, "check", "Say what files compile to or hold, or all their faults",
                             "trocar check scenes/organs/uterus.json scenes/gynaecology/sterilisation.json liver.msh");
-  c->add_option("files", *files,
-                "scenes, organs, instruments, tissue tables, vessels, mechanisms, exercises, operating rooms and their "
-                "programmes; "
-                "meshes of tetrahedra (.msh, .vtk)")
+  c->add_option(
+       "files", *files,
+       "scenes, organs, instruments, tissue tables, vessels, mechanisms, exercises and the rules they share, maps of "
+       "devices, operating rooms and their programmes; meshes of tetrahedra (.msh, .vtk)")
       ->required();
   c->add_option("--unit-mm", *unit_mm, "the unit of meshes' coordinates in mm")
       ->check(number_between(1e-6, 1e6, "mm"))

@@ -2,16 +2,23 @@
 
 #include <chrono>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
+#include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/training/exercise/monitor.hpp>
 #include <trocar/training/expert/demonstration.hpp>
 
+#include "commands/checks/check_scene.hpp"
+
 namespace trocar::app {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 /// The scene, where it can be read; its own faults are appended.
@@ -92,6 +99,37 @@ Json describe_exercise(const std::filesystem::path& path) {
   if (faults.empty()) training::check_demonstration(exercise, model ? &*model : nullptr, faults);
   if (!faults.empty() || !model) throw core::BadInput(std::move(faults));
   return describe(exercise, *model);
+}
+
+bool is_rules_file(const scene::JsonValue& root) {
+  const auto has = [&](const char* key) { return root.find(key) != nullptr; };
+  if (!has("title") || has("name") || has("scene")) return false;
+  return has("errors") || has("steps") || has("limits") || has("sets");
+}
+
+Json describe_rules(const fs::path& path) {
+  Json out{{"file", path.string()}, {"kind", "rules"}, {"taken_by", Json::array()}};
+  training::Faults faults;
+  std::set<std::string> told;
+  for (const attempt::ExerciseEntry& e : attempt::list_exercises(attempt::scenes_folder())) {
+    if (!lists_file(e.path, "includes", path)) continue;
+    out["taken_by"].push_back({{"name", e.name}});
+    training::Faults all;
+    training::read_exercise(e.path, all);
+    for (core::Fault& fault : all) {
+      std::error_code error;
+      if (!fs::equivalent(fault.at.file, path, error)) continue;
+      fault.at.file = path.string();
+      if (told.insert(core::to_string(fault)).second) faults.push_back(std::move(fault));
+    }
+  }
+  if (!faults.empty()) throw core::BadInput(std::move(faults));
+  return out;
+}
+
+void print_rules(const Json& r) {
+  if (r["taken_by"].empty()) fmt::print("  no exercise takes these rules: nothing but their JSON was looked at\n");
+  if (!r["taken_by"].empty()) print_names("exercises take them", r["taken_by"], "name");
 }
 
 void print_exercise(const Json& r) {

@@ -198,6 +198,17 @@ Json describe_scene(const fs::path& path, const std::vector<std::string>& only,
   return out;
 }
 
+bool lists_file(const fs::path& file, const char* list, const fs::path& wanted) {
+  std::vector<core::Fault> faults;
+  const scene::JsonDocument document = scene::load_json(file, faults);
+  const scene::JsonMember* names = document.root.find(list);
+  if (!names) return false;
+  std::error_code error;
+  return std::any_of(names->value.items.begin(), names->value.items.end(), [&](const scene::JsonValue& item) {
+    return item.kind == scene::JsonValue::Kind::string && fs::equivalent(file.parent_path() / item.text, wanted, error);
+  });
+}
+
 std::string verdict_of(const Json& scene) {
   if (!scene["sinks"].empty()) return kSinks;
   return scene["doubts"].empty() ? "good" : "to mend";

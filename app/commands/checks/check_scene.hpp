@@ -19,6 +19,9 @@ namespace trocar::app {
 Json describe_scene(const std::filesystem::path& path, const std::vector<std::string>& only,
                     const std::function<void(const sim::Model&)>& fits = {});
 
+/// Does this file's list (of a scene `organs`, of an exercise `includes`) name that file?
+bool lists_file(const std::filesystem::path& file, const char* list, const std::filesystem::path& wanted);
+
 inline constexpr const char* kSinks = "does not hang still";
 /// "good", "to mend" or kSinks.
 std::string verdict_of(const Json& scene);

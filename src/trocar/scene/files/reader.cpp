@@ -198,8 +198,8 @@ FileKind kind_of_file(const fs::path& path, const MemoryFiles* memory) {
   if (has("vessels") || has("sources")) return FileKind::vessels;
   if (has("inherits") || has("colour") || has("surroundings")) return FileKind::look;
   if (has("kind")) return FileKind::instrument;
-  if (has("solids") || has("strands") || has("walls") || has("sheets") || has("membranes") || has("organs"))
-    return FileKind::organ;
+  for (const char* bodies : {"solids", "strands", "walls", "sheets", "membranes", "pouches", "organs"})
+    if (has(bodies)) return FileKind::organ;
   return has("tissues") ? FileKind::tissue : FileKind::scene;
 }
 
