@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/scene/files/reader.hpp>
 
 #include "run_program.hpp"
 
@@ -81,10 +82,20 @@ TEST_F(Check, ShippedScenesAreGood) {
 
 TEST_F(Check, TellsWhatKindEveryShippedFileIsByItsFolder) {
   const std::pair<const char*, const char*> folders[] = {
-      {"common", "rules"}, {"inputs", "input map"}, {"instruments", "instrument"}, {"looks", "look"}};
+      {"common", "rules"}, {"instruments", "instrument"}, {"looks", "look"}};
   for (const auto& [folder, kind] : folders)
     for (const fs::directory_entry& file : fs::directory_iterator(scenes(folder)))
       EXPECT_EQ(checked(std::string(folder) + "/" + file.path().filename().string(), core::kDone)["kind"], kind);
+  for (const fs::directory_entry& file : fs::directory_iterator(scenes("organs"))) {
+    if (file.path().extension() != ".json") continue;
+    EXPECT_EQ(scene::kind_of_file(file.path()), scene::FileKind::organ) << file.path();
+  }
+}
+
+TEST_F(Check, TellsWhatDevicesLead) {
+  EXPECT_EQ(checked("inputs/two_pads.json", core::kDone)["leads"][0]["by"], "gamepad 2");
+  EXPECT_EQ(checked("inputs/space_mouse.json", core::kDone)["kind"], "input map");
+  EXPECT_EQ(checked("inputs/tracker.json", core::kDone)["leads"].size(), 3u);
 }
 
 TEST_F(Check, AnOrganOfPouchesAloneIsAnOrgan) {

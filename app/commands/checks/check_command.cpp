@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <trocar/attempt/inputs/input_map.hpp>
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
@@ -16,6 +15,7 @@
 #include <trocar/scene/mechanisms/mechanism_file.hpp>
 
 #include "commands/checks/check_exercise.hpp"
+#include "commands/checks/check_inputs.hpp"
 #include "commands/checks/check_mesh.hpp"
 #include "commands/checks/check_room.hpp"
 #include "commands/checks/check_scene.hpp"
@@ -69,13 +69,6 @@ void print_tissues(const Json& tissues) {
   }
 }
 
-Json describe_input_map(const fs::path& path) {
-  Json out{{"file", path.string()}, {"kind", "input map"}, {"parts", Json::array()}};
-  for (const attempt::InputMap::Part& part : attempt::read_input_map(path).parts)
-    out["parts"].push_back({{"role", part.role}, {"device", part.device}});
-  return out;
-}
-
 bool is_mechanism_file(const fs::path& path) {
   if (path.extension() == ".urdf") return true;
   std::vector<core::Fault> ignored;
@@ -107,7 +100,7 @@ Json check_one(const fs::path& path, double unit) {
   if (is_programme_file(document.root)) return describe_programme(path);
   if (is_room_file(document.root)) return describe_room(path);
   if (is_rules_file(document.root)) return describe_rules(path);
-  if (has("parts") && !has("name")) return describe_input_map(path);
+  if (is_inputs_file(document.root)) return describe_inputs(path, document.root);
   if (attempt::is_exercise(path)) {
     out["kind"] = "exercise";
     out.update(describe_exercise(path));
@@ -138,9 +131,7 @@ void print_checks(const Json& r) {
              r.value("verdict", std::string("good")));
   if (r["kind"] == "exercise") return print_exercise(r);
   if (r["kind"] == "rules") return print_rules(r);
-  if (r["kind"] == "input map")
-    for (const Json& part : r["parts"])
-      fmt::print("  {}: {}\n", part["role"].get<std::string>(), part["device"].get<std::string>());
+  if (r.contains("leads")) print_inputs(r);
   if (r.contains("wrong")) print_room(r);
   if (r.contains("mesh")) print_mesh(r);
   if (r.contains("vessels")) print_vessels(r);
