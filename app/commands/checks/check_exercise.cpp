@@ -124,6 +124,7 @@ Json describe_rules(const fs::path& path) {
     }
   }
   if (!faults.empty()) throw core::BadInput(std::move(faults));
+  if (out["taken_by"].empty()) out["verdict"] = "not looked into";
   return out;
 }
 
