@@ -5,7 +5,7 @@
 
 A tag is written [KCM99 eq.3] (author letters, two digits of the year, number; a range is written out), that of a book's
 numbered algorithm [PT97 A2.1], of an equation of a chapter [PT97 eq.4.8]. The set of tags
-in docs/equations.md must be the set in src/ and the set in tests/. An equation that is only planned is written there
+in docs/science/equations.md must be the set in src/ and the set in tests/. An equation that is only planned is written there
 without brackets.
 """
 import re
@@ -36,9 +36,9 @@ def sources(folder):
 
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
-    page = root / "docs" / "equations.md"
+    page = root / "docs" / "science" / "equations.md"
     if not page.is_file():
-        print("docs/equations.md is missing")
+        print("docs/science/equations.md is missing")
         return 1
     listed, odd_listed = tags_in(root, [page])
     coded, odd_coded = tags_in(root, sources(root / "src"))
@@ -46,11 +46,11 @@ def main():
     found = odd_listed + odd_coded + odd_tested
     for tag in sorted(set(listed) | set(coded) | set(tested)):
         place = listed.get(tag) or coded.get(tag) or tested.get(tag)
-        for where, tags in (("docs/equations.md", listed), ("src/", coded), ("tests/", tested)):
+        for where, tags in (("docs/science/equations.md", listed), ("src/", coded), ("tests/", tested)):
             if tag not in tags:
                 found.append(f"{place}: {tag} does not occur in {where}")
     if not listed:
-        found.append("docs/equations.md lists no equation")
+        found.append("docs/science/equations.md lists no equation")
     print("\n".join(found) if found else f"{len(listed)} equations are listed, coded and tested")
     return 1 if found else 0
 

@@ -7,7 +7,7 @@
     tools/check_metrics.py sample TRAINING_TEST               the same, on a trace that the test program writes
 
 Shares no code with the program: reads the files itself, filters with scipy, transforms with numpy, and writes each
-formula out again from docs/metrics.md. Exit 0 they agree, 1 they do not, 77 skipped (numpy, scipy or data missing).
+formula out again from docs/guides/metrics.md. Exit 0 they agree, 1 they do not, 77 skipped (numpy, scipy or data missing).
 """
 import csv
 import io
@@ -149,7 +149,7 @@ class Hand:
 
 
 def metrics_of(hands, rate, start=0.0, marks=(), limits=(4, 15, 4)):
-    """As docs/metrics.md; the same names as in the program's JSON."""
+    """As docs/guides/metrics.md; the same names as in the program's JSON."""
     motion = [h.filtered(rate) for h in hands]
     speeds = [speed_of(p, rate) for p, _ in motion]
     n = len(speeds[0])
@@ -210,7 +210,7 @@ def metrics_of(hands, rate, start=0.0, marks=(), limits=(4, 15, 4)):
 # --- motion files ---
 
 def tangents(points, t):
-    """Velocities at the rows of a smooth curve, from docs/motion_input.md: direction the bisector of the directions
+    """Velocities at the rows of a smooth curve, from docs/guides/motion_input.md: direction the bisector of the directions
     before and after, size 2ab/(a+b) cos^4(turn/2); zero at the ends. points: (n x d)."""
     v = np.zeros_like(points)
     slopes = np.diff(points, axis=0) / np.diff(t)[:, None]

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Feeds the readers of outside input what no person would write: libFuzzer with address and undefined-behaviour
-# sanitizers, two targets at a time, each from the corpus that is kept in tests/fuzz/corpus (docs/robustness.md).
+# sanitizers, two targets at a time, each from the corpus that is kept in tests/fuzz/corpus (docs/developers/robustness.md).
 #
 #   tools/fuzz.sh [-k] [-j JOBS] [SECONDS [TARGET...]]
 #       SECONDS  for each target, default 600

@@ -6,7 +6,7 @@
         BEFORE, AFTER  two programs `trocar`, as built from two commits
         --seeds        anatomies 0 .. N-1 of every demonstration (default 20)
         --only         operations with these words in their name
-        --hands        recorded hands for the scenes without a task (docs/motion_input.md)
+        --hands        recorded hands for the scenes without a task (docs/guides/motion_input.md)
 
 Operations: every exercise's demonstration on every seed; every scene without a task under each of the recorded hands, and
 under the hands of `trocar bench`, which pull at what is nearest. Compared, for every operation:

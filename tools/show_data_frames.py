@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """A sheet of one frame of `trocar ... --data FOLDER`: picture, depth, normals, parts, flow, and the difference to the
-picture before as the flow warps it (docs/data_frames.md). Needs Debian's python3-numpy and python3-pil.
+picture before as the flow warps it (docs/guides/data_frames.md). Needs Debian's python3-numpy and python3-pil.
 
     tools/show_data_frames.py FOLDER 000012 OUT.png
 """

@@ -253,7 +253,7 @@ void add_train(CLI::App& program, Chosen& chosen) {
                 std::string("a device that leads a hand, and pushes back: ") + devices::kHapticDevices);
   c->add_option("--haptics-hand", options->haptics_hand, "that it leads, by its trocar; default: the right one");
   c->add_option("--tracker", options->tracker,
-                "a file that says which tools of a tracker lead what (docs/trackers.md)");
+                "a file that says which tools of a tracker lead what (docs/guides/trackers.md)");
   c->add_flag("--no-store", options->no_store, "leave nothing in the session store");
   c->add_option("--seconds", options->seconds, "stop after so much simulated time")
       ->check(number_above(0, kLongestRun, "s"));

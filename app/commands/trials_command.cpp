@@ -78,7 +78,8 @@ std::vector<training::StudyAttempt> read_attempts(const std::vector<fs::path>& f
 
 const std::vector<std::string>& remarks() {
   static const std::vector<std::string> all = {
-      "Motions from files, joined by smooth curves (docs/motion_input.md) and sampled 50 times a second. What the rows "
+      "Motions from files, joined by smooth curves (docs/guides/motion_input.md) and sampled 50 times a second. What "
+      "the rows "
       "do "
       "not hold is not in the figures: with one row a second nothing faster than 0.5 Hz is known, so smoothness and "
       "idle "
@@ -138,7 +139,8 @@ void add_trials(CLI::App& program, Chosen& chosen) {
   auto o = std::make_shared<Options>();
   CLI::App* c = add_command(program, chosen, "trials", "Metrics and learning curve of motions in files",
                             "trocar trials motions.csv --html trials.html");
-  c->add_option("motions", o->where, "a CSV file of motions (docs/motion_input.md), or a folder of them")->required();
+  c->add_option("motions", o->where, "a CSV file of motions (docs/guides/motion_input.md), or a folder of them")
+      ->required();
   c->add_option("--html", o->html, "write a page with drawings to this file");
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return trials(o->where, o->html, chosen.json); }; });
 }

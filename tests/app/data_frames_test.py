@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Frames for research, read as docs/data_frames.md says and checked against geometry.
+"""Frames for research, read as docs/guides/data_frames.md says and checked against geometry.
 
     python3 tests/app/data_frames_test.py PATH/TO/trocar
 

@@ -1,4 +1,4 @@
-"""Reads what `trocar ... --data FOLDER` leaves (docs/data_frames.md), for the tests beside this."""
+"""Reads what `trocar ... --data FOLDER` leaves (docs/guides/data_frames.md), for the tests beside this."""
 import json
 import os
 import subprocess

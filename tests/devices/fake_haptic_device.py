@@ -1,4 +1,4 @@
-"""A haptic device for Trocar's seam in fifty lines: a point of 0.2 kg in a soft hand. docs/haptics.md has the format.
+"""A haptic device for Trocar's seam in fifty lines: a point of 0.2 kg in a soft hand. docs/guides/haptics.md has the format.
 
     fake_haptic_device.py PORT [SECONDS]      then: trocar train EXERCISE --haptics seam:PORT
 

@@ -4,7 +4,7 @@
 //   fuzz::find("scene")->run(bytes);     // throws fuzz::Broken, or does not come back, where something is wrong
 //
 // The same functions are built twice: with clang's libFuzzer and sanitizers (preset "fuzz", tools/fuzz.sh), and into
-// the quick tests, which replay the kept corpora and every input that once was a fault (docs/robustness.md).
+// the quick tests, which replay the kept corpora and every input that once was a fault (docs/developers/robustness.md).
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Every surface in the data folder, mended: a row of docs/meshes.md for each file.
+// Every surface in the data folder, mended: a row of docs/guides/meshes.md for each file.
 //
 //   build/release/tests/geometry/geometry_soak --gtest_filter='MendedData.*'
 #include <chrono>

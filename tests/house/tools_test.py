@@ -125,7 +125,7 @@ def EquationCheckFindsEachFault():
     def check(doc, src, test):
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
-            put(root, "docs/equations.md", doc)
+            put(root, "docs/science/equations.md", doc)
             put(root, "src/trocar/tissue/a.cpp", src)
             put(root, "tests/tissue/a_test.cpp", test)
             return tool("check_equations.py", root)

@@ -300,7 +300,7 @@ TEST(Script, AUterusComesFromNothingToPulledByAGrasperInFewerThan60Operations) {
 }
 
 TEST(Script, EveryStepIsInTheManual) {
-  const std::string page = read("docs/modeller.md");
+  const std::string page = read("docs/guides/modeller.md");
   ASSERT_FALSE(page.empty());
   for (const Operation& o : operations())
     EXPECT_NE(page.find("`" + o.parameters.name + "`"), page.npos) << o.parameters.name;

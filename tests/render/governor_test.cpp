@@ -149,7 +149,7 @@ TEST(Governor, LevelsGetCheaperStepByStep) {
 /// A machine on a clock of its own: what a frame costs at each level, with some unrest and a hiccup now and then.
 class SimulatedMachine {
  public:
-  /// @param factor  of the times of the busiest scene on one core [ms] (docs/picture.md)
+  /// @param factor  of the times of the busiest scene on one core [ms] (docs/science/picture.md)
   explicit SimulatedMachine(double factor) : m_factor(factor) {}
 
   double cost(std::size_t level) const {

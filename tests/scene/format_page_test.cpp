@@ -1,4 +1,4 @@
-// docs/scene_format.md ends with the tables of keys; they are written from the reader's own tables.
+// docs/reference/scene_format.md ends with the tables of keys; they are written from the reader's own tables.
 #include <string>
 #include <vector>
 
@@ -86,13 +86,13 @@ TEST(FormatPage, TablesOfKeysAreTheReaders) {
        {&scene_shape(), &organ_shape(), &instrument_shape(), &tissue_shape(), &vessels_shape(), &look_shape()})
     add_tables(*shape, done, tables);
   const std::string marker = "<!-- from here on written from the reader's tables -->\n";
-  const std::string page = text_of(TROCAR_SOURCE_DIR "/docs/scene_format.md");
+  const std::string page = text_of(TROCAR_SOURCE_DIR "/docs/reference/scene_format.md");
   const std::size_t at = page.find(marker);
   const std::filesystem::path fresh = std::filesystem::path(TROCAR_BINARY_DIR) / "scene_format_tables.md";
   std::ofstream(fresh) << tables;
   ASSERT_NE(at, page.npos);
   EXPECT_EQ(page.substr(at + marker.size()), tables)
-      << "docs/scene_format.md: replace what follows the marker by " << fresh.generic_string();
+      << "docs/reference/scene_format.md: replace what follows the marker by " << fresh.generic_string();
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Current and heat within the step: what a hook and bipolar forceps do to the small scene, against what heat alone says
-// (docs/heat.md), and the laws of the step while they do it.
+// (docs/science/heat.md), and the laws of the step while they do it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -49,7 +49,8 @@ TEST(Energy, AHookOnAnOrganFor2SecondsCoagulatesAsDeepAsHeatAloneSays) {
   const tissue::DischargeFigures& now = t.state.electrodes[kHook].current.now;
   std::printf("    40 W, 2 s: coagulated %.2f mm deep, %.1f W into tissue, %.0f Ohm, %.1f J\n", 1e3 * deep, now.tissue,
               now.impedance, t.state.electrodes[kHook].current.joules);
-  // Heat alone, in a half space: 3.0 mm (docs/heat.md). A cell for the place of the contact, one for the curved skin.
+  // Heat alone, in a half space: 3.0 mm (docs/science/heat.md). A cell for the place of the contact, one for the curved
+  // skin.
   EXPECT_NEAR(deep, 3.0e-3, 1e-3);
   EXPECT_EQ(t.flags & StepReport::kHeatFull, 0u);
 }

@@ -1,5 +1,5 @@
-// The laws of the step (docs/architecture.md): what a tick may depend on, and what it may not do. All on one piece of
-// work in the small scene: approach, grasp, lift, two clips, a cut through the tube, one through the bar.
+// The laws of the step (docs/developers/architecture.md): what a tick may depend on, and what it may not do. All on one
+// piece of work in the small scene: approach, grasp, lift, two clips, a cut through the tube, one through the bar.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

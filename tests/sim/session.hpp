@@ -1,5 +1,6 @@
-// One piece of work in the small scene, recorded once, for tests of the laws of the step (docs/architecture.md): what a
-// tick may depend on. Approach, grasp, lift, two clips, a cut through the tube, one through the bar.
+// One piece of work in the small scene, recorded once, for tests of the laws of the step
+// (docs/developers/architecture.md): what a tick may depend on. Approach, grasp, lift, two clips, a cut through the
+// tube, one through the bar.
 //
 //   State s = initial_state(small::model());
 //   Work w = make_work(small::model(), &pool);

@@ -1,5 +1,5 @@
-// One choice of figures against what has been measured of electrosurgery; docs/heat.md says what fits and what does
-// not, and these tests hold both, so that neither changes unnoticed.
+// One choice of figures against what has been measured of electrosurgery; docs/science/heat.md says what fits and what
+// does not, and these tests hold both, so that neither changes unnoticed.
 #include <array>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // How a validation test speaks: every figure it measures is printed and recorded beside the tolerance it is held to, in
-// double and in float, and so is the order in which errors fall as steps or cells shrink. docs/validation.md is the
-// collection of these lines.
+// double and in float, and so is the order in which errors fall as steps or cells shrink. docs/science/validation.md is
+// the collection of these lines.
 //
 //   expect_within("row 1, discrete law", precision<double>(), worst / x0, 1e-9);
 //   expect_order("row 1, period", precision<double>(), {0.0037, 0.00094, 0.00023}, 2, 0.1);

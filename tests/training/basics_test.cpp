@@ -76,7 +76,7 @@ TEST(BasicSkills, ANicheHidesItsDiscFromAllButOneTurnOfTheLightPost) {
 }
 
 TEST(BasicSkills, ThePageHasEveryErrorAndItsPoints) {
-  std::ifstream in(TROCAR_SOURCE_DIR "/docs/exercise_basics.md");
+  std::ifstream in(TROCAR_SOURCE_DIR "/docs/guides/exercise_basics.md");
   const std::string page{std::istreambuf_iterator<char>(in), {}};
   for (const char* exercise : {"camera-0", "camera-30", "clip-application", "pulse-palpation"}) {
     const Lesson lesson(exercise);

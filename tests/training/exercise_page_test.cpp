@@ -1,4 +1,4 @@
-// docs/exercise_sterilisation.md says what the exercise file says.
+// docs/guides/exercise_sterilisation.md says what the exercise file says.
 #include <fstream>
 #include <iterator>
 
@@ -12,7 +12,7 @@ using namespace trocar::training;
 namespace {
 
 std::string page() {
-  std::ifstream in(TROCAR_SOURCE_DIR "/docs/exercise_sterilisation.md");
+  std::ifstream in(TROCAR_SOURCE_DIR "/docs/guides/exercise_sterilisation.md");
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

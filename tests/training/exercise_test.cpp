@@ -77,7 +77,7 @@ TEST_F(ExerciseFile, EveryLimitSaysWhereItComesFrom) {
 
 TEST_F(ExerciseFile, OfFormat2IsNotReadAnyMore) {
   change("\"format\": 3", "\"format\": 2");
-  expect_one_fault("docs/authoring_exercises.md");
+  expect_one_fault("docs/guides/authoring_exercises.md");
 }
 
 TEST_F(ExerciseFile, AMissingKeyIsLocated) {

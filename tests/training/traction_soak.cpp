@@ -1,5 +1,5 @@
 // Which way the infundibulum is drawn decides whether the triangle opens: to the right hip it does, forwards and up it
-// closes. With the fat still in it and hands that hold 2 N, as in docs/cholecystectomy.md.
+// closes. With the fat still in it and hands that hold 2 N, as in docs/guides/cholecystectomy.md.
 #include <cstdio>
 #include <string>
 

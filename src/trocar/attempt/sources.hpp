@@ -74,7 +74,7 @@ struct HandPlacement {
   Vec3d to_scene(const std::array<double, 3>& tip) const;
 };
 
-/// The stated transform: see docs/motion_input.md.
+/// The stated transform: see docs/guides/motion_input.md.
 std::array<HandPlacement, 2> place_hands(const sim::Model& model, const devices::MotionTrial& trial);
 
 /// Both hands of a recorded trial: first both tips go to where the trial begins, then they follow it.

@@ -24,7 +24,7 @@ struct TipFrame {
   Vec3d normal() const { return rotation.column(1); }
 };
 
-/// What a trocar and a hand allow.  Figures: our choice, see docs/scene_format.md
+/// What a trocar and a hand allow.  Figures: our choice, see docs/reference/scene_format.md
 struct FulcrumLimits {
   double angle = 1.45;                          ///< yaw and pitch, [rad]
   double depth_min = 0.005, depth_max = 0.290;  ///< [m]

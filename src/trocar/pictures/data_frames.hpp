@@ -1,5 +1,5 @@
 // Frames for researchers: pictures with depth, normals, part numbers, flow and cameras, from a run without a window.
-// docs/data_frames.md describes the files.
+// docs/guides/data_frames.md describes the files.
 //
 //   DataFrames data(model, {"data", 5}, {800, 600}, look);
 //   ... each tick:  if (data.due(state.tick)) data.add(state, view_options);

@@ -207,8 +207,8 @@ TEST(Thread, ASlingWithItsEndsTogetherHasTheElasticasShape) {
   expect_ratio("K2, curvature at its apex", length(bend) * m.length, 10.77, 0.01);
 }
 
-// K3. At the thread's own stiffness and a tick of 1 ms a fold that runs is damped by the step (docs/thread.md): this is
-// the motion that the equations tend to.
+// K3. At the thread's own stiffness and a tick of 1 ms a fold that runs is damped by the step (docs/science/thread.md):
+// this is the motion that the equations tend to.
 TEST(Thread, AFoldedChainFallsFasterThanFreely) {
   ThreadStuff stuff = elastic("3-0", "silk");
   stuff.bend = 1e-13, stuff.twist = 1e-13, stuff.stretch = 0.1, stuff.diameter = 2e-5;

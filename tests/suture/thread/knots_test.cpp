@@ -179,7 +179,7 @@ TEST(ThreadKnots, ASurgeonsKnotHoldsFiveNewtonForThreeSeconds) {
 }
 
 // K11: of its order, what is met. How far the forces themselves are from those of Koninckx et al. stands in
-// docs/validation.md.
+// docs/science/validation.md.
 TEST(ThreadKnots, OpposedThrowsHoldMoreThanTurnsOfOneThrow) {
   for (const char* make : {"PDS", "silk"}) {
     const double single = load(make, {{1, 1}}, 8, 28, 0, nullptr).most;

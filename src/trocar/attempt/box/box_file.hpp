@@ -1,4 +1,4 @@
-// The file that says how a box is wired and calibrated (JSON with comments, docs/box.md):
+// The file that says how a box is wired and calibrated (JSON with comments, docs/guides/box.md):
 //
 //   {"format": 1, "baud": 38400, "rate_hz": 50, "protocol": "framed", "zero": "placed", "filter_hz": 5,
 //    "hands": [{"hand": "left", "yaw": {"channel": 0, "deg": [[409, -60], [3686, 60]]}, ...

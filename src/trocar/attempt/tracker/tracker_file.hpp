@@ -1,4 +1,4 @@
-// Which tracked tool leads what: a file (JSON with comments, docs/trackers.md).
+// Which tracked tool leads what: a file (JSON with comments, docs/guides/trackers.md).
 //
 //   {"format": 1, "server": "127.0.0.1:18944", "x_points": "left", "y_points": "head",
 //    "tools": [{"role": "right", "transform": "RightToReference", "tip_mm": [0, 0, -310],

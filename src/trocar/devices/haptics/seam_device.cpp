@@ -63,7 +63,7 @@ void SeamDevice::open() {
       close();
       throw core::EnvironmentLacks(
           fmt::format("seam:{}: no device has spoken on 127.0.0.1:{} for {:g} s: start the program that brings it "
-                      "(docs/haptics.md), then try again",
+                      "(docs/guides/haptics.md), then try again",
                       port, port, m_patience));
     }
     std::this_thread::sleep_for(kListenAgain);

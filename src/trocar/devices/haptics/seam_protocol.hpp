@@ -1,4 +1,5 @@
-// The datagrams by which a program of somebody's own brings its device (docs/haptics.md has the format and an example).
+// The datagrams by which a program of somebody's own brings its device (docs/guides/haptics.md has the format and an
+// example).
 #pragma once
 
 #include <optional>

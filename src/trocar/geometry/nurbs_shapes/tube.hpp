@@ -6,7 +6,7 @@
 //
 // Sections are exact circles at right angles to the spine, turned along it as little as possible; between them the
 // surface is a cubic along v, so it is exact for straight spines of even radius and off by a small share of the
-// radius's and the bend's change over a station otherwise (docs/nurbs.md has figures).
+// radius's and the bend's change over a station otherwise (docs/science/nurbs.md has figures).
 #pragma once
 
 #include <vector>

@@ -7,7 +7,7 @@
 // Of the thread in the tube nothing is computed: its elements sleep (the thread takes them to be parted) and lie along
 // the tube's axis. Until the loop is open, and while the instrument is hardly in the body, all of it is carried
 // along as it lies by itself (suture_sling_shape.hpp). What a loop does to the strand that it lies around:
-// suture_strangle.hpp; what moves it: suture_sling_step.hpp. docs/endoloop.md.
+// suture_strangle.hpp; what moves it: suture_sling_step.hpp. docs/guides/endoloop.md.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // How a sling's loop lies where nothing but its own memory shapes it: a pear in the plane of the tube's axis. Both
 // threads leave along the tube, bend apart, go straight on and meet in an arc; all of it grows with the thread that
-// there is. docs/endoloop.md.
+// there is. docs/guides/endoloop.md.
 #pragma once
 
 #include <trocar/interactions/objects/suture.hpp>

@@ -1,6 +1,6 @@
 // One row a key. A row binds what a key of a file is (name, unit, range, meaning) to the member that holds it; the rows
 // of a kind of object are a Table, and the reader, the writer, the published schema (json/schema.hpp) and the tables of
-// docs/scene_format.md follow from it. A key more is a row more.
+// docs/reference/scene_format.md follow from it. A key more is a row more.
 //
 //   const Table<Anchor>& anchor() {
 //     using R = Rows<Anchor>;

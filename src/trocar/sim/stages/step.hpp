@@ -1,4 +1,5 @@
-// One tick of the whole simulation, as a list of named stages (docs/computation.md says what each does and costs).
+// One tick of the whole simulation, as a list of named stages (docs/developers/computation.md says what each does and
+// costs).
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
 // A surgical thread: a chain of nodes with its true stiffness in stretch, bending and twist, which touches itself, rubs
 // on itself, and keeps bends that went beyond its yield. Knots in it hold by friction and yielding; nothing knows that
-// they are knots. What it is, how it is solved and how far it is from the real thing: docs/thread.md.
+// they are knots. What it is, how it is solved and how far it is from the real thing: docs/science/thread.md.
 //
 //   ThreadModel model = build({.stuff = find_thread("3-0", "PDS")->stuff, .length = 0.15});
 //   ThreadState state = laid(model, path);                 // along a path, from its first point

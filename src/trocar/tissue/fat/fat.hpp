@@ -8,7 +8,7 @@
 //   heat    a lobule keeps what current gives it: it warms to 100 C, then its water boils. From 60 C on it is
 //           coagulated: what ties it bears a fifth of what it did. Without water it is gone, with its mass and volume
 //           booked
-// All figures of strength and heat are our choice between those of other tissues (docs/fat.md).
+// All figures of strength and heat are our choice between those of other tissues (docs/science/fat.md).
 //
 //   const FatModel model = build(description, 1e-3);
 //   FatState state = rest_state(model);  FatWork work = make_work(model);

@@ -9,7 +9,7 @@
 //   sticking   grows with a time of 0.3 s while the tissue at the contact is above 150 C, fully at 200 C, until torn
 //   off
 // A mode says how far current is focussed. The figures are our choice within what generators' manuals show of power
-// over load and [Munro 2012] says of wave forms; docs/heat.md holds them against measurements.
+// over load and [Munro 2012] says of wave forms; docs/science/heat.md holds them against measurements.
 //
 // An electrode works once in a step of the heat (8 ticks), for all of them.
 //

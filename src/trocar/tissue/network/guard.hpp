@@ -8,7 +8,7 @@
 //   guard.catch_leaps(in, out);                       // after that and its loads
 //   guard.release(nodes);                             // when the tick is done
 //
-// Private to the folder. docs/robustness.md says what was tried and what it withstands.
+// Private to the folder. docs/developers/robustness.md says what was tried and what it withstands.
 #pragma once
 
 #include <array>

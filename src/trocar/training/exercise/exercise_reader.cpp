@@ -106,8 +106,9 @@ class ExerciseReader {
     const scene::JsonMember* format = document.root.find("format");
     if (!format || format->value.kind != JsonValue::Kind::number || format->value.number >= 3) return false;
     fault(document.file, format->value,
-          fmt::format("expected format 3, got {:g}: format 2 is not read any more: see docs/authoring_exercises.md",
-                      format->value.number));
+          fmt::format(
+              "expected format 3, got {:g}: format 2 is not read any more: see docs/guides/authoring_exercises.md",
+              format->value.number));
     return true;
   }
 

@@ -95,7 +95,7 @@ const Shape& score_shape() {
 const Shape& exercise_shape() {
   static const Shape shape{
       "exercise",
-      "What has to be done in a scene, and what counts as done well: docs/exercise_format.md.",
+      "What has to be done in a scene, and what counts as done well: docs/reference/exercise_format.md.",
       {keys::text("$schema", "where editors find this kind of file's schema"),
        keys::format(3),
        needed(keys::name("name", "what the command line calls it")),

@@ -1,5 +1,5 @@
 // How the hands moved and how hard they pulled: all motion and force metrics of an attempt, from its Trace alone.
-// docs/metrics.md says how each is defined, after whom, and what it is not good for.
+// docs/guides/metrics.md says how each is defined, after whom, and what it is not good for.
 //
 //   const Metrics m = metrics_of(recorder.trace(), {.end = monitor_seconds});
 //   result["metrics"] = nlohmann::ordered_json::parse(metrics_json(m));
@@ -37,7 +37,7 @@ struct MetricsOptions {
   std::vector<std::vector<Vec3d>> waypoints;
   /// Per hand, what it aimed at [m]; a hand without any takes the places of its marks.
   std::vector<std::vector<Vec3d>> targets;
-  std::array<double, kForceKinds> force_limits{4, 15, 4};  ///< [N], see docs/metrics.md
+  std::array<double, kForceKinds> force_limits{4, 15, 4};  ///< [N], see docs/guides/metrics.md
   std::array<int, 2> pair{-1, -1};                         ///< hands compared; -1: the two with the longest paths
 };
 

@@ -1,5 +1,5 @@
-// The single formulas behind metrics.hpp, on plain arrays, so that each can be tested alone. docs/metrics.md names
-// their sources.
+// The single formulas behind metrics.hpp, on plain arrays, so that each can be tested alone. docs/guides/metrics.md
+// names their sources.
 #pragma once
 
 #include <span>

@@ -4,7 +4,7 @@
 //   use(study_json(study));
 //
 // A correlation says something about these people and this task only. With few people its range, when each is left out
-// in turn, says more than the figure; both are always given together. docs/metrics.md
+// in turn, says more than the figure; both are always given together. docs/guides/metrics.md
 #pragma once
 
 #include <span>

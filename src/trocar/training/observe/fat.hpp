@@ -10,7 +10,7 @@
 namespace trocar::training {
 
 /// A strand is bare at a place where it is free in so many of eight sectors around it.       shared figures:
-/// docs/fat.md
+/// docs/science/fat.md
 inline constexpr int kSectors = 8, kBareSectors = 7;
 
 /// The longest stretch of a strand along which it is bare and lay in fat as drawn: what never lay in it has not been

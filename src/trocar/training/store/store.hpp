@@ -10,7 +10,8 @@
 //   store.end(attempt, lock);
 //   for (const Attempt& a : store.list({.trainee = "ada"})) ...
 //
-// The store looks at no clock; times are the caller's texts, order is the number it gives. Layout: docs/sessions.md.
+// The store looks at no clock; times are the caller's texts, order is the number it gives. Layout:
+// docs/guides/sessions.md.
 #pragma once
 
 #include <filesystem>

@@ -7,7 +7,7 @@
 //
 // What a file is follows from its bytes, not from its name. Files are taken as hostile: what they announce is believed
 // as far as their bytes reach, and looked at before memory is asked for. Sheared grids (a tilted gantry) come out
-// straightened. docs/volumes.md lists what is read of each format, and what is refused.
+// straightened. docs/guides/volumes.md lists what is read of each format, and what is refused.
 #pragma once
 
 #include <filesystem>
