@@ -215,8 +215,46 @@ def LinkCheckFindsEachFault():
             expect(code == 1 and text.startswith("README.md:2: "), f"{bad} passed: {text}")
 
 
+def LanguageCheckFindsEachFault():
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        def faults():
+            code, text = tool("check_language.py", "--root", root)
+            return text if code else ""
+        expect("nothing to read" in faults(), "a folder without texts passed")
+        put(root, "docs/glossary.md", "| term | meaning |\n|---|---|\n| CT | computed tomography |\n")
+        put(root, "README.md", "A CT is a scan. See [here](" + 130 * "x" + ") and `what is be it`.\n\n"
+            "```\nTime stands still in code, and a line of code may be long: " + 130 * "y" + "\n```\n")
+        put(root, "scenes/a.json", '{"key with doubts": 1, // a comment comes off\n "title": "Hold it still"}')
+        put(root, "src/a.cpp", '// nobody is told\nauto x = f("Paused now", "ours");\n')
+        put(root, "docs/log/old.md", "Whoever comes off is told.\n")
+        expect(not faults(), f"good texts were refused: {faults()}")
+        bad = [("README.md", "word " * 41 + "\n", "README.md:1: a sentence of 41 words"),
+               ("README.md", "One.\n" + 121 * "z" + "\n", "README.md:2: a line of 121 characters"),
+               ("README.md", "| a | " + 201 * "z" + " |\n", "README.md:1: a table cell of 201"),
+               ("README.md", "An MRI, too.\n", "README.md:1: MRI: explain it"),
+               ("README.md", "One line\nand it hangs\nstill there.\n", "README.md:2: \"hangs still\""),
+               ("README.md", "What is held is seen.\n", "README.md:1: \"What is ...\""),
+               ("scenes/a.json", '{\n"hint": "time stands still"}', "scenes/a.json:2: \"time stands still\""),
+               ("src/a.cpp", '\nf("this peel "\n  "comes off");', "src/a.cpp:2: \"comes off\""),
+               ("src/a.html", "<p>Ways of the tips</p>", "src/a.html:1: \"Ways of the tips\""),
+               ("run.sh", 'echo "go on"', "run.sh:1: \"go on\"")]
+        for path, text, fault in bad:
+            before = (root / path).read_text() if (root / path).exists() else ""
+            put(root, path, text)
+            expect(fault in faults(), f"{text!r} passed: {faults()}")
+            put(root, path, before)
+        put(root, "README.md", "Who reads is told.\n")
+        put(root, "tools/language_exceptions.txt", "README.md: Who reads is told.\n")
+        expect(not faults(), f"an exception was refused: {faults()}")
+        put(root, "README.md", "All is well.\n")
+        expect("not needed" in faults(), "an exception that is not needed passed")
+        put(root, "tools/language_exceptions.txt", "".join(f"README.md: {i}\n" for i in range(21)))
+        expect("21 exceptions: at most 20" in faults(), "too many exceptions passed")
+
+
 CASES = [LayerCheckFindsEachFault, EquationCheckFindsEachFault, ObjectCodeCheckFindsEachFault,
-         EmptyTestExecutableIsFound, LinkCheckFindsEachFault]
+         EmptyTestExecutableIsFound, LinkCheckFindsEachFault, LanguageCheckFindsEachFault]
 
 if __name__ == "__main__":
     wanted = sys.argv[1:] or [c.__name__ for c in CASES]
