@@ -93,7 +93,7 @@ TEST(Skills, AreListedOnceEachAndSayWhatTheyMean) {
 }
 
 TEST(Skills, StandInTheDocsWithAllTheirParameters) {
-  std::ifstream in(TROCAR_SOURCE_DIR "/docs/guides/demonstrations.md");
+  std::ifstream in(TROCAR_SOURCE_DIR "/docs/reference/skills.md");
   const std::string docs{std::istreambuf_iterator<char>(in), {}};
   for (const SkillKind* kind : skills()) {
     const std::size_t begin = docs.find("### " + std::string(kind->name) + "\n");
