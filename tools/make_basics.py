@@ -4,7 +4,7 @@
     tools/make_basics.py            # scenes/organs/box_*.json and scenes/box_*/scene.json
     tools/make_basics.py --check    # exit 1 where a file differs from what this writes
 
-A box trainer of 200 x 200 x 150 mm (ours). Its frame is the scene's: x to the right of who stands in front of it, y
+A box trainer of 200 x 200 x 150 mm (our estimate). Its frame is the scene's: x to the right of who stands in front of it, y
 away from them, z up; the endoscope comes through the lid at the origin. Pegs, niches and vessels stand on a board or
 a pad. Everything is in mm here as in the files.
 """
@@ -234,7 +234,7 @@ def files():
     niche_walls, niche_marks = niches()
     strands, clip_marks = vessels()
     silicone = {"name": "silicone_vessel", "density_kg_m3": 1080, "young_Pa": 250000, "strain_cap": 0.3,
-                "damping_ms": 4, "source": "ours: soft silicone"}
+                "damping_ms": 4, "source": "our estimate: soft silicone"}
     yield "organs/box_pegs.json", organ("box_pegs", walls=board(SLOPE) + peg_walls)
     yield "organs/box_niches.json", organ("box_niches", walls=board(SLOPE) + niche_walls)
     yield "organs/box_vessels.json", organ("box_vessels", strands=strands, walls=[
@@ -244,7 +244,7 @@ def files():
     yield "box_niches/scene.json", scene(
         "box_niches", "Box trainer: niches", ["box_niches"], niche_marks, scope([0, 13, -14], 30), [])
     yield "box_vessels/scene.json", scene(
-        "box_vessels", "Box trainer: vessels to clip", ["box_vessels"], clip_marks, scope([4, 26, -27], 0),
+        "box_vessels", "Box trainer: vessels for clips", ["box_vessels"], clip_marks, scope([4, 26, -27], 0),
         [{"name": "right", "position_mm": list(APPLIER), "diameter_mm": 10},
          {"name": "left", "position_mm": list(GRASPER), "diameter_mm": 5}],
         [{"instrument": "grasper", "port": "left", "tip_mm": [-22, 70, -72]},

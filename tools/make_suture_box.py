@@ -78,8 +78,8 @@ def scene(called, title, surface, thread_mm, thread_line):
         "$schema": "../schema/scene.schema.json", "format": 1, "name": called,
         "title": title, "gravity_m_s2": [0, 0, -9.81],
         "tissues": [{"name": "suture_pad", "density_kg_m3": 1080, "young_Pa": 200000, "strain_cap": 0.3,
-                     "damping_ms": 4, "puncture_N": 0.6, "stitch_damage_N": 6, "source": "ours: soft silicone",
-                     "sources": {"puncture_N": "ours: a little less than the 0.7 N of skin"}}],
+                     "damping_ms": 4, "puncture_N": 0.6, "stitch_damage_N": 6, "source": "our estimate: soft silicone",
+                     "sources": {"puncture_N": "our estimate: a little less than the 0.7 N of skin"}}],
         "organs": [{"name": "suture_box", "solids": [{
             "name": "pad", "tissue": "suture_pad", "look": "silicone_pad",
             "surface": {"file": surface}, "cell_mm": EDGE, "skin_edge_mm": 2.0, "fine_edge_mm": 1.0,
@@ -104,8 +104,8 @@ def scene(called, title, surface, thread_mm, thread_line):
 
 def files():
     """Names below scenes/ with what they shall hold. What is tied takes more thread than a stitch alone."""
-    stitch = scene("box_suture", "Box trainer: a pad to be sutured", "pad.obj", 120, [65, 180, -72])
-    knot = scene("box_knot", "Box trainer: a pad to be sutured, thread to tie a knot", "../box_suture/pad.obj", 156,
+    stitch = scene("box_suture", "Box trainer: suture pad", "pad.obj", 120, [65, 180, -72])
+    knot = scene("box_knot", "Box trainer: suture pad with thread for a knot", "../box_suture/pad.obj", 156,
                  [75, 205, -72])
     return [("box_suture/pad.obj", pad()), ("box_suture/scene.json", HEAD + text(stitch) + "\n"),
             ("box_knot/scene.json", HEAD + text(knot) + "\n")]

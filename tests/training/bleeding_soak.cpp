@@ -87,9 +87,9 @@ TEST_P(BleedingPlace, TheDemonstrationStopsItAndPasses) {
 INSTANTIATE_TEST_SUITE_P(All, BleedingPlace, testing::Range(0, int(kPlaces)));
 
 /// The first clip on the heart's side, to be set wrongly; then it is set rightly.
-PlanTask& upstream(Plan& plan) { return flaws::first_wrongly(plan, "clip on the heart's side").todo[0]; }
-int applier(Plan& plan) { return plan.task("clip on the heart's side", "clip_vessel").argument("hand").index; }
-PlanTask& first_look(Plan& plan) { return plan.task("see that it bleeds", "wait_for_blood"); }
+PlanTask& upstream(Plan& plan) { return flaws::first_wrongly(plan, "clip on the proximal side").todo[0]; }
+int applier(Plan& plan) { return plan.task("clip on the proximal side", "clip_vessel").argument("hand").index; }
+PlanTask& first_look(Plan& plan) { return plan.task("watch the bleeding", "wait_for_blood"); }
 
 void forget(Plan& plan, std::string_view goal) {
   for (PlanPart& part : plan.parts)
@@ -99,7 +99,7 @@ void forget(Plan& plan, std::string_view goal) {
 }
 
 /// No hand moves while the camera looks at the end: what is still judged then would be told as moved out of view.
-void keep_hands_still_at_the_end(Plan& plan) { plan.task("see that it stays dry", "inspect").meanwhile.clear(); }
+void keep_hands_still_at_the_end(Plan& plan) { plan.task("check that it stays dry", "inspect").meanwhile.clear(); }
 
 void leave_the_pool(Plan& plan) {
   forget(plan, "clear the pool");
@@ -119,7 +119,7 @@ void wait(Plan& plan, double volume, double seconds = 0) {
 /// Takes the hook before anything bleeds and burns with it.
 void burn(Plan& plan, std::vector<PlanTask> where) {
   keep_hands_still_at_the_end(plan);
-  PlanGoal& first = plan.goal("see that it bleeds");
+  PlanGoal& first = plan.goal("watch the bleeding");
   PlanGoal& later = plan.goal("clear the pool");
   std::vector<PlanTask> all;
   for (PlanTask& task : later.todo) {
@@ -167,7 +167,7 @@ const Case kCases[] = {
      [](const sim::Model&, Plan& p) {
        PlanTask air = burn_at_bleeding(1);
        burn(p, {air});
-       for (PlanTask& task : p.goal("see that it bleeds").todo)
+       for (PlanTask& task : p.goal("watch the bleeding").todo)
          if (task.kind == &kCoagulate) {
            const int hand = task.argument("hand").index;
            flaws::replace(task, [hand](Operator& op, double now) {
@@ -200,7 +200,7 @@ const Case kCases[] = {
     {"E10",
      [](const sim::Model&, Plan& p) {
        leave_the_pool(p);
-       p.task("see that it stays dry", "inspect").set("for_s", 70).at_most = 100;
+       p.task("check that it stays dry", "inspect").set("for_s", 70).at_most = 100;
      }},
     {"E12",
      [](const sim::Model& m, Plan& p) {
@@ -209,7 +209,7 @@ const Case kCases[] = {
      }},
     {"A3.1",
      [](const sim::Model&, Plan& p) {
-       forget(p, "clip on the heart's side");
+       forget(p, "clip on the proximal side");
        leave_the_pool(p);
        p.goal("clip beyond").tries = 1;
      },
@@ -220,7 +220,7 @@ const Case kCases[] = {
        wrong.set_index("hand", applier(p)).set_index("of", other_tube(m));
        wrong.set("at_mm", 0.35 * m.strand_bodies[size_t(other_tube(m))].length()).set("seen", "whatever");
        wrong.set("cover", 0).set("angle_deg", 0, 1.5);
-       flaws::insert(p.goal("clip on the heart's side"), 0, wrong);
+       flaws::insert(p.goal("clip on the proximal side"), 0, wrong);
      }},
     {"A3.3",
      [](const sim::Model& m, Plan& p) {

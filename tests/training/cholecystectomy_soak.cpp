@@ -69,10 +69,10 @@ void spoil_clip_and_cut(Plan& plan, const sim::Model& model, const std::string& 
 
 void spoil_bed(Plan& plan, const std::string& code) {
   if (code == "A2.16")  // what holds is torn off instead of coagulated
-    plan.task("open and part", "draw").set("pull_N", 7.5).set("by_mm", 0.085).at_most = 20;
+    plan.task("open and divide the plane", "draw").set("pull_N", 7.5).set("by_mm", 0.085).at_most = 20;
   if (code != "A2.2" && code != "A2.13") return;
-  PlanGoal& goal = plan.goal("open and part");
-  const int hand = plan.task("open and part", "part_bonds").argument("hand").index;
+  PlanGoal& goal = plan.goal("open and divide the plane");
+  const int hand = plan.task("open and divide the plane", "part_bonds").argument("hand").index;
   const int neck = plan.task("hold", "take_hold").argument("mark").index;
   PlanTask away = PlanTask::of(kPutDown), take = PlanTask::of(kTake), in = PlanTask::of(kBringIn);
   away.set_index("hand", hand);

@@ -68,7 +68,7 @@ TEST_F(ExerciseFile, AsShippedItIsRead) {
   EXPECT_TRUE(e.penalty("E11")->fail);
   EXPECT_EQ(e.penalty("E99"), nullptr);
   EXPECT_EQ(e.penalty("E12")->leaves.size(), 2u) << "what the exercise adds to the common rules";
-  EXPECT_EQ(e.penalty("E1")->meaning, "pulled harder than 4 N on delicate tissue, or than 8 N on other");
+  EXPECT_EQ(e.penalty("E1")->meaning, "Pulled with more than 4 N on delicate tissue, or more than 8 N on other tissue");
 }
 
 TEST_F(ExerciseFile, EveryLimitSaysWhereItComesFrom) {
@@ -107,11 +107,11 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"ANumberOutOfRange", "\"pass_mark\": 80", "\"pass_mark\": 800", "expected"},
         Spoilt{"TimesThatLeaveNothingInBetween", "\"longest_s\": 900", "\"longest_s\": 240", "expert_s"},
         Spoilt{"ALimitOfAnotherType", "\"survey_s\": {\"value\": 1", "\"survey_s\": {\"value\": \"one\"", "a number"},
-        Spoilt{"ALimitWithoutASource", "\"cut_fraction\": {\"value\": 0.99, \"source\": \"ours\"}",
+        Spoilt{"ALimitWithoutASource", "\"cut_fraction\": {\"value\": 0.99, \"source\": \"our estimate\"}",
                "\"cut_fraction\": {\"value\": 0.99}", "source"},
         Spoilt{"AnEmptyRange", "\"value\": [12, 20]", "\"value\": [22, 20]", "from <= to"},
-        Spoilt{"ALimitThatNothingUses", "\"check_s\": {\"value\": 2, \"source\": \"ours\"}",
-               "\"check_s\": {\"value\": 2, \"source\": \"ours\"}, \"spare_mm\": {\"value\": 2, \"source\": \"ours\"}",
+        Spoilt{"ALimitThatNothingUses", "\"check_s\": {\"value\": 2, \"source\": \"our estimate\"}",
+               "\"check_s\": {\"value\": 2, \"source\": \"our estimate\"}, \"spare_mm\": {\"value\": 2, \"source\": \"our estimate\"}",
                "something uses"},
         Spoilt{"AnUnknownLimit", "\"for_s\": \"$check_s\"", "\"for_s\": \"$chek_s\"", "did you mean \"check_s\""},
         Spoilt{"ALimitOfAnotherUnit", "\"cover\": {\"below\": \"$clip_cover\"}",
@@ -151,11 +151,11 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"ACommonErrorThatBecomesCheaper", "{\"code\": \"E12\",", "{\"code\": \"E12\", \"points\": 1,",
                "at least 3"},
         Spoilt{"ACommonLimitThatIsLoosened", "\"limits\": {",
-               "\"limits\": {\"pull_limit_N\": {\"value\": 5, \"source\": \"ours\"},", "at least as strict"}),
+               "\"limits\": {\"pull_limit_N\": {\"value\": 5, \"source\": \"our estimate\"},", "at least as strict"}),
     [](const auto& of) { return of.param.name; });
 
 TEST_F(ExerciseFile, ACommonLimitMayBeMadeStricter) {
-  change("\"limits\": {", "\"limits\": {\"pull_limit_N\": {\"value\": 3, \"source\": \"ours\"},");
+  change("\"limits\": {", "\"limits\": {\"pull_limit_N\": {\"value\": 3, \"source\": \"our estimate\"},");
   EXPECT_TRUE(faults().empty());
   Faults none;
   const Exercise e = read_exercise(kChanged, none, files_with(m_text));
@@ -165,7 +165,7 @@ TEST_F(ExerciseFile, ACommonLimitMayBeMadeStricter) {
 
 TEST_F(ExerciseFile, ACommonLimitIsLoosenedOnlyWithAReason) {
   change("\"limits\": {",
-         "\"limits\": {\"pull_limit_N\": {\"value\": 5, \"source\": \"ours\", \"loosened\": \"a model of rubber\"},");
+         "\"limits\": {\"pull_limit_N\": {\"value\": 5, \"source\": \"our estimate\", \"loosened\": \"a model of rubber\"},");
   EXPECT_TRUE(faults().empty());
 }
 

@@ -151,7 +151,7 @@ void Side::wrong_hands(const std::string& code) {
   }
   if (code == "E13")  // the camera elsewhere while an instrument comes in
     for (const char* skill : {"take", "bring_in"}) {
-      PlanTask& t = task("grasper at hand", skill).set("watch", "no");
+      PlanTask& t = task("take a grasper", skill).set("watch", "no");
       flaws::distract(t, [strand](Operator& op) { op.want(op.point(strand, 0)); });
     }
 }
@@ -186,7 +186,7 @@ void Side::wrong_clip(const std::string& code) {
 /// blade, which pulls it out: one closing hardly gets 5 mm into it, though the tube stands against the shaft's end.
 void Side::cuts_along_the_fold() {
   constexpr double kFromHinge = 0.0055;  // [m]
-  std::vector<PlanTask> todo = goal("scissors at hand").todo;
+  std::vector<PlanTask> todo = goal("take scissors").todo;
   for (PlanTask& task : todo) task.set_index("hand", applier);
   todo.push_back(cut().set_index("hand", applier).set("inside_share", kFromHinge / blades()));
   goal("cut").todo = std::move(todo);
@@ -204,7 +204,7 @@ PlanTask Side::burn_nearest_of(const char* organ, double seconds) const {
 
 /// Takes a hook instead of the scissors before the tube is held up, and does this with it.
 void Side::with_a_hook(std::vector<PlanTask> then) {
-  PlanGoal burns = goal("scissors at hand");
+  PlanGoal burns = goal("take scissors");
   burns.name = "burn";
   burns.until = {};
   burns.tries = 1;

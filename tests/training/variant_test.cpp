@@ -210,7 +210,7 @@ TEST(Variants, ExercisesFitEveryPatient) {
   }
 }
 
-// "Two cords and nothing else" means: links between the gallbladder and the rest = {duct, artery or arteries}.
+// "Two structures only" means: links between the gallbladder and the rest = {duct, artery or arteries}.
 TEST(Variants, FatAboutTheSecondArteryIsABridgeToACordAndToNothingElse) {
   const Exercise e = read_exercise(kVariantScenes + "cholecystectomy/calot.json");
   Faults faults;

@@ -71,7 +71,7 @@ const SkillKind kInspect{
     Place::lacks,
     &making<Inspect>};
 const SkillKind kInspectStumps{"inspect_stumps",
-                               "look at the stumps",
+                               "inspect the stumps",
                                {{"of", ArgumentKind::strand, "what was cut"},
                                 number_parameter("for_s", "both in view for so long without a break; 2", 0, 60)},
                                20,
