@@ -60,6 +60,8 @@ TEST_F(ExerciseFile, AsShippedItIsRead) {
   EXPECT_TRUE(faults().empty());
   const Exercise e = read_exercise(kShipped);
   EXPECT_EQ(e.name, "sterilisation");
+  EXPECT_EQ(e.group, "gynaecology");
+  EXPECT_EQ(e.level, 2);
   EXPECT_TRUE(std::filesystem::exists(e.scene)) << e.scene;
   EXPECT_NEAR(e.limit("clip_angle_deg", 0), 15 * std::numbers::pi / 180, 1e-12);
   EXPECT_DOUBLE_EQ(e.limit("cut_margin_mm", 0), 0.002);
@@ -105,6 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Spoilt{"AnUnknownKey", "\"hold_s\": 0.2,", "\"hold_s\": 0.2, \"hold_ms\": 200,", "hold_ms"},
         Spoilt{"ANumberOutOfRange", "\"pass_mark\": 80", "\"pass_mark\": 800", "expected"},
+        Spoilt{"AnUnknownGroup", "\"group\": \"gynaecology\"", "\"group\": \"gyn\"", "gynaecology"},
+        Spoilt{"ALevelOutOfRange", "\"level\": 2", "\"level\": 4", "expected"},
         Spoilt{"TimesThatLeaveNothingInBetween", "\"longest_s\": 900", "\"longest_s\": 240", "expert_s"},
         Spoilt{"ALimitOfAnotherType", "\"survey_s\": {\"value\": 1", "\"survey_s\": {\"value\": \"one\"", "a number"},
         Spoilt{"ALimitWithoutASource", "\"cut_fraction\": {\"value\": 0.99, \"source\": \"our estimate\"}",

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 #include <system_error>
 #include <tuple>
@@ -13,6 +14,8 @@
 #include <trocar/scene/files/library.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/json/json.hpp>
+#include <trocar/scene/json/like.hpp>
+#include <trocar/training/exercise/exercise.hpp>
 
 namespace trocar::attempt {
 
@@ -25,15 +28,54 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
+/// A file of an exercise, and below it those that it is like.
+std::vector<scene::JsonDocument> layers_of(fs::path path) {
+  constexpr std::size_t kMostLayers = 16;
+  std::vector<scene::JsonDocument> layers;
+  std::vector<core::Fault> ignored;  // who opens the exercise is told
+  while (layers.size() < kMostLayers) {
+    layers.push_back(scene::load_json(path, ignored));
+    const scene::JsonMember* like = layers.back().root.find(scene::kLike);
+    if (!like) break;
+    path = (path.parent_path() / like->value.text).lexically_normal();
+  }
+  return layers;
+}
+
+const scene::JsonValue* said_in(const std::vector<scene::JsonDocument>& layers, const char* key) {
+  for (const scene::JsonDocument& layer : layers)
+    if (const scene::JsonMember* m = layer.root.find(key)) return &m->value;
+  return nullptr;
+}
+
+std::string text_in(const std::vector<scene::JsonDocument>& layers, const char* key) {
+  const scene::JsonValue* value = said_in(layers, key);
+  return value ? core::printable(value->text) : "";
+}
+
+/// What is no number, or out of these bounds, is `otherwise`.
+double number_in(const std::vector<scene::JsonDocument>& layers, const char* key, double most, double otherwise) {
+  const scene::JsonValue* value = said_in(layers, key);
+  const bool good = value && value->kind == scene::JsonValue::Kind::number && value->number >= 0;
+  return good && value->number <= most ? value->number : otherwise;
+}
+
 ExerciseEntry entry_of(const std::string& name, const fs::path& path) {
-  std::vector<core::Fault> faults;
-  const scene::JsonDocument document = scene::load_json(path, faults);
-  ExerciseEntry entry{name, "", path};
-  if (const scene::JsonMember* title = document.root.find("title")) entry.title = core::printable(title->value.text);
-  if (const scene::JsonMember* scene = document.root.find("scene"))
+  constexpr double kMostSeconds = 36000;
+  const std::vector<scene::JsonDocument> layers = layers_of(path);
+  ExerciseEntry entry{name, text_in(layers, "title"), path};
+  if (const scene::JsonMember* scene = layers.front().root.find("scene"))
     entry.scene = (path.parent_path() / scene->value.text).lexically_normal();
-  const scene::JsonMember* order = document.root.find("order");
-  if (order && order->value.number >= 0 && order->value.number < entry.order) entry.order = int(order->value.number);
+  entry.order = int(number_in(layers, "order", entry.order, entry.order));
+  entry.group = text_in(layers, "group");
+  const auto known = std::find(std::begin(training::kGroups), std::end(training::kGroups), entry.group);
+  if (known == std::end(training::kGroups)) entry.group.clear();
+  entry.level = std::max(1, int(number_in(layers, "level", training::kMostLevel, 1)));
+  entry.summary = text_in(layers, "summary");
+  entry.expert_time = number_in(layers, "expert_s", kMostSeconds, 0);
+  entry.longest_time = number_in(layers, "longest_s", kMostSeconds, 0);
+  entry.pass_mark = number_in(layers, "pass_mark", 100, 0);
+  entry.demonstrated = said_in(layers, "demonstration") != nullptr;
   return entry;
 }
 
@@ -70,7 +112,10 @@ std::vector<ExerciseEntry> list_trainings(const fs::path& scenes) {
                        [&](const ExerciseEntry& e) { return e.scene == scene.lexically_normal(); });
   };
   for (const scene::SceneEntry& s : scene::list_scenes(scenes))
-    if (!is_used(s.path)) list.push_back({s.name, s.title, s.path, false});
+    if (!is_used(s.path)) {
+      list.push_back({s.name, s.title, s.path, false});
+      list.back().group = "free practice";
+    }
   return list;
 }
 

@@ -18,6 +18,11 @@ struct ExerciseEntry {
   bool task = true;                  ///< false: a bare scene, for free practice
   int order = 1000;                  ///< in lists: those with less come first
   std::filesystem::path scene = {};  ///< of an exercise: in which it is done
+  std::string group = {};            ///< one of training::kGroups; empty: the file names none
+  int level = 0;                     ///< 1 beginner to training::kMostLevel; 0: of a bare scene
+  std::string summary = {};
+  double expert_time = 0, longest_time = 0, pass_mark = 0;  ///< [s], [s], of 100; 0: not known
+  bool demonstrated = false;                                ///< the file has a demonstration
 };
 /// The exercise files in the folders of `scenes`: in the order that their files say, then by name.
 std::vector<ExerciseEntry> list_exercises(const std::filesystem::path& scenes);

@@ -23,6 +23,10 @@ inline constexpr int kMaxSets = 32;
 inline constexpr int kMaxElements = 64;  ///< of a set
 inline constexpr int kMaxErrors = 512;   ///< with one an element of their sets
 
+/// Where a list for people shows an exercise, in the order of the list.
+inline constexpr const char* kGroups[] = {"basics", "suturing", "gynaecology", "gallbladder", "bowel", "free practice"};
+inline constexpr int kMostLevel = 3;  ///< 1 beginner, 2 intermediate, 3 advanced
+
 /// A part of a file, kept as it stands there.
 struct Part {
   scene::JsonValue value;
@@ -88,6 +92,8 @@ struct Exercise {
   Part demonstration;              ///< null where nobody demonstrates it
   std::vector<Rehearsed> rehearsed;
   std::vector<LaterError> later;
+  std::string group;  ///< one of kGroups; empty: none
+  int level = 1;      ///< to kMostLevel
 
   const Rehearsed* rehearsed_with(std::uint64_t seed) const;  ///< null: nobody has
   const Penalty* penalty(const std::string& code) const;

@@ -121,6 +121,8 @@ class ExerciseReader {
     m_exercise.title = text("title");
     m_exercise.summary = text("summary");
     m_exercise.order = said("order").o.integer("order", 1000);
+    m_exercise.group = text("group");
+    m_exercise.level = said("level").o.integer("level", 1);
     const Layer& where = said("scene");
     m_exercise.scene = where.path.parent_path() / where.o.text("scene");
     if (!m_memory && where.o.has("scene") && !m_library.holds(m_exercise.scene))

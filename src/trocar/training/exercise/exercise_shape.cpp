@@ -1,5 +1,7 @@
 // The tables that say which keys an exercise file has: the reader obeys them, and the published schema is written from
 // them.
+#include <iterator>
+
 #include <trocar/scene/json/like.hpp>
 #include <trocar/training/exercise/exercise.hpp>
 
@@ -90,6 +92,8 @@ const Shape& score_shape() {
   return shape;
 }
 
+std::vector<std::string> group_names() { return {std::begin(kGroups), std::end(kGroups)}; }
+
 }  // namespace
 
 const Shape& exercise_shape() {
@@ -103,6 +107,8 @@ const Shape& exercise_shape() {
        needed(keys::text("title", "for people")),
        keys::text("summary", "two or three sentences for who chooses an exercise"),
        keys::integer("order", 0, 1000, "in lists, those with less come first; default 1000"),
+       keys::choice("group", group_names(), "where the start screen shows it; default: with other exercises"),
+       keys::integer("level", 1, kMostLevel, "1 beginner, 2 intermediate, 3 advanced; default 1"),
        needed(keys::text("scene", "path of the scene file, relative to this one")),
        keys::texts("includes", "files of common rules, relative to this one"),
        keys::any("limits", "the numbers that decide, by name: {\"value\": number or [from, to], \"source\": ...}"),
