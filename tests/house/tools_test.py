@@ -206,10 +206,10 @@ def LinkCheckFindsEachFault():
         root = Path(folder)
         expect(tool("check_links.py", root)[0] == 1, "a folder without pages passed")
         put(root, "docs/a.md", "[up](../README.md#top) [out](https://example.org/x) `tests/<folder>/x`")
-        put(root, "README.md", "[a](docs/a.md) `docs/a.md` and `docs/a` and `docs/`")
+        put(root, "README.md", "# Top\n[a](docs/a.md) `docs/a.md` and `docs/a` and `docs/`\n```\n[b](docs/b.md)\n```\n")
         code, text = tool("check_links.py", root)
         expect(code == 0, f"good links were refused: {text}")
-        for bad in ("[b](docs/b.md)", "![b](docs/images/b.png)", "`tools/b.py`"):
+        for bad in ("[b](docs/b.md)", "![b](docs/images/b.png)", "`tools/b.py`", "[a](docs/a.md#nowhere)", "[top](#top)"):
             put(root, "README.md", f"one\n{bad}\n")
             code, text = tool("check_links.py", root)
             expect(code == 1 and text.startswith("README.md:2: "), f"{bad} passed: {text}")
