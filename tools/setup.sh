@@ -5,6 +5,7 @@
 #   tools/setup.sh modeller         the same and what reads STEP and IGES
 #   tools/setup.sh test             the same and what ./test.sh needs
 #   tools/setup.sh soak             the same and a second compiler
+#   tools/setup.sh docs             what tools/docs.sh needs: the site and the API
 #   tools/setup.sh dev              the same and formatter, linter, LLVM's standard library
 #   tools/setup.sh --list JOB       only names the packages
 #
@@ -55,6 +56,11 @@ dev=(
   libfcl-dev           # what the surface search is measured beside, with Bullet
   libsuitesparse-dev libopenblas-dev  # what condensing an organ is measured beside: CHOLMOD, LAPACK
 )
+docs=(
+  python3              # the checks of links and commands
+  mkdocs mkdocs-material  # the documentation as a site, and its theme (works offline)
+  doxygen              # the API below reference/api
+)
 
 list_only=false
 [ "${1:-}" = --list ] && { list_only=true; shift; }
@@ -63,8 +69,9 @@ case "${1:-build}" in
   modeller) wanted=("${build[@]}" "${modeller[@]}") ;;
   test) wanted=("${build[@]}" "${test[@]}") ;;
   soak) wanted=("${build[@]}" "${test[@]}" "${soak[@]}") ;;
+  docs) wanted=("${docs[@]}") ;;
   dev) wanted=("${build[@]}" "${test[@]}" "${soak[@]}" "${dev[@]}") ;;
-  *) sed -n '2,11s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  *) sed -n '2,12s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
 esac
 if $list_only; then
   printf '%s\n' "${wanted[@]}"

@@ -44,7 +44,7 @@ struct StrandPair {
 /// @param nearest (samples) State: vertex where each sample was last; of samples far from there it is looked for in
 /// turn
 /// @param tick    whose turn it is
-/// @param owner_loads  loads of the strand or solid whose samples these are (one is used)
+/// @param strand_loads  of the strand whose samples these are
 void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const tissue::StrandState& state,
                        const Surface& surface, std::uint64_t tick, std::span<std::int32_t> nearest,
                        StrandLoads& strand_loads, NetworkLoads* surface_loads) noexcept;

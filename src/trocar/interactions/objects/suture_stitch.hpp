@@ -34,7 +34,7 @@ SewnReport sew(const SutureModels& models, const TissueBodies& bodies, Vec3d gra
                const tissue::Box& cavity, Suture::States& states, SutureWorks& work) noexcept;
 
 /// Jaws turn on a needle that is twisted in them with more than they bear, and follow a thread that slips through them.
-/// @param held  what that hand holds, a suture
+/// @param tool  the State of that hand's instrument, which holds a suture
 void slip_in_jaws(const SutureModels& models, const Suture::States& states, const SutureWorks& work, int hand,
                   const ToolModel& model, const ToolShape& shape, ToolState& tool) noexcept;
 

@@ -23,8 +23,8 @@ struct NeedleWay {
   /// With the tip at that angle beyond `in`.
   NeedlePose at(const suture::NeedleModel& m, double angle) const;
 };
-/// @param up     out of the tissue
-/// @param shaft  of the hand's instrument there: the axis is along it, as far as in and out let it
+/// @param up    out of the tissue
+/// @param port  of the hand's instrument: the axis is along its shaft, as far as in and out let it
 NeedleWay way_between(const suture::NeedleModel& m, Vec3d in, Vec3d out, Vec3d up, Vec3d port);
 
 /// Where the hand's tip and roll are wanted for that pose, by how the needle lies in its jaws now.

@@ -21,7 +21,7 @@ struct CentrePoint {
   double radius = 0;  ///< to the nearest wall [m]
 };
 
-/// @param from, to  in the patient [mm, L P S]; the label's nearest voxels count
+/// @param from_mm,to_mm  in the patient [mm, L P S]; the label's nearest voxels count
 /// @throws std::invalid_argument  where no voxel has the label, or both places are not in one part of it
 std::vector<CentrePoint> centre_line(const Labels& labels, int label, Vec3d from_mm, Vec3d to_mm);
 
