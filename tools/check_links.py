@@ -75,7 +75,7 @@ def main():
                 fault = fault_of(page, target)
                 if fault:
                     found.append(f"{place}: {fault}")
-            for target in PATH.findall(line):
+            for target in [] if "docs/log" in place else PATH.findall(line):  # history names files of its time
                 if not (root / target).exists() and not list(root.glob(target.rstrip("/") + ".*")):
                     found.append(f"{place}: there is no {target}")
     print("\n".join(found) if found else f"{len(pages)} pages: every link leads to a page or heading that exists")
