@@ -41,7 +41,8 @@ def blocks(page):
 
 
 def commands(text):
-    """The words of each command of a block: comments are left out, pipes and && part commands."""
+    """The words of each command of a block, without comments and here-documents; pipes and && part commands."""
+    text = re.sub(r"<<-?\s*'?(\w+)'?(.*?\n).*?^\1$", r"\2", text, flags=re.MULTILINE | re.DOTALL)
     for line in text.replace("\\\n", " ").splitlines():
         lexer = shlex.shlex(line, posix=True, punctuation_chars="|&;")
         lexer.whitespace_split = True
