@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """Checks the links of the documentation: pages, pictures, headings (#anchors) and paths of the repository in backquotes.
 
-    tools/check_links.py [ROOT]      ROOT: a checkout (default: this one). Exit 0 clean, 1 with one line a fault.
+    tools/check_links.py [--files] [ROOT]
+                     --files: without the headings; ROOT: a checkout (default: this one)
+
+Exit 0 clean, 1 with one line a fault.
 """
 import functools
 import re
@@ -51,7 +54,7 @@ def anchors(page):
     return found
 
 
-def fault_of(page, target):
+def fault_of(page, target, with_headings):
     """What is wrong with a link of this page, or None."""
     if "://" in target or target.startswith("mailto:"):
         return None
@@ -59,20 +62,22 @@ def fault_of(page, target):
     other = page.parent / path if path else page
     if not other.exists():
         return f"there is no file {path}"
-    if anchor and other.suffix == ".md" and anchor not in anchors(other.resolve()):
+    if with_headings and anchor and other.suffix == ".md" and anchor not in anchors(other.resolve()):
         return f"{path or 'this page'} has no heading #{anchor}"
     return None
 
 
 def main():
-    root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
+    roots = [word for word in sys.argv[1:] if word != "--files"]
+    with_headings = "--files" not in sys.argv
+    root = Path(roots[0] if roots else Path(__file__).parent.parent).resolve()
     pages = sorted(root.glob("*.md")) + sorted((root / "docs").rglob("*.md"))
     found = [] if pages else [f"{root}: no pages found"]
     for page in pages:
         for number, line in lines_outside_code(page.read_text(encoding="utf-8")):
             place = f"{page.relative_to(root).as_posix()}:{number}"
             for target in LINK.findall(CODE.sub("", line)):
-                fault = fault_of(page, target)
+                fault = fault_of(page, target, with_headings)
                 if fault:
                     found.append(f"{place}: {fault}")
             for target in [] if "docs/log" in place else PATH.findall(line):  # history names files of its time
