@@ -22,6 +22,7 @@ program=build/release/trocar
 if [ -x "$program" ]; then python3 tools/check_commands.py "$program"; fi
 python3 tools/docs_pages.py "$out"
 rm -rf "$out/site"
+export PYTHONWARNINGS=ignore  # of the library of MkDocs, not of ours
 if ! mkdocs build --strict -f "$out/mkdocs.yml" >"$out/mkdocs.log" 2>&1; then
   grep -v INFO "$out/mkdocs.log" >&2
   exit 1
