@@ -1,0 +1,143 @@
+"""Pictures of the real windows for the documentation: mouse and keys by xdotool on the display that is there.
+
+tools/make_pictures.sh calls make_all(); a picture that cannot be made is reported and the others are still made.
+TROCAR_PICTURES_CT names a scan (a file of a series, NIfTI, NRRD or MetaImage) for the pictures of a CT; without it
+those are left as they are.
+"""
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "tests" / "app"))
+from trainee import Eyes, Failed, MouseAndKeys, xdo  # noqa: E402
+
+SIZE = "1280x720"
+PERSON = "Anna Muster"
+
+
+class Window:
+    """A program with a window, its log, and hands at mouse and keys."""
+
+    def __init__(self, program, folder, words, images):
+        log = Path(folder) / f"log-{time.monotonic_ns()}.jsonl"
+        environment = dict(os.environ, TROCAR_DATA=str(Path(folder) / "data"), BROWSER="true", HOME=str(folder))
+        self.process = subprocess.Popen([program, *words, "--log", str(log)], cwd=folder, env=environment)
+        self.eyes, self.images = Eyes(str(log), self.process), images
+        self.hands = MouseAndKeys(self.eyes)
+
+    def shot(self, name, wait=1.0):
+        time.sleep(wait)
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "x11grab", "-i", os.environ["DISPLAY"], "-frames:v",
+                        "1", str(self.images / f"{name}.png")], check=True)
+        print(f"  {name}.png", flush=True)
+
+    def menu(self, menu, item):
+        self.hands.press(f"menu {menu}")
+        self.hands.press(item)
+
+    def type_into(self, field, text):
+        self.hands.press(field)
+        xdo("key", "ctrl+a")
+        xdo("type", "--delay", "30", text)
+        time.sleep(0.4)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait()
+
+
+def operation_pictures(program, folder, images):
+    """Person, exercises, an exercise's page, the exercise, its result."""
+    for exercise in ("basics/camera-0", "basics/clip-application"):  # something to show as past results
+        subprocess.run([program, "train", exercise, "--input", "demo", "--headless", "--trainee", PERSON],
+                       env=dict(os.environ, TROCAR_DATA=str(Path(folder) / "data")), check=False,
+                       stdout=subprocess.DEVNULL)
+    with Window(program, folder, ["train", "--size", SIZE], images) as w:
+        w.eyes.on("start", 120)
+        w.type_into("Name", PERSON)
+        w.shot("window_person")
+        w.hands.press("Add")
+        w.eyes.where("basics/camera-0", 60)
+        w.shot("window_start", 20)  # the pictures of the tiles are drawn one after the other
+        w.hands.press("basics/camera-0")
+        w.eyes.where("Start", 120)
+        w.shot("window_details", 4)
+        w.hands.press("Start", 120)
+        exercise_and_result(w)
+    with Window(program, folder, ["train", "cholecystectomy/clip-and-cut", "--input", "demo", "--size", SIZE],
+                images) as w:
+        w.eyes.wait("the operation", lambda: w.eyes.pose and w.eyes.pose["tick"] > 9000, 600)
+        w.shot("window_operation")
+
+
+def exercise_and_result(w):
+    if "hint" in (w.eyes.screen or {}).get("name", ""):
+        w.hands.enter()
+    w.eyes.wait("the exercise", lambda: w.eyes.pose and w.eyes.pose["tick"] > 300, 120)
+    w.hands.look(0.05, 0.05, 0.012)
+    w.shot("window_exercise", 2)
+    w.hands.pause()
+    for button in ("End exercise", "End"):  # the second confirms
+        try:
+            w.hands.press(button, 20)
+        except Failed:
+            break
+    w.eyes.on("result", 60)
+    w.shot("window_result", 2)
+
+
+def modeller_pictures(program, folder, images):
+    with Window(program, folder, ["model", "--size", SIZE], images) as w:
+        w.eyes.on("start", 60)
+        w.shot("window_modeller_start")
+        w.hands.press("New organ")
+        w.eyes.wait("a good build", lambda: any(e["good"] for e in w.eyes.happened("built")), 90)
+        solid = next(name for name in w.eyes.screen["widgets"] if name.startswith("solid:"))
+        w.hands.press(solid)
+        xdo("key", "f")
+        w.shot("window_modeller", 3)
+
+
+def operate_picture(program, folder, images, words, name):
+    """A scene of one's own in the trainer."""
+    with Window(program, folder, ["train", *words, "--size", SIZE], images) as w:
+        w.eyes.wait("the trainer", lambda: w.eyes.pose and w.eyes.pose["tick"] > 500, 240)
+        w.shot(name, 2)
+
+
+def made_operate_pictures(program, folder, images):
+    operate_picture(program, folder, images, ["modelling/uterus"], "window_operate")
+
+
+def ct_pictures(program, folder, images):
+    scan = os.environ.get("TROCAR_PICTURES_CT", "")
+    if not scan:
+        print("  no CT: TROCAR_PICTURES_CT names none")
+        return
+    with Window(program, folder, ["model", "--size", SIZE], images) as w:
+        w.eyes.on("start", 60)
+        w.hands.press("Open a scan")
+        w.type_into("file name", scan)
+        xdo("key", "Return")
+        w.eyes.where("5 Grow", 120)
+        w.shot("window_ct", 8)
+
+
+def make_all(program, images):
+    failed = []
+    for make in (operation_pictures, modeller_pictures, made_operate_pictures, ct_pictures):
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                make(program, folder, images)
+            except (Failed, StopIteration, subprocess.SubprocessError) as failure:
+                failed.append(f"{make.__name__}: {failure}")
+    if failed:
+        raise RuntimeError("; ".join(failed))
