@@ -1,10 +1,7 @@
 #!/usr/bin/env python3
 """Checks the links of the documentation: pages, pictures, headings (#anchors) and paths of the repository in backquotes.
 
-    tools/check_links.py [--files] [ROOT]
-                     --files: without the headings; ROOT: a checkout (default: this one)
-
-Exit 0 clean, 1 with one line a fault.
+    tools/check_links.py [ROOT]      ROOT: a checkout (default: this one). Exit 0 clean, 1 with one line a fault.
 """
 import functools
 import re
@@ -54,7 +51,7 @@ def anchors(page):
     return found
 
 
-def fault_of(page, target, with_headings):
+def fault_of(page, target):
     """What is wrong with a link of this page, or None."""
     if "://" in target or target.startswith("mailto:"):
         return None
@@ -62,22 +59,20 @@ def fault_of(page, target, with_headings):
     other = page.parent / path if path else page
     if not other.exists():
         return f"there is no file {path}"
-    if with_headings and anchor and other.suffix == ".md" and anchor not in anchors(other.resolve()):
+    if anchor and other.suffix == ".md" and anchor not in anchors(other.resolve()):
         return f"{path or 'this page'} has no heading #{anchor}"
     return None
 
 
 def main():
-    roots = [word for word in sys.argv[1:] if word != "--files"]
-    with_headings = "--files" not in sys.argv
-    root = Path(roots[0] if roots else Path(__file__).parent.parent).resolve()
+    root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
     pages = sorted(root.glob("*.md")) + sorted((root / "docs").rglob("*.md"))
     found = [] if pages else [f"{root}: no pages found"]
     for page in pages:
         for number, line in lines_outside_code(page.read_text(encoding="utf-8")):
             place = f"{page.relative_to(root).as_posix()}:{number}"
             for target in LINK.findall(CODE.sub("", line)):
-                fault = fault_of(page, target, with_headings)
+                fault = fault_of(page, target)
                 if fault:
                     found.append(f"{place}: {fault}")
             for target in [] if "docs/log" in place else PATH.findall(line):  # history names files of its time

@@ -17,7 +17,7 @@ esac
 tools/setup.sh docs
 out=build/docs
 mkdir -p "$out"
-python3 tools/check_links.py --files
+python3 tools/check_links.py
 program=build/release/trocar
 if [ -x "$program" ]; then python3 tools/check_commands.py "$program"; fi
 python3 tools/docs_pages.py "$out"
