@@ -45,12 +45,12 @@ class Approach final : public Skill {
 
 std::vector<Parameter> on_strand() {
   return {hand_parameter(),
-          {"of", ArgumentKind::strand, "the strand"},
-          {"at_mm", ArgumentKind::number, "where, from its beginning", false, 0, 1000},
+          {"of", ArgumentKind::strand, "the rod"},
+          {"at_mm", ArgumentKind::number, "distance from its beginning", false, 0, 1000},
           from_end_parameter(),
-          {"after", ArgumentKind::landmark, "or: a landmark behind whose end the stretch begins", false},
-          {"before", ArgumentKind::landmark, "and one before whose beginning it ends", false},
-          {"share", ArgumentKind::number, "of that stretch; somewhere else near it after each failure", false, 0, 1}};
+          {"after", ArgumentKind::landmark, "or: landmark at whose end the stretch begins", false},
+          {"before", ArgumentKind::landmark, "and landmark at whose beginning it ends", false},
+          {"share", ArgumentKind::number, "share of that stretch; another near it after each failure", false, 0, 1}};
 }
 
 }  // namespace
@@ -58,10 +58,11 @@ std::vector<Parameter> on_strand() {
 const SkillKind kApproach{
     "approach",
     "approach the tissue",
-    on_strand() + std::vector<Parameter>{number_parameter(
-                      "inside_share", "of the jaws' length: how far from their hinge the strand shall lie; 0.6", 0, 1)},
+    on_strand() +
+        std::vector<Parameter>{number_parameter(
+            "inside_share", "distance of the rod from the hinge, as a share of the jaws' length; default 0.6", 0, 1)},
     15,
-    "Goes through the open to before a place of a strand, jaws open and across it; the camera first.",
+    "Moves the open jaws to a place of a rod, across it; the camera moves first.",
     Place::lacks,
     &making<Approach>};
 

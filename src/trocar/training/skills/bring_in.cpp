@@ -31,7 +31,7 @@ const SkillKind kBringIn{"bring_in",
                          "bring an instrument in",
                          std::vector<Parameter>{hand_parameter(), watch_parameter()} + place_parameters(),
                          15,
-                         "Brings an instrument from under its trocar towards the place, the camera on its tip.",
+                         "Brings an instrument from its port to the place, with the camera on its tip.",
                          Place::lacks,
                          &making<BringIn>};
 

@@ -200,19 +200,16 @@ std::string clip_vessel_lacks(const sim::Model& model, const Given& given) {
 const SkillKind kClipVessel{
     "clip_vessel",
     "set a clip beside the place that bleeds",
-    {hand_parameter("that has the clip applier"),
-     word_parameter("side", "of the place: where the blood comes from, or beyond it", {"heart", "beyond"}),
-     number_parameter("beside_mm", "from the place; 6", 0, 100),
-     number_parameter("cover", "share of the vessel between the legs that counts; 0.98", 0, 1),
-     number_parameter("closing_s", "of the handle from open to closed; 2.6", 0.05, 60),
-     number_parameter("inside_mm", "how far from the jaws' hinge the vessel shall lie; next to the clip's bend", 0,
-                      100),
-     word_parameter("seen", "whether one of the legs' tips has to be in view, and the vessel between them; one",
-                    {"one", "whatever"}),
-     word_parameter("look", "where the camera looks meanwhile; there", {"there", "away"})},
+    {hand_parameter("the hand with the clip applier"),
+     word_parameter("side", "side of the place: where the blood comes from, or beyond", {"heart", "beyond"}),
+     number_parameter("beside_mm", "distance from the place; default 6", 0, 100),
+     number_parameter("cover", "least share of the vessel between the legs; default 0.98", 0, 1),
+     number_parameter("closing_s", "time to close the handle; default 2.6", 0.05, 60),
+     number_parameter("inside_mm", "distance of the vessel from the hinge; default at the clip's bend", 0, 100),
+     word_parameter("seen", "tips that must be in view with the vessel between them; default one", {"one", "whatever"}),
+     word_parameter("look", "where the camera looks meanwhile; default at the place", {"there", "away"})},
     60,
-    "Takes what carries the artery that bleeds between the clip applier's legs, looks, closes slowly, opens, draws "
-    "back.",
+    "Takes the bleeding artery between the clip applier's legs, looks, closes slowly, opens, withdraws.",
     clip_vessel_lacks,
     &making<ClipVessel>};
 

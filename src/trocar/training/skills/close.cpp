@@ -23,10 +23,10 @@ class Close final : public Skill {
 
 const SkillKind kClose{"close",
                        "close the jaws",
-                       {hand_parameter(), number_parameter("to", "how far; 1", 0, 1),
-                        number_parameter("in_s", "from open to closed; 1", 0.05, 60)},
+                       {hand_parameter(), number_parameter("to", "closing of the handle; default 1", 0, 1),
+                        number_parameter("in_s", "time from open to closed; default 1", 0.05, 60)},
                        20,
-                       "Closes the handle where the jaws are.",
+                       "Closes the handle without moving the jaws.",
                        nothing,
                        &making<Close>};
 

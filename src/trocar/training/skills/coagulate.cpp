@@ -49,11 +49,11 @@ std::string lacks_current(const sim::Model& model, const Given& given) {
 const SkillKind kCoagulate{
     "coagulate",
     "coagulate",
-    std::vector<Parameter>{hand_parameter("that has a hook or bipolar forceps"),
-                           number_parameter("for_s", "the pedal is pressed; 0: it only touches; 1", 0, 60)} +
+    std::vector<Parameter>{hand_parameter("the hand with a hook or bipolar forceps"),
+                           number_parameter("for_s", "time with the pedal pressed; 0 only touches; default 1", 0, 60)} +
         place_parameters(),
     60,
-    "Brings an electrode to a place until it touches, presses the blue pedal, and draws back.",
+    "Brings an electrode to a place until it touches, presses the blue pedal, and withdraws.",
     lacks_current,
     &making<Coagulate>};
 

@@ -147,16 +147,16 @@ std::string coagulate_vessel_lacks(const sim::Model& model, const Given& given) 
 const SkillKind kCoagulateVessel{
     "coagulate_vessel",
     "coagulate the place that bleeds",
-    {hand_parameter("that has bipolar forceps"),
-     number_parameter("for_s", "the pedal is pressed at most; 4", 0, 60),
-     number_parameter("inside_share", "of the jaws' length: how far from their hinge the vessel shall lie; 0.75", 0, 1),
-     number_parameter("to", "how far the handle closes; 0.95", 0, 1),
-     {"vessel", ArgumentKind::vessel, "which; none: the one that bleeds, where it bleeds", false},
-     number_parameter("share", "where along that vessel; 0.5", 0, 1)},
+    {hand_parameter("the hand with bipolar forceps"),
+     number_parameter("for_s", "longest time with the pedal pressed; default 4", 0, 60),
+     number_parameter("inside_share",
+                      "distance of the vessel from the hinge, as a share of the jaws' length; default 0.75", 0, 1),
+     number_parameter("to", "closing of the handle; default 0.95", 0, 1),
+     {"vessel", ArgumentKind::vessel, "the vessel; without it the one that bleeds, where it bleeds", false},
+     number_parameter("share", "place along that vessel; default 0.5", 0, 1)},
     60,
-    "Takes what carries the artery that bleeds, or a vessel that is named, between bipolar jaws, presses the blue "
-    "pedal "
-    "until it is sealed, opens, draws back.",
+    "Takes the bleeding artery, or a named vessel, between bipolar jaws, presses the blue pedal until it is sealed, "
+    "opens, withdraws.",
     coagulate_vessel_lacks,
     &making<CoagulateVessel>};
 

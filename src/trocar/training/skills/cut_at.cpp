@@ -234,20 +234,18 @@ std::string cut_at_lacks(const sim::Model& model, const Given& given) {
 const SkillKind kCutAt{
     "cut_at",
     "cut",
-    {hand_parameter("that has the scissors"),
-     {"of", ArgumentKind::strand, "what is cut"},
-     range_parameter("apart_mm", "half way between two clips or loops beside each other that are so far apart", 0,
-                     1000),
-     number_parameter("at_mm", "or: just there, from its beginning", 0, 1000),
-     number_parameter("beyond_clip_mm", "or: so far beyond the outermost clip", 0, 1000),
-     number_parameter("inside_share", "of the blades' length: how far from their hinge the strand shall lie; 0.82", 0,
-                      1),
-     number_parameter("closing_s", "of the handle from open to closed; 0.6", 0.05, 60),
-     word_parameter("spare", "whether what else lies between the blades is looked for first; as a rule",
-                    {"yes", "no"})},
+    {hand_parameter("the hand with the scissors"),
+     {"of", ArgumentKind::strand, "the rod to cut"},
+     range_parameter("apart_mm", "half way between two neighbouring clips or loops at this distance", 0, 1000),
+     number_parameter("at_mm", "or: exactly this place, from its beginning", 0, 1000),
+     number_parameter("beyond_clip_mm", "or: distance beyond the outermost clip", 0, 1000),
+     number_parameter("inside_share",
+                      "distance of the rod from the hinge, as a share of the blades' length; default 0.82", 0, 1),
+     number_parameter("closing_s", "time to close the handle; default 0.6", 0.05, 60),
+     word_parameter("spare", "whether other tissue between the blades is avoided; default yes", {"yes", "no"})},
     40,
-    "Approaches a strand with scissors, takes it between the blades, turns them where an organ lies between them, too, "
-    "closes in view, opens, and draws back.",
+    "Approaches a rod with scissors, takes it between the blades, turns them away from organs, closes in view, opens, "
+    "and withdraws.",
     cut_at_lacks,
     &making<CutAt>};
 

@@ -19,12 +19,8 @@ class Declare final : public Skill {
 
 }  // namespace
 
-const SkillKind kDeclare{"declare",
-                         "declare it",
-                         {},
-                         5,
-                         "Says, by the key that a trainee has for it, that what was to be shown is shown.",
-                         nothing,
-                         &making<Declare>};
+const SkillKind kDeclare{
+    "declare", "declare it",    {}, 5, "Declares, with the trainee's key, that the view is complete.",
+    nothing,   &making<Declare>};
 
 }  // namespace trocar::training

@@ -27,7 +27,7 @@ const SkillKind kEnter{"enter",
                        "take the tissue between the jaws",
                        {hand_parameter()},
                        8,
-                       "Goes on from where it was sent until the strand lies between the jaws.",
+                       "Moves forward until the rod is between the jaws.",
                        nothing,
                        &making<Enter>};
 

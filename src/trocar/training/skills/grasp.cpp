@@ -32,11 +32,11 @@ class Grasp final : public Skill {
 const SkillKind kGrasp{"grasp",
                        "grasp",
                        {hand_parameter(),
-                        {"of", ArgumentKind::strand, "what has to be held", false},
-                        {"after", ArgumentKind::landmark, "beyond the end of this landmark of it", false},
-                        number_parameter("to", "how far the handle closes; 0.95", 0, 1)},
+                        {"of", ArgumentKind::strand, "the rod that must be held", false},
+                        {"after", ArgumentKind::landmark, "beyond the end of this landmark", false},
+                        number_parameter("to", "closing of the handle; default 0.95", 0, 1)},
                        4,
-                       "Closes the jaws and feels whether they hold the strand.",
+                       "Closes the jaws and tests whether they hold the rod.",
                        Place::lacks,
                        &making<Grasp>};
 

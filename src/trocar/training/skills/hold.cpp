@@ -18,9 +18,9 @@ class Wait final : public Skill {
 
 const SkillKind kHold{"hold",
                       "wait",
-                      {number_parameter("for_s", "so long; none: until its \"until\"", 0, 600)},
+                      {number_parameter("for_s", "time; without it until the condition `until`", 0, 600)},
                       60,
-                      "Keeps hands and camera where they are, for a time or until something is so.",
+                      "Keeps hands and camera in place, for a time or until a condition holds.",
                       nothing,
                       &making<Wait>};
 

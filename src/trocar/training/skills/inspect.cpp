@@ -62,21 +62,21 @@ const SkillKind kInspect{
     "look at the place",
     place_parameters() +
         std::vector<Parameter>{
-            number_parameter("for_s", "so long; 2", 0, 600),
-            number_parameter(
-                "aside_mm",
-                "so much beside it, towards the patient's middle, is shown, too: past what hangs over it; 0", 0, 200)},
+            number_parameter("for_s", "time; default 2", 0, 600),
+            number_parameter("aside_mm", "also shows a place this far towards the patient's middle; default 0", 0,
+                             200)},
     60,
     "Looks at a place from changing distances.",
     Place::lacks,
     &making<Inspect>};
-const SkillKind kInspectStumps{"inspect_stumps",
-                               "inspect the stumps",
-                               {{"of", ArgumentKind::strand, "what was cut"},
-                                number_parameter("for_s", "both in view for so long without a break; 2", 0, 60)},
-                               20,
-                               "Looks at both ends that a cut has made.",
-                               nothing,
-                               &making<InspectStumps>};
+const SkillKind kInspectStumps{
+    "inspect_stumps",
+    "inspect the stumps",
+    {{"of", ArgumentKind::strand, "the rod that was cut"},
+     number_parameter("for_s", "time that both must be in view without a break; default 2", 0, 60)},
+    20,
+    "Looks at both stumps of a cut.",
+    nothing,
+    &making<InspectStumps>};
 
 }  // namespace trocar::training

@@ -39,7 +39,8 @@ class LetGo final : public Skill {
 const SkillKind kLetGo{
     "let_go",
     "let go",
-    {hand_parameter(), number_parameter("back_mm", "how far it draws back before the jaws open wide; 0", 0, 200)},
+    {hand_parameter(),
+     number_parameter("back_mm", "distance to draw back before the jaws open wide; default 0", 0, 200)},
     6,
     "Opens the jaws.",
     nothing,

@@ -27,8 +27,8 @@ const SkillKind kLookAt{
     "look_at",
     "look",
     place_parameters() +
-        std::vector<Parameter>{number_parameter("for_s", "so long with the picture at rest, all in all; 0", 0, 600),
-                               number_parameter("from_mm", "of the lens from it; 60", 10, 300)},
+        std::vector<Parameter>{number_parameter("for_s", "total time with the picture at rest; default 0", 0, 600),
+                               number_parameter("from_mm", "distance of the lens; default 60", 10, 300)},
     30,
     "Brings a place into the picture's middle and looks.",
     Place::lacks,

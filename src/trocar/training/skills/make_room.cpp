@@ -24,9 +24,9 @@ class MakeRoom final : public Skill {
 
 const SkillKind kMakeRoom{"make_room",
                           "draw instruments back",
-                          {{"hand", ArgumentKind::hand, "that stays", false}},
+                          {{"hand", ArgumentKind::hand, "the hand that stays", false}},
                           15,
-                          "All instruments that hold nothing go back to their trocars, but for one.",
+                          "Withdraws all empty instruments but one to their ports.",
                           nothing,
                           &making<MakeRoom>};
 

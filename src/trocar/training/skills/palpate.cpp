@@ -120,17 +120,17 @@ std::string lacks_vessel(const sim::Model& model, const Given& given) {
 
 }  // namespace
 
-const SkillKind kPalpate{"palpate",
-                         "feel the pulse",
-                         {hand_parameter("whose instrument presses"),
-                          {"vessel", ArgumentKind::vessel, "whose pulse is felt"},
-                          number_parameter("share", "where along it, 0 to 1; 0.5", 0, 1),
-                          number_parameter("press_N", "how hard it presses; 0.4", 0.01, 5),
-                          number_parameter("taps", "so many beats are declared; 1", 1, 60)},
-                         60,
-                         "Presses on the tissue over an artery until its beats are felt, declares with each of them "
-                         "so many times, and draws back.",
-                         lacks_vessel,
-                         &making<Palpate>};
+const SkillKind kPalpate{
+    "palpate",
+    "feel the pulse",
+    {hand_parameter("the hand whose instrument presses"),
+     {"vessel", ArgumentKind::vessel, "the vessel to feel"},
+     number_parameter("share", "place along it, 0 to 1; default 0.5", 0, 1),
+     number_parameter("press_N", "pressing force; default 0.4", 0.01, 5),
+     number_parameter("taps", "number of beats to declare; default 1", 1, 60)},
+    60,
+    "Presses on the tissue over an artery until its beats are felt, declares with each of them, and withdraws.",
+    lacks_vessel,
+    &making<Palpate>};
 
 }  // namespace trocar::training

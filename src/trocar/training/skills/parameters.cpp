@@ -19,7 +19,7 @@ double Given::number(std::string_view name, double otherwise) const {
   return a.given ? a.number() : otherwise;
 }
 
-Parameter from_end_parameter() { return number_parameter("from_end_mm", "or: from the strand's end", 0, 1000); }
+Parameter from_end_parameter() { return number_parameter("from_end_mm", "or: distance from the rod's end", 0, 1000); }
 
 std::optional<double> arc_given(const sim::Model& model, const Given& given) {
   if (given("at_mm").given) return given("at_mm").number();
@@ -28,16 +28,15 @@ std::optional<double> arc_given(const sim::Model& model, const Given& given) {
 }
 
 std::vector<Parameter> place_parameters() {
-  return {{"of", ArgumentKind::strand, "the strand that the place is on", false},
-          {"at_mm", ArgumentKind::number, "from the strand's beginning", false, 0, 1000},
+  return {{"of", ArgumentKind::strand, "the rod of the place", false},
+          {"at_mm", ArgumentKind::number, "distance from the rod's beginning", false, 0, 1000},
           from_end_parameter(),
-          {"after", ArgumentKind::landmark, "landmark of the strand behind whose end the place is", false},
-          {"before", ArgumentKind::landmark, "landmark before whose beginning it is", false},
-          {"share", ArgumentKind::number, "of the way from `after` to `before`", false, 0, 1},
-          {"mark", ArgumentKind::mark, "a mark: its middle", false},
-          {"nearest_of", ArgumentKind::mark, "an organ: where it is nearest to the hand's trocar", false},
-          word_parameter("there", "what opens by itself: where it bleeds, or where what has run out stands deepest",
-                         {"bleeding", "pool"})};
+          {"after", ArgumentKind::landmark, "landmark of the rod; the place is beyond its end", false},
+          {"before", ArgumentKind::landmark, "landmark; the place is before its beginning", false},
+          {"share", ArgumentKind::number, "share of the distance from `after` to `before`", false, 0, 1},
+          {"mark", ArgumentKind::mark, "or: the middle of a mark", false},
+          {"nearest_of", ArgumentKind::mark, "or: the point of an organ that is nearest to the hand's port", false},
+          word_parameter("there", "or: the bleeding place, or the deepest place of the pool", {"bleeding", "pool"})};
 }
 
 std::vector<Parameter> operator+(std::vector<Parameter> a, std::vector<Parameter> b) {

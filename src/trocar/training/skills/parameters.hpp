@@ -7,7 +7,7 @@
 
 namespace trocar::training {
 
-inline Parameter hand_parameter(std::string_view meaning = "whose hand does it") {
+inline Parameter hand_parameter(std::string_view meaning = "the hand that does it") {
   return {"hand", ArgumentKind::hand, meaning};
 }
 inline Parameter number_parameter(std::string_view name, std::string_view meaning, double low, double high) {
@@ -21,7 +21,7 @@ inline Parameter word_parameter(std::string_view name, std::string_view meaning,
 }
 
 inline Parameter watch_parameter() {
-  return word_parameter("watch", "whether the camera shows the trocar's inner end meanwhile; as a rule", {"yes", "no"});
+  return word_parameter("watch", "whether the camera shows the port meanwhile; default yes", {"yes", "no"});
 }
 
 /// Where to: a strand's place (of, at_mm, or after, before and share), a mark, an organ where it is nearest to the

@@ -27,9 +27,9 @@ class PutDown final : public Skill {
 
 const SkillKind kPutDown{"put_down",
                          "draw an instrument back",
-                         {hand_parameter(), number_parameter("least_s", "so long at least", 0, 60)},
+                         {hand_parameter(), number_parameter("least_s", "minimum time", 0, 60)},
                          15,
-                         "Opens the jaws and draws the instrument back to under its trocar.",
+                         "Opens the jaws and withdraws the instrument to its port.",
                          nothing,
                          &making<PutDown>};
 

@@ -117,12 +117,11 @@ std::string lacks_wrist(const sim::Model& model, const Given& given) {
 const SkillKind kReachIn{
     "reach_in",
     "reach in with a bent wrist",
-    {hand_parameter("whose instrument bends"),
-     {"mark", ArgumentKind::mark, "a disc that is touched"},
-     number_parameter("for_s", "how long the tip stays there; 0.8", 0, 60)},
+    {hand_parameter("the hand whose instrument bends"),
+     {"mark", ArgumentKind::mark, "the disc to touch"},
+     number_parameter("for_s", "time that the tip stays there; default 0.8", 0, 60)},
     40,
-    "Bends the wrist so that the jaws point straight at a disc, goes there along its normal, stays "
-    "and comes back.",
+    "Bends the wrist so that the jaws point straight at a disc, moves there along its normal, stays, and returns.",
     lacks_wrist,
     &making<ReachIn>};
 

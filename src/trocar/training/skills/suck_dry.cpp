@@ -41,12 +41,12 @@ std::string lacks_suction(const sim::Model& model, const Given& given) {
 const SkillKind kSuckDry{
     "suck_dry",
     "suck the pool empty",
-    std::vector<Parameter>{hand_parameter("that has the suction-irrigator"),
-                           number_parameter("left_mL", "may be left; 0.5", 0, 1000)} +
+    std::vector<Parameter>{hand_parameter("the hand with the suction-irrigator"),
+                           number_parameter("left_mL", "volume that may remain; default 0.5", 0, 1000)} +
         place_parameters(),
     60,
-    "Sucks where the pool stands deepest and can be reached, until hardly anything is left. The place "
-    "is looked at once there is nothing to be seen of it.",
+    "Sucks at the deepest place of the pool that can be reached, until hardly anything is left. Looks at the place "
+    "when no pool covers it.",
     lacks_suction,
     &making<SuckDry>};
 

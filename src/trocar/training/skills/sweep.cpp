@@ -40,16 +40,17 @@ class Sweep final : public Skill {
 
 }  // namespace
 
-const SkillKind kSweep{"sweep",
-                       "push it aside",
-                       std::vector<Parameter>{hand_parameter("whose closed instrument pushes"),
-                                              number_parameter("by_mm", "how far; 20", 0, 200),
-                                              word_parameter("towards", "where to; as seen from the patient's middle",
-                                                             {"outwards", "inwards", "up", "head", "feet"})} +
-                           place_parameters(),
-                       30,
-                       "Pushes what lies at a place aside with closed jaws, and stays there.",
-                       Place::lacks,
-                       &making<Sweep>};
+const SkillKind kSweep{
+    "sweep",
+    "push it aside",
+    std::vector<Parameter>{hand_parameter("the hand whose closed instrument pushes"),
+                           number_parameter("by_mm", "distance; default 20", 0, 200),
+                           word_parameter("towards", "direction in the patient; default away from the patient's middle",
+                                          {"outwards", "inwards", "up", "head", "feet"})} +
+        place_parameters(),
+    30,
+    "Pushes tissue at a place aside with closed jaws, and stays there.",
+    Place::lacks,
+    &making<Sweep>};
 
 }  // namespace trocar::training

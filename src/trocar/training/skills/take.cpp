@@ -42,15 +42,15 @@ std::string lacks_instrument(const sim::Model& model, const Given& given) {
 
 }  // namespace
 
-const SkillKind kTake{
-    "take",
-    "change an instrument",
-    std::vector<Parameter>{
-        hand_parameter("whose trocar"), {"instrument", ArgumentKind::word, "of its rack, by name"}, watch_parameter()} +
-        place_parameters(),
-    15,
-    "Takes another instrument and waits under the trocar, pointing at the place, until it is seen.",
-    lacks_instrument,
-    &making<Take>};
+const SkillKind kTake{"take",
+                      "change an instrument",
+                      std::vector<Parameter>{hand_parameter("the hand that takes it"),
+                                             {"instrument", ArgumentKind::word, "name of an instrument in its rack"},
+                                             watch_parameter()} +
+                          place_parameters(),
+                      15,
+                      "Takes another instrument and waits at the port, pointing at the place, until it is in view.",
+                      lacks_instrument,
+                      &making<Take>};
 
 }  // namespace trocar::training

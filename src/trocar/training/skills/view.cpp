@@ -28,12 +28,12 @@ class View final : public Skill {
 
 const SkillKind kView{"view",
                       "look",
-                      {{"mark", ArgumentKind::mark, "what is looked at"},
-                       number_parameter("from_mm", "of the lens from it; 50", 10, 300),
-                       number_parameter("for_s", "so long with the picture at rest; 0", 0, 600)},
+                      {{"mark", ArgumentKind::mark, "the mark to look at"},
+                       number_parameter("from_mm", "distance of the lens; default 50", 10, 300),
+                       number_parameter("for_s", "time with the picture at rest; default 0", 0, 600)},
                       30,
-                      "Brings a mark into the picture's middle, looking along its normal as far as scope and trocar "
-                      "allow, with a level horizon: light post and camera head are turned, too.",
+                      "Brings a mark into the picture's middle along its normal, as far as endoscope and port allow, "
+                      "with a level horizon.",
                       nothing,
                       &making<View>};
 

@@ -24,7 +24,7 @@ std::string no_blood(const sim::Model& model, const Given&) {
 
 const SkillKind kWaitForBlood{"wait_for_blood",
                               "wait",
-                              {number_parameter("least_s", "so long at least", 0, 600)},
+                              {number_parameter("least_s", "minimum time", 0, 600)},
                               120,
                               "Waits until a vessel has opened.",
                               no_blood,

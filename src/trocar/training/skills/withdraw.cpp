@@ -25,14 +25,15 @@ class Withdraw final : public Skill {
 
 }  // namespace
 
-const SkillKind kWithdraw{"withdraw",
-                          "draw an instrument back",
-                          {hand_parameter(), number_parameter("to_mm", "depth of its tip from the trocar; 85", 5, 290),
-                           word_parameter("pace", "careful as a rule", {"careful", "brisk"}),
-                           word_parameter("watch", "whether the camera goes along; as a rule", {"yes", "no"})},
-                          6,
-                          "Moves an instrument along its shaft to a depth.",
-                          nothing,
-                          &making<Withdraw>};
+const SkillKind kWithdraw{
+    "withdraw",
+    "draw an instrument back",
+    {hand_parameter(), number_parameter("to_mm", "depth of the tip from the port; default 85", 5, 290),
+     word_parameter("pace", "speed; default careful", {"careful", "brisk"}),
+     word_parameter("watch", "whether the camera follows; default yes", {"yes", "no"})},
+    6,
+    "Moves an instrument along its shaft to a depth.",
+    nothing,
+    &making<Withdraw>};
 
 }  // namespace trocar::training

@@ -196,15 +196,14 @@ std::string lacks_fat(const sim::Model& model, const Given& given) {
 const SkillKind kClearFat{
     "clear_fat",
     "clear fat away",
-    {hand_parameter("that has a hook"),
-     {"fat", ArgumentKind::body, "which"},
-     {"bare", ArgumentKind::bodies, "strands beside which it works: about others all is left", false},
-     number_parameter("left_share", "until no more of its volume is left; 0", 0, 1),
-     number_parameter("most", "lobules in one go; all", 1, 10000)},
+    {hand_parameter("the hand with a hook"),
+     {"fat", ArgumentKind::body, "the fat"},
+     {"bare", ArgumentKind::bodies, "rods to bare; fat around others is left", false},
+     number_parameter("left_share", "ends when at most this share of its volume is left; default 0", 0, 1),
+     number_parameter("most", "most lobules at once; default all", 1, 10000)},
     400,
-    "Brings an electrode to the outermost lobule of fat, presses the blue pedal until it has "
-    "boiled away, and goes on to the next; then draws back. What lies right on a strand is left: "
-    "hot metal would burn that.",
+    "Brings an electrode to the outermost lobule of fat, presses the blue pedal until it boils away, and moves to the "
+    "next; then withdraws. Lobules directly on a rod are left, because hot metal would burn it.",
     lacks_fat,
     &making<ClearFat>};
 

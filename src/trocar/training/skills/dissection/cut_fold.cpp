@@ -179,18 +179,17 @@ std::string lacks_fold(const sim::Model& model, const Given& given) {
 
 }  // namespace
 
-const SkillKind kCutFold{
-    "cut_fold",
-    "divide the fold",
-    {hand_parameter("that has the scissors"),
-     {"of", ArgumentKind::body, "a fold that hangs on a strand"},
-     number_parameter("away_mm", "how far from the strand's surface; 5", 0, 100),
-     number_parameter("to_mm", "up to where along the strand, from its beginning; 0", 0, 1000),
-     number_parameter("bite_mm", "how far each closing of the blades shall reach; 8", 1, 30),
-     number_parameter("most", "bites in one go; 40", 1, 200)},
-    240,
-    "Divides a fold along the strand that it carries, bite by bite from its far end towards the strand's beginning.",
-    lacks_fold,
-    &making<CutFold>};
+const SkillKind kCutFold{"cut_fold",
+                         "divide the fold",
+                         {hand_parameter("the hand with the scissors"),
+                          {"of", ArgumentKind::body, "a membrane on a rod"},
+                          number_parameter("away_mm", "distance from the rod's surface; default 5", 0, 100),
+                          number_parameter("to_mm", "end along the rod, from its beginning; default 0", 0, 1000),
+                          number_parameter("bite_mm", "reach of each bite; default 8", 1, 30),
+                          number_parameter("most", "most bites at once; default 40", 1, 200)},
+                         240,
+                         "Divides a membrane along its rod, bite by bite from the far end towards the rod's beginning.",
+                         lacks_fold,
+                         &making<CutFold>};
 
 }  // namespace trocar::training

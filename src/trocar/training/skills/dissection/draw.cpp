@@ -39,15 +39,16 @@ class Draw final : public Skill {
 
 }  // namespace
 
-const SkillKind kDraw{
-    "draw",
-    "draw what is held",
-    {hand_parameter("that holds it"), word_parameter("towards", "where to, of the patient", patient_directions()),
-     number_parameter("by_mm", "how far; 20", 0, 200), number_parameter("speed_mm_s", "at most; 8", 0.1, 100),
-     number_parameter("pull_N", "it waits while it pulls harder; 3", 0, 50)},
-    30,
-    "Draws what the jaws hold, and waits while that pulls too hard.",
-    nothing,
-    &making<Draw>};
+const SkillKind kDraw{"draw",
+                      "draw what is held",
+                      {hand_parameter("the hand that holds it"),
+                       word_parameter("towards", "direction in the patient; default feet", patient_directions()),
+                       number_parameter("by_mm", "distance; default 20", 0, 200),
+                       number_parameter("speed_mm_s", "highest speed; default 8", 0.1, 100),
+                       number_parameter("pull_N", "waits while the pull is above this; default 3", 0, 50)},
+                      30,
+                      "Draws the held tissue, and waits while it pulls too hard.",
+                      nothing,
+                      &making<Draw>};
 
 }  // namespace trocar::training

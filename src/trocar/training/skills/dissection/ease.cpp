@@ -35,14 +35,14 @@ class Ease final : public Skill {
 
 }  // namespace
 
-const SkillKind kEase{
-    "ease",
-    "give way to what pulls",
-    {hand_parameter("that holds it"), number_parameter("pull_N", "until it pulls no harder; 0.3", 0, 50),
-     number_parameter("by_mm", "how far at most; 30", 0, 200)},
-    8,
-    "Follows what pulls at the jaws, until it pulls no harder.",
-    nothing,
-    &making<Ease>};
+const SkillKind kEase{"ease",
+                      "give way to what pulls",
+                      {hand_parameter("the hand that holds it"),
+                       number_parameter("pull_N", "until the pull is below this; default 0.3", 0, 50),
+                       number_parameter("by_mm", "largest distance; default 30", 0, 200)},
+                      8,
+                      "Follows the pull at the jaws until it is low.",
+                      nothing,
+                      &making<Ease>};
 
 }  // namespace trocar::training

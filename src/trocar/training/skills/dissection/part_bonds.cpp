@@ -148,13 +148,13 @@ std::string lacks_bonds(const sim::Model& model, const Given& given) {
 const SkillKind kPartBonds{
     "part_bonds",
     "part what still holds",
-    {hand_parameter("that has a hook"),
-     {"bonds", ArgumentKind::word, "which, by their name"},
-     number_parameter("left_share", "until no more of their area holds; 0", 0, 1),
+    {hand_parameter("the hand with a hook"),
+     {"bonds", ArgumentKind::word, "name of the bonds"},
+     number_parameter("left_share", "ends when at most this share of their area holds; default 0", 0, 1),
      word_parameter("also", "whether raw surfaces are dried, too", {"raw"})},
     240,
-    "Brings an electrode to the bond that is drawn open most, presses the blue pedal until it has "
-    "parted, and goes on to the next; then draws back.",
+    "Brings an electrode to the most open bond, presses the blue pedal until it parts, and moves to the next; then "
+    "withdraws.",
     lacks_bonds,
     &making<PartBonds>};
 

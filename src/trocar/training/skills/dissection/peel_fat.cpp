@@ -131,19 +131,18 @@ std::string lacks_peeling(const sim::Model& model, const Given& given) {
 
 }  // namespace
 
-const SkillKind kPeelFat{
-    "peel_fat",
-    "peel fat off",
-    {hand_parameter("that has a grasper"),
-     {"fat", ArgumentKind::body, "which"},
-     {"off", ArgumentKind::body, "the body that it holds on"},
-     word_parameter("towards", "where to, of the patient", patient_directions()),
-     number_parameter("by_mm", "how far it is drawn; 20", 0, 200),
-     number_parameter("speed_mm_s", "at most; 5", 0.1, 100),
-     number_parameter("pull_N", "it waits while it pulls harder; 2", 0, 50)},
-    40,
-    "Takes fat between the jaws beside where it still holds on a body, draws it off, and lets it go.",
-    lacks_peeling,
-    &making<PeelFat>};
+const SkillKind kPeelFat{"peel_fat",
+                         "peel fat off",
+                         {hand_parameter("the hand with a grasper"),
+                          {"fat", ArgumentKind::body, "the fat"},
+                          {"off", ArgumentKind::body, "the body that it is attached to"},
+                          word_parameter("towards", "direction in the patient", patient_directions()),
+                          number_parameter("by_mm", "distance of the pull; default 20", 0, 200),
+                          number_parameter("speed_mm_s", "highest speed; default 5", 0.1, 100),
+                          number_parameter("pull_N", "waits while the pull is above this; default 2", 0, 50)},
+                         40,
+                         "Takes fat between the jaws beside its attachment to a body, draws it off, and releases it.",
+                         lacks_peeling,
+                         &making<PeelFat>};
 
 }  // namespace trocar::training

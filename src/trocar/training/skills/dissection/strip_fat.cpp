@@ -190,19 +190,19 @@ std::string lacks_strip(const sim::Model& model, const Given& given) {
 
 }  // namespace
 
-const SkillKind kStripFat{"strip_fat",
-                          "tear fat off",
-                          {hand_parameter("that has jaws"),
-                           {"fat", ArgumentKind::body, "which"},
-                           {"off", ArgumentKind::bodies, "strands that are to be bared"},
-                           number_parameter("about_mm", "as far from their surface; 2.5", 0, 50),
-                           number_parameter("by_mm", "how far each bite is drawn off; 12", 1, 50),
-                           number_parameter("pull_N", "it waits while it pulls harder; 1", 0, 20),
-                           number_parameter("most", "bites in one go; all", 1, 10000)},
-                          300,
-                          "Takes fat off strands bite by bite: jaws that open along the tube close on what lies on it, "
-                          "draw it off, and let it fall.",
-                          lacks_strip,
-                          &making<StripFat>};
+const SkillKind kStripFat{
+    "strip_fat",
+    "tear fat off",
+    {hand_parameter("a hand with jaws"),
+     {"fat", ArgumentKind::body, "the fat"},
+     {"off", ArgumentKind::bodies, "rods to bare"},
+     number_parameter("about_mm", "distance from their surface; default 2.5", 0, 50),
+     number_parameter("by_mm", "distance of each pull; default 12", 1, 50),
+     number_parameter("pull_N", "waits while the pull is above this; default 1", 0, 20),
+     number_parameter("most", "most bites at once; default all", 1, 10000)},
+    300,
+    "Removes fat from rods bite by bite: jaws that open along the rod close on the fat, draw it off, and drop it.",
+    lacks_strip,
+    &making<StripFat>};
 
 }  // namespace trocar::training

@@ -87,13 +87,12 @@ const SkillKind kTakeHold{
     "take hold of it",
     std::vector<Parameter>{
         hand_parameter(),
-        {"wall", ArgumentKind::word,
-         "a wall: what of it lies barest within 18 mm of the place, and nothing else will do", false},
-        number_parameter("deep_mm", "how far the open jaws go on beyond the place; 4", 0, 30),
-        number_parameter("to", "how far the handle closes; 0.95", 0, 1)} +
+        {"wall", ArgumentKind::word, "a closed membrane: its most exposed part within 18 mm of the place", false},
+        number_parameter("deep_mm", "distance that the open jaws move beyond the place; default 4", 0, 30),
+        number_parameter("to", "closing of the handle; default 0.95", 0, 1)} +
         place_parameters(),
     15,
-    "Goes with open jaws to a place of an organ or a wall, closes them, and feels whether they hold.",
+    "Moves open jaws to a place of an organ or closed membrane, closes them, and tests whether they hold.",
     lacks_wall_or_place,
     &making<TakeHold>};
 

@@ -172,38 +172,41 @@ std::string lacks_pierced_organ(const sim::Model& model, const Given& given) {
 
 }  // namespace
 
-const SkillKind kPierce{"pierce",
-                        "go in with the needle",
-                        {hand_parameter("whose needle"),
-                         {"of", ArgumentKind::body, "the organ"},
-                         number_parameter("x_mm", "where on its skin, as drawn: the nearest to this place", -500, 500),
-                         number_parameter("y_mm", "the same", -500, 500),
-                         number_parameter("z_mm", "the same", -500, 500),
-                         number_parameter("depth_mm", "of the point below the skin; 3", 0.2, 20)},
-                        45,
-                        "Brings an injection needle, drawn in, before a place of an organ, lets it out, presses it "
-                        "through the skin along its shaft, and corrects how deep its point is.",
-                        lacks_pierced_organ,
-                        &making<Pierce>};
-const SkillKind kAspirate{"aspirate",
-                          "draw the plunger",
-                          {hand_parameter("whose needle"), number_parameter("for_s", "so long; 1.5", 0.1, 20)},
-                          25,
-                          "Draws the plunger, to see whether blood comes; gives up if it does.",
-                          lacks_needle,
-                          &making<Aspirate>};
-const SkillKind kInject{"inject",
-                        "inject",
-                        {hand_parameter("whose needle"), number_parameter("volume_mL", "so much; 5", 0.01, 100)},
-                        180,
-                        "Presses the plunger until so much has flowed out of the needle.",
-                        lacks_needle,
-                        &making<Inject>};
+const SkillKind kPierce{
+    "pierce",
+    "go in with the needle",
+    {hand_parameter("the hand with the needle"),
+     {"of", ArgumentKind::body, "the organ"},
+     number_parameter("x_mm", "place on its skin in the standard shape: the nearest to this point", -500, 500),
+     number_parameter("y_mm", "the same", -500, 500),
+     number_parameter("z_mm", "the same", -500, 500),
+     number_parameter("depth_mm", "depth of the tip below the skin; default 3", 0.2, 20)},
+    45,
+    "Brings an injection needle to a place of an organ, extends it, presses it through the skin along its shaft, and "
+    "corrects its depth.",
+    lacks_pierced_organ,
+    &making<Pierce>};
+const SkillKind kAspirate{
+    "aspirate",
+    "draw the plunger",
+    {hand_parameter("the hand with the needle"), number_parameter("for_s", "time; default 1.5", 0.1, 20)},
+    25,
+    "Draws the plunger to see whether blood comes; fails if it does.",
+    lacks_needle,
+    &making<Aspirate>};
+const SkillKind kInject{
+    "inject",
+    "inject",
+    {hand_parameter("the hand with the needle"), number_parameter("volume_mL", "volume; default 5", 0.01, 100)},
+    180,
+    "Presses the plunger until the volume has left the needle.",
+    lacks_needle,
+    &making<Inject>};
 const SkillKind kDrawOut{"draw_out",
                          "draw the needle out",
-                         {hand_parameter("whose needle")},
+                         {hand_parameter("the hand with the needle")},
                          20,
-                         "Draws an instrument 30 mm back along its shaft, and its needle into it.",
+                         "Withdraws an instrument by 30 mm along its shaft, and retracts its needle.",
                          lacks_needle,
                          &making<DrawOut>};
 

@@ -411,22 +411,21 @@ std::string lacks_run(const sim::Model& model, const Given& given) {
 const SkillKind kRunAlong{
     "run_along",
     "run the gut",
-    {hand_parameter("that takes it first"),
-     {"other_hand", ArgumentKind::hand, "that takes it next"},
-     {"stations", ArgumentKind::marks, "discs on its wall, in their order along it, 60 degrees to one side"},
-     {"others", ArgumentKind::marks, "the same on its other side"},
-     number_parameter("spacing_mm", "from one station to the next; 10", 1, 100),
-     number_parameter("from_mm", "where it is taken first; 20", 0, 5000),
-     number_parameter("to_mm", "how far; 300", 0, 100'000),
-     number_parameter("step_mm", "from hold to hold; 60", 10, 100),
-     number_parameter("lift_mm", "how far each hold is lifted; 35", 0, 100),
-     number_parameter("pull_N", "it lifts no further while it pulls harder; 2", 0.1, 10),
-     number_parameter("look_s", "each face of each station is looked at for so long; 0.3", 0, 10),
-     number_parameter("deep_mm", "how far the open jaws go on beyond the wall; 8", 0, 30)},
+    {hand_parameter("the hand that grasps first"),
+     {"other_hand", ArgumentKind::hand, "the hand that grasps next"},
+     {"stations", ArgumentKind::marks, "marks on its wall, in order, 60 degrees to one side"},
+     {"others", ArgumentKind::marks, "the same on the other side"},
+     number_parameter("spacing_mm", "distance of the stations; default 10", 1, 100),
+     number_parameter("from_mm", "first place to grasp; default 20", 0, 5000),
+     number_parameter("to_mm", "last place; default 300", 0, 100'000),
+     number_parameter("step_mm", "distance from grasp to grasp; default 60", 10, 100),
+     number_parameter("lift_mm", "height of each lift; default 35", 0, 100),
+     number_parameter("pull_N", "lifts no further while the pull is above this; default 2", 0.1, 10),
+     number_parameter("look_s", "time to look at each face of a station; default 0.3", 0, 10),
+     number_parameter("deep_mm", "distance that the open jaws move beyond the wall; default 8", 0, 30)},
     900,
-    "Runs a gut hand over hand: one hand holds while the other takes the next place and lifts it; then the camera "
-    "looks "
-    "at both faces of what lies between, and the first lets go. Taken up again where it was left.",
+    "Runs a gut hand over hand: one hand holds while the other grasps the next place and lifts it; then the camera "
+    "looks at both faces between them, and the first hand releases. Continues where it was interrupted.",
     lacks_run,
     &making<RunAlong>};
 

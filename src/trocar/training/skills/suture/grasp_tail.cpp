@@ -56,7 +56,7 @@ class GraspTail final : public Skill {
     follow(op);
     m_bare_for =
         m_with >= 0 && std::fabs(wraps_around(op.model(), op.state(), m_hand)) < kBare ? m_bare_for + sim::kTick : 0;
-    if (m_bare_for > kFeels) return fail("what was wound has come off");
+    if (m_bare_for > kFeels) return fail("the turns round the jaws were lost");
     // A tail turns with its knot, and that with the thread that jaws which are wound round draw after them: nearer to
     // the knot it can be caught up with.
     if (m_phase == kReach && m_in_phase > kSwings)
@@ -130,10 +130,10 @@ const SkillKind kGraspTail{
     "grasp_tail",
     "take the tail",
     {hand_parameter(),
-     {"with", ArgumentKind::hand, "whose hand goes along, so that what is wound round the jaws stays there", false},
-     number_parameter("at_mm", "from the thread's end; 6", 1, 100),
-     number_parameter("apart_mm", "that the other hand is drawn back before; 0", 0, 100),
-     number_parameter("open_to", "how far the handle is closed before; 0.5", 0, 1)},
+     {"with", ArgumentKind::hand, "the hand that follows, so that the turns stay on the jaws", false},
+     number_parameter("at_mm", "distance from the thread's end; default 6", 1, 100),
+     number_parameter("apart_mm", "distance that the other hand draws back before; default 0", 0, 100),
+     number_parameter("open_to", "closing of the handle before; default 0.5", 0, 1)},
     20,
     "Puts open jaws around the thread near its free end and closes them.",
     &tying::lacks_thread,

@@ -231,36 +231,39 @@ std::string lacks_needle(const sim::Model& model, const Given& given) {
 
 }  // namespace
 
-const SkillKind kDriveNeedle{"drive_needle",
-                             "drive the needle through",
-                             {hand_parameter("that holds it"),
-                              {"in", ArgumentKind::mark, "where it shall go in"},
-                              {"out", ArgumentKind::mark, "where it shall come out"},
-                              number_parameter("beyond_mm", "of its tip that shall stand out then; 5", 0, 20),
-                              number_parameter("speed_mm_s", "along its arc; 8", 0.5, 50)},
-                             25,
-                             "Brings the needle over tissue and drives it through from mark to mark along its own arc.",
-                             lacks_needle,
-                             &making<DriveNeedle>};
-const SkillKind kTakeNeedle{"take_needle",
-                            "take the needle",
-                            {hand_parameter(), number_parameter("at_mm", "where on it, from its tip; 3", 0, 100),
-                             number_parameter("open_to", "how far the handle is closed before; 0.35", 0, 1)},
-                            20,
-                            "Puts open jaws around the needle at a place of its length and closes them.",
-                            lacks_needle,
-                            &making<TakeNeedle>};
-const SkillKind kDrawThrough{"draw_through",
-                             "draw needle and thread through",
-                             {hand_parameter("that holds the needle"),
-                              number_parameter("thread_mm", "of thread that shall follow; 80", 0, 900),
-                              {"x_mm", ArgumentKind::number, "towards here, to the patient's left", true, -1000, 1000},
-                              {"y_mm", ArgumentKind::number, "towards the head", true, -1000, 1000},
-                              {"z_mm", ArgumentKind::number, "to the front", true, -1000, 1000},
-                              number_parameter("pull_N", "it waits while the thread is pulled harder; 1.5", 0, 50)},
-                             40,
-                             "Turns the needle on along its arc until it is out, then draws the thread after it.",
-                             lacks_needle,
-                             &making<DrawThrough>};
+const SkillKind kDriveNeedle{
+    "drive_needle",
+    "drive the needle through",
+    {hand_parameter("the hand that holds it"),
+     {"in", ArgumentKind::mark, "mark of the entry"},
+     {"out", ArgumentKind::mark, "mark of the exit"},
+     number_parameter("beyond_mm", "length of the tip beyond the exit; default 5", 0, 20),
+     number_parameter("speed_mm_s", "speed along its arc; default 8", 0.5, 50)},
+    25,
+    "Brings the needle to the tissue and drives it through from mark to mark along its own arc.",
+    lacks_needle,
+    &making<DriveNeedle>};
+const SkillKind kTakeNeedle{
+    "take_needle",
+    "take the needle",
+    {hand_parameter(), number_parameter("at_mm", "place on it, from its tip; default 3", 0, 100),
+     number_parameter("open_to", "closing of the handle before; default 0.35", 0, 1)},
+    20,
+    "Puts open jaws around the needle at a place of its length and closes them.",
+    lacks_needle,
+    &making<TakeNeedle>};
+const SkillKind kDrawThrough{
+    "draw_through",
+    "draw needle and thread through",
+    {hand_parameter("the hand that holds the needle"),
+     number_parameter("thread_mm", "length of thread to draw through; default 80", 0, 900),
+     {"x_mm", ArgumentKind::number, "towards this point, to the patient's left", true, -1000, 1000},
+     {"y_mm", ArgumentKind::number, "towards the head", true, -1000, 1000},
+     {"z_mm", ArgumentKind::number, "to the front", true, -1000, 1000},
+     number_parameter("pull_N", "waits while the tension is above this; default 1.5", 0, 50)},
+    40,
+    "Turns the needle along its arc until it is out, then draws the thread after it.",
+    lacks_needle,
+    &making<DrawThrough>};
 
 }  // namespace trocar::training

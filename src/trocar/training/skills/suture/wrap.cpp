@@ -95,8 +95,7 @@ class Wrap final : public Skill {
     // what lies round jaws loosely may come off over their tip, and then it is wound anew; counted from the needle
     const double wound = -double(m_sense) * wraps_around(op.model(), op.state(), m_around);
     if (wound > m_turns + kSpare) return Progress::done;
-    return m_angle > portable::two_pi * (m_turns + kMostMore) ? fail("what is wound comes off the jaws")
-                                                              : Progress::working;
+    return m_angle > portable::two_pi * (m_turns + kMostMore) ? fail("the turns slip off the jaws") : Progress::working;
   }
   /// Farther ahead where this shaft would cross those jaws.
   Vec3d before_jaws(const Operator& op, Vec3d at) const {
@@ -138,13 +137,13 @@ class Wrap final : public Skill {
 const SkillKind kWrap{
     "wrap",
     "wind the thread round the other instrument",
-    {hand_parameter("that holds needle or thread"),
-     {"around", ArgumentKind::hand, "round whose jaws"},
-     number_parameter("turns", "how often; 1", 0.25, 4),
-     word_parameter("way", "seen along those jaws, turned as a right-handed screw as a rule", {"right", "left"}),
-     number_parameter("pull_N", "the circle becomes smaller while the thread is pulled harder; 0.3", 0.01, 10)},
+    {hand_parameter("the hand that holds needle or thread"),
+     {"around", ArgumentKind::hand, "the hand whose jaws are wound round"},
+     number_parameter("turns", "number of turns; default 1", 0.25, 4),
+     word_parameter("way", "sense of the screw along those jaws; default right", {"right", "left"}),
+     number_parameter("pull_N", "the circle shrinks while the tension is above this; default 0.3", 0.01, 10)},
     30,
-    "Leads the thread round the other hand's closed jaws, which stand still.",
+    "Winds the thread round the other hand's closed jaws, which do not move.",
     &tying::lacks_thread,
     &making<Wrap>};
 
