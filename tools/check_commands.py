@@ -33,6 +33,10 @@ NAMES = ("trocar", "build/release/trocar", "./trocar")
 SECONDS = 900  # most that one block may take
 
 
+def shown(page):
+    return page.relative_to(ROOT).as_posix() if page.is_relative_to(ROOT) else page.name
+
+
 def blocks(page):
     """(line number, kind, text) of each block of commands."""
     text = page.read_text(encoding="utf-8")
@@ -113,12 +117,12 @@ def run(page, program):
                 done = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=folder, env=environment,
                                       capture_output=True, text=True, timeout=SECONDS, check=False)
             except subprocess.TimeoutExpired:
-                yield f"{page.relative_to(ROOT)}:{number}: still running after {SECONDS} s"
+                yield f"{shown(page)}:{number}: still running after {SECONDS} s"
                 continue
-            print(f"{page.relative_to(ROOT)}:{number}: exit {done.returncode}", flush=True)
+            print(f"{shown(page)}:{number}: exit {done.returncode}", flush=True)
             if done.returncode != 0:
                 last = (done.stderr.strip() or done.stdout.strip())[-600:]
-                yield f"{page.relative_to(ROOT)}:{number}: exit {done.returncode}: {last}"
+                yield f"{shown(page)}:{number}: exit {done.returncode}: {last}"
 
 
 def main():
@@ -136,7 +140,7 @@ def main():
                 count += 1
                 fault = fault_of(wanted.program, words)
                 if fault:
-                    found.append(f"{page.relative_to(ROOT)}:{number}: {fault} ({' '.join(words)})")
+                    found.append(f"{shown(page)}:{number}: {fault} ({' '.join(words)})")
         if wanted.run:
             found.extend(run(page, wanted.program))
     print("\n".join(found) if found else f"{count} commands on {len(pages)} pages exist with their options")

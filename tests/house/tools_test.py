@@ -215,6 +215,35 @@ def LinkCheckFindsEachFault():
             expect(code == 1 and text.startswith("README.md:2: "), f"{bad} passed: {text}")
 
 
+FAKE_PROGRAM = """#!/bin/sh
+[ "$1" = --help ] && printf 'Subcommands:\\n  train   Trains\\n' && exit 0
+[ "$1" = train ] && printf '  --seed N   anatomy\\n  --help\\n' && exit 0
+exit 2
+"""
+
+
+def CommandBlockCheckFindsEachFault():
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        program = root / "trocar"
+        put(root, "trocar", FAKE_PROGRAM)
+        program.chmod(0o755)
+        page = root / "page.md"
+
+        def check(*lines):
+            page.write_text("\n".join(["# Page", *lines, ""]), encoding="utf-8")
+            return tool("check_commands.py", program, page)
+
+        for good in ("trocar train x --seed 3", "trocar train \\\n  --seed=3  # words --that are no options",
+                     "tools/docs.sh", "cat > f <<'END'\ntrocar repot\nEND", "ls | trocar train"):
+            code, text = check("```sh window", good, "```")
+            expect(code == 0, f"{good} was refused: {text}")
+        expect(check("```text", "trocar repot", "```")[0] == 0, "a block that is no command was looked at")
+        for bad in ("trocar repot", "trocar train --sed 3", "trocar train x && trocar repot", "tools/dogs.sh"):
+            code, text = check("```sh window", bad, "```")
+            expect(code == 1 and text.startswith("page.md:2: "), f"{bad} passed: {text}")
+
+
 def LanguageCheckFindsEachFault():
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
@@ -254,7 +283,7 @@ def LanguageCheckFindsEachFault():
 
 
 CASES = [LayerCheckFindsEachFault, EquationCheckFindsEachFault, ObjectCodeCheckFindsEachFault,
-         EmptyTestExecutableIsFound, LinkCheckFindsEachFault, LanguageCheckFindsEachFault]
+         EmptyTestExecutableIsFound, LinkCheckFindsEachFault, CommandBlockCheckFindsEachFault, LanguageCheckFindsEachFault]
 
 if __name__ == "__main__":
     wanted = sys.argv[1:] or [c.__name__ for c in CASES]
