@@ -42,7 +42,7 @@ class TrainerWindow {
   std::unique_ptr<RoomBeside> room;  ///< null: none is shown
 
   bool wants_to_close() const;
-  /// The view of this lesson's scene; made anew where it is another lesson than last time.
+  /// The view of this lesson's scene; made again where it is another lesson than last time.
   view::SceneView& view_of(const attempt::Lesson& lesson);
   void drop_view();  ///< the lesson is about to go
 

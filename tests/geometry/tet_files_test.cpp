@@ -226,7 +226,7 @@ TEST(TetFiles, FaultsAreBounded) {
     FAIL();
   } catch (const core::BadInput& bad) {
     EXPECT_EQ(bad.faults().size(), kMaxMeshFaults + 1);
-    EXPECT_EQ(bad.faults().back().message, "expected fewer faults: from here on none is told");
+    EXPECT_EQ(bad.faults().back().message, "expected fewer faults: further ones are not reported");
   }
 }
 

@@ -437,7 +437,7 @@ TEST(Facts, WhereAVesselOpensIsAMarkOnWhateverCarriesIt) {
 
 TEST(Facts, AVesselThatOpensWhereNothingCarriesItCannotBeTold) {
   const sim::Model model = opening("tube_artery", false);
-  EXPECT_EQ(kBleederUncovered.lacks(model), "a bleeder that can be told");
+  EXPECT_EQ(kBleederUncovered.lacks(model), "a bleeder on a body");
   EXPECT_EQ(kBleederCalibre.lacks(model), "");
 }
 

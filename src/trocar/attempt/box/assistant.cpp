@@ -152,7 +152,7 @@ void BoxAssistant::ask_axis(BoxActor actor, BoxAxis which) {
 void BoxAssistant::ask_press(BoxActor actor, int pedal, int button) {
   constexpr std::array<const char*, devices::kBoxPedals> kPedals = {
       "the pedal for coagulation (blue)", "the pedal for cutting (yellow)", "the switch that wipes the endoscope",
-      "the switch that declares what is shown", "the switch that begins anew (reset)"};
+      "the switch that declares what is shown", "the switch that restarts (reset)"};
   constexpr std::array<const char*, devices::kBoxButtons> kButtons = {"the switch for the next instrument",
                                                                       "the valve that rinses", "the valve that sucks"};
   BoxQuestion q;

@@ -67,7 +67,7 @@ scene::Key bit_key(const char* name, const char* meaning) {
 const scene::Shape& hand_shape() {
   static const scene::Shape shape{
       "hand",
-      "An instrument of the box. What is not wired stays where the scene places it.",
+      "An instrument of the box. Axes without a channel stay where the scene places them.",
       {scene::needed(keys::choice("hand", {"left", "right", "third", "fourth"}, "which")),
        keys::object("yaw", angle_shape, "about the vertical of the box"),
        keys::object("pitch", angle_shape, "towards and away"), keys::object("roll", angle_shape, "about the shaft"),

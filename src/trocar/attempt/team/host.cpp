@@ -168,7 +168,7 @@ struct TeamHost::Desk {
           fmt::format("the host is Trocar {}, this is {}: both must be the same", TROCAR_VERSION, hello->version));
     if (at == seats.end()) return refuse(fmt::format("nobody is expected as {}", hello->role));
     if (at->shown.here) return refuse(fmt::format("there is a {} already", hello->role));
-    if (hello->ticks > made) return refuse("it is ahead of the host: begin anew");
+    if (hello->ticks > made) return refuse("it is ahead of the host: restart it");
     at->link = std::move(link);
     at->heard = Clock::now();
     at->shown.here = true;

@@ -40,7 +40,7 @@ Vec3d direction_of(const std::string& name) {
 
 const Shape& grip_shape() {
   static const Shape shape{"grip",
-                           "A sensor that tells how far the handle is closed.",
+                           "A sensor that measures how far the handle is closed.",
                            {scene::needed(keys::text("sensor", "its name at the tracker (a SENSOR message)")),
                             keys::integer("index", 0, 63, "which of its values, default 0"),
                             scene::needed(keys::number("open", -1e9, 1e9, "its value with the handle open")),
@@ -55,7 +55,8 @@ const Shape& tool_shape() {
       {scene::needed(keys::text("role", "camera, left, right, or a trocar's name")),
        scene::needed(keys::text("transform", "its name at the tracker (TRANSFORM, POSITION or an entry of TDATA)")),
        keys::vec3("tip_mm", -2000, 2000, "where the instrument's tip is in the tool's frame, default its origin"),
-       keys::object("grip", grip_shape, "a sensor that tells how far the handle is closed; none: who else leads")}};
+       keys::object("grip", grip_shape,
+                    "a sensor that measures how far the handle is closed; without it other inputs close it")}};
   return shape;
 }
 
@@ -99,7 +100,7 @@ TrackerPlan read(const scene::JsonDocument& document, std::vector<core::Fault>& 
 const Shape& tracker_plan_shape() {
   static const Shape shape{
       "tracker",
-      "Which tool of a tracker (OpenIGTLink) leads what. What no tool leads is led as without the tracker.",
+      "Which tool of a tracker (OpenIGTLink) controls which hand. Other inputs control hands without a tool.",
       {keys::text("$schema", "where this table stands"), scene::needed(keys::format(1)),
        scene::needed(keys::text("server", "ADDRESS:PORT where the tracker's server listens")),
        keys::choice("x_points", direction_names(), "where the tracker's x points in the patient, default left"),

@@ -49,8 +49,7 @@ std::string remedy(const std::string& path, int error) {
     case EACCES:
     case EPERM:
       return fmt::format(
-          "{} may not be opened: join the group that owns it (sudo usermod -aG dialout $USER, then log in "
-          "anew)",
+          "{} may not be opened: join the group that owns it (sudo usermod -aG dialout $USER, then log in again)",
           path);
     case EBUSY:
       return fmt::format("{} is in use: end the other program that reads it", path);

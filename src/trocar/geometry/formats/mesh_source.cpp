@@ -189,7 +189,7 @@ void MeshSource::skip_bytes(std::uint64_t bytes, const char* what) {
 void MeshSource::fault(std::size_t at, std::string message) {
   m_faults.push_back({at, binary(), std::move(message)});
   if (m_faults.size() < kMaxMeshFaults) return;
-  m_faults.push_back({at, binary(), "expected fewer faults: from here on none is told"});
+  m_faults.push_back({at, binary(), "expected fewer faults: further ones are not reported"});
   tell_all();
 }
 

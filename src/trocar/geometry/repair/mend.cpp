@@ -107,13 +107,13 @@ class MeshMending {
   bool refill() {
     Refilled fresh = refilled(m_out.mesh, m_options.refilling);
     if (fresh.mesh.triangles.empty()) {
-      m_out.left.push_back("it could not be made anew: " + fresh.why);
+      m_out.left.push_back("it could not be made again: " + fresh.why);
       return false;
     }
     m_out.mesh = parted(fresh.mesh).mesh;
     m_out.was_refilled = true;
     m_out.changes.push_back({"refilled", 1,
-                             fmt::format("made anew with cells of {:.3g} mm, {:.3g} mm off at most", 1000 * fresh.cell,
+                             fmt::format("made again with cells of {:.3g} mm, {:.3g} mm off at most", 1000 * fresh.cell,
                                          1000 * fresh.farthest)});
     return true;
   }

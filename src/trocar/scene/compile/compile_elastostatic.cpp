@@ -152,7 +152,7 @@ Compliance compliance_of(const tissue::Stiffness& k, std::span<const int> kept, 
   CachedCompliance cached = read_compliance(key, int(kept.size()), fields);
   r.file = cached.file.string();
   r.note = cached.damage;
-  if (!cached.damage.empty()) core::log::warn("{}: {}; made anew", r.file, cached.damage);
+  if (!cached.damage.empty()) core::log::warn("{}: {}; made again", r.file, cached.damage);
   if (cached.found) return std::move(cached.compliance);
   r.computed = true;
   const tissue::Condensed made = tissue::condense(k, kept, loads, nullptr, [&](double share) {
@@ -163,7 +163,7 @@ Compliance compliance_of(const tissue::Stiffness& k, std::span<const int> kept, 
   if (const std::string lack = keep_compliance(key, int(kept.size()), compliance); !lack.empty()) {
     r.file.clear();
     r.note = lack;
-    core::log::warn("'{}': {}; its static solver will be made anew the next time", r.organ, lack);
+    core::log::warn("'{}': {}; its static solver will be made again the next time", r.organ, lack);
   }
   return compliance;
 }

@@ -151,7 +151,7 @@ const Table<Contents>& contents() {
                         &Contents::kind,
                         "liquid: p0 + K (V0 - V) / V0; gas: Boyle's law; constant: p0 whatever the volume")),
        needed(R::number("pressure_Pa", units::one, &Contents::pressure, -90000, 1e6,
-                        "p0, over the surroundings, as drawn, at the middle")),
+                        "p0, above the surroundings, at the middle of the undeformed shape")),
        R::number("bulk_kPa", units::kilo, &Contents::bulk, 0.1, 1e7,
                  "K of a liquid, default {}: how well it holds its volume")
            .only([](const Contents& c) { return c.kind == Contents::liquid; }),

@@ -49,11 +49,10 @@ const Table<Surrounding>& surrounding() {
       "Anatomy that is drawn only, around a body of this look.",
       {needed(R::choice(
            "generator", kGenerators, &Surrounding::generator,
-           "fat_tags: cushions of fat on large bowel; adhesions: strings and veils to the wall; curtains: "
-           "broad veils to it; drape: peritoneum covers the body and runs out on what is around; omentum: "
-           "fat on the lowest part of such a wall; liver_dome: the rest of an organ of which only the "
-           "lower edge is a body; bowel_loops: more bowel beside it, where a wall ends in a floor; porta: fat over "
-           "the ends of strands that go from such a wall into an organ")),
+           "Cushions of fat on large bowel (fat_tags). Strings and veils (adhesions) or broad veils (curtains) to the "
+           "wall. Peritoneum over the body and its surroundings (drape). Fat on the lowest part of a wall (omentum). "
+           "The rest of an organ whose lower edge is a body (liver_dome). More bowel where a wall ends in a floor "
+           "(bowel_loops). Fat over the ends of rods that enter an organ (porta)")),
        R::integer("count", &Surrounding::count, 1, 200, "of fat_tags, adhesions, curtains, at most; default {}")}};
   return table;
 }

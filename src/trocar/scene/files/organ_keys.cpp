@@ -52,7 +52,7 @@ const Table<TetSource>& tet_mesh() {
       "Tetrahedra from a file: Gmsh .msh or legacy VTK.",
       {file_row(), R::number("unit_mm", units::mm, &TetSource::unit, 1e-6, 1e6, "unit of its coordinates, default {}"),
        R::number("refill_mm", units::mm, &TetSource::refill, 0, 100,
-                 "its surface is filled anew with tetrahedra in cubes of this size, default {}: the file's cells"),
+                 "its surface is filled again with tetrahedra in cubes of this size, default {}: the file's cells"),
        place_row()}};
   return table;
 }
@@ -319,7 +319,7 @@ const Table<Solid>& solid() {
                &Solid::masses,
                "inside: in the cells that fill it; control_points: at the control points of its nurbs and below them, "
                "so that its surface stays that NURBS; default {}"),
-           R::flag("cuttable", &Solid::cuttable, "can it be cut anywhere, so that pieces come off? default {}"),
+           R::flag("cuttable", &Solid::cuttable, "can it be cut anywhere, so that pieces detach? default {}"),
            R::vec3("fibre", units::one, &Solid::fibre, -1, 1, "direction of its fibres everywhere, default: none"),
            R::lines("fibres_mm", units::mm, &Solid::fibre_strokes, -kFar, kFar, 2,
                     "strokes along its fibres, instead of one direction: near a stroke they run as it does"),

@@ -12,7 +12,7 @@ namespace {
 
 const Shape& tissue_sources() {
   static const Shape shape = [] {
-    Shape s{"sources", "Where single figures of a tissue come from: a publication, or \"ours\".", {}};
+    Shape s{"sources", "Where single figures of a tissue come from: a publication, or \"our estimate\".", {}};
     for (const TissueFigure& figure : kTissueFigures) s.keys.push_back(keys::text(figure.key, "of this figure"));
     return s;
   }();
@@ -56,7 +56,7 @@ const Table<Port>& port() {
        R::number("stiffness_N_mm", units::kilo, &Port::stiffness, 0, 100,
                  "of the abdominal wall about it against a shaft that presses across itself; 0: rigid; default {}"),
        R::number("drift_mm", units::mm, &Port::drift, 0, 10,
-                 "how far it wanders from its place while an operation goes on; default {}")}};
+                 "how far it moves from its place during an operation; default {}")}};
   return table;
 }
 
@@ -310,7 +310,7 @@ const Table<Tissue>& tissue() {
                  "pull of a thread from which on a stitch harms; three times that cuts through; default {}: 2"),
        R::number("strangle_N", units::one, &T::strangle, 0, 200,
                  "tension of a sling's loop that cuts through a strand of it, default {}: 8"),
-       needed(R::text("source", &T::source, "where the figures come from: a publication, or \"ours\"")),
+       needed(R::text("source", &T::source, "source of the figures: a publication, or \"our estimate\"")),
        R::own(keys::object("sources", tissue_sources, "sources of single figures, where they differ"), read_sources,
               written_sources)},
       check_tissue};

@@ -187,10 +187,11 @@ const Table<VariationSetting::Variant>& variant_keys() {
   using R = Rows<T>;
   static const Table<T> table{
       "variant", "An anatomy that some patients have instead of the common one.", [] {
-        std::vector<Row<T>> rows{needed(R::name("name", &T::name, "what results call it")),
-                                 needed(R::text("title", &T::title, "for people")),
-                                 needed(R::number("share", units::one, &T::share, 0, 1, "of patients who have it")),
-                                 needed(R::text("source", &T::source, "of the share: a publication, or \"ours\""))};
+        std::vector<Row<T>> rows{
+            needed(R::name("name", &T::name, "what results call it")),
+            needed(R::text("title", &T::title, "for people")),
+            needed(R::number("share", units::one, &T::share, 0, 1, "of patients who have it")),
+            needed(R::text("source", &T::source, "of the share: a publication, or \"our estimate\""))};
         for (Row<T>& row : bringing_rows()) rows.push_back(std::move(row));
         rows.push_back(R::objects("holds", variant_hold, &T::holds, 0, "where walls of pouches ride on it"));
         rows.push_back(R::objects("fat", more_fat, &T::fat, 0, "more of the fat that a scene has"));
@@ -203,7 +204,8 @@ const Table<VariationSetting>& variation() {
   using R = Rows<V>;
   static const Table<V> table{
       "variation",
-      "What another seed makes different, and by how much at most; without this key every seed is as drawn.",
+      "Differences that another seed makes, and their greatest size; without this key every seed is the standard "
+      "patient.",
       {R::objects("regions", region, &V::regions, 0, "where bodies lie, how large they are and how they are turned"),
        R::objects("girths", girth, &V::girths, 0, "how thick they are"),
        R::number("stiffness", units::one, &V::stiffness, 0, 0.9, "of every tissue, relative; default {}"),

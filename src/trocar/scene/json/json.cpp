@@ -390,7 +390,7 @@ class Parser {
 
 void tell(std::vector<core::Fault>& faults, core::Fault fault) {
   if (faults.size() < kMaxFaults) return faults.push_back(std::move(fault));
-  if (faults.size() == kMaxFaults) faults.push_back({fault.at, "expected fewer faults: from here on none is told"});
+  if (faults.size() == kMaxFaults) faults.push_back({fault.at, "expected fewer faults: further ones are not reported"});
 }
 
 const JsonMember* JsonValue::find(std::string_view key) const {

@@ -71,13 +71,14 @@ const Shape& mechanism_joint_keys() {
 }
 
 const Shape& mechanism_shape_keys() {
-  static const Shape shape{"shape",
-                           "What is drawn of a link and may touch: a capsule or cylinder between two points, or a box.",
-                           {needed(keys::choice("kind", {"capsule", "cylinder", "box"}, "capsule: with round ends")),
-                            dimensions("from_mm", "of a capsule or cylinder: one end of its middle line"),
-                            dimensions("to_mm", "the other end"), dimension("radius_mm", "its radius"),
-                            dimensions("middle_mm", "of a box, default [0, 0, 0]"), dimensions("edges_mm", "of a box"),
-                            dimensions("turn_deg", "of a box about its middle, default: not")}};
+  static const Shape shape{
+      "shape",
+      "Shape of a link for drawing and contact: a capsule or cylinder between two points, or a box.",
+      {needed(keys::choice("kind", {"capsule", "cylinder", "box"}, "capsule: with round ends")),
+       dimensions("from_mm", "of a capsule or cylinder: one end of its middle line"),
+       dimensions("to_mm", "the other end"), dimension("radius_mm", "its radius"),
+       dimensions("middle_mm", "of a box, default [0, 0, 0]"), dimensions("edges_mm", "of a box"),
+       dimensions("turn_deg", "of a box about its middle, default: not")}};
   return shape;
 }
 
@@ -152,11 +153,10 @@ const Shape& mechanism_closure_keys() {
       "closure",
       "What holds two links together that joints do not: it closes a loop.",
       {needed(keys::name("name", "what messages call it")),
-       keys::choice(
-           "kind", closure_words(),
-           "rigid; pin: about z; ball: in one point; slider: along a's x; cylinder: along and about z; slot: b's "
-           "origin on a's x axis; through: on a's z axis; plane: on a's plane of x and y; universal: in one point, "
-           "a's x square to b's y; or say directions"),
+       keys::choice("kind", closure_words(),
+                    "All directions (rigid). Free about z (pin), about a point (ball), along a's x (slider), along and "
+                    "about z (cylinder). B's origin on a's x axis (slot), on its z axis (through), on its plane of x "
+                    "and y (plane). One point, a's x square to b's y (universal). Or give directions"),
        list(keys::texts("directions", "of a's frame that are held: tx, ty, tz, rx, ry, rz"), 6),
        needed(keys::object("a", mechanism_end_keys, "one side")),
        needed(keys::object("b", mechanism_end_keys, "the other"))}};

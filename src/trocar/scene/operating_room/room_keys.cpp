@@ -20,7 +20,7 @@ std::vector<std::string> staff_words() {
 const Shape& room_patient_keys() {
   static const Shape shape{
       "room patient",
-      "A person on the back. Outlines are ours; these figures scale them.",
+      "A person on the back. Outlines are our estimate; these figures scale them.",
       {keys::number("stature_mm", 1200, 2200, "default 1700"),
        keys::number("breadth_mm", 220, 600, "of the waist, default 326"),
        keys::number("depth_mm", 130, 450, "from the back to the umbilicus with gas in, default 205"),
@@ -100,11 +100,11 @@ const Shape& room_arm_keys() {
        keys::vec3("out", -1e4, 1e4, "direction out along the shaft; default: as the skin's at the port"),
        needed(bounded_list(keys::numbers("stand_mm", -kFarInRoom, kFarInRoom, 2, "x and y of its column"), 2)),
        keys::number("set_up_mm", 50, kFarInRoom,
-                    "how far from its column set-up joints carry its base, default 1000 (ours)"),
-       keys::name("tip", "its frame that is led, default tip"),
+                    "how far from its column set-up joints carry its base, default 1000 (our estimate)"),
+       keys::name("tip", "its frame that follows the goal, default tip"),
        keys::name("shaft", "its frame whose z axis goes through the port, default shaft"),
-       keys::number("fastest_deg_s", 1, 2000, "of its turning coordinates, default 114.6 (2 rad/s; ours)"),
-       keys::number("fastest_mm_s", 1, 5000, "of its sliding ones, default 200 (ours)")}};
+       keys::number("fastest_deg_s", 1, 2000, "of its turning coordinates, default 114.6 (2 rad/s; our estimate)"),
+       keys::number("fastest_mm_s", 1, 5000, "of its sliding ones, default 200 (our estimate)")}};
   return shape;
 }
 
@@ -150,7 +150,7 @@ const Shape& programme_pose_keys() {
 
 const Shape& programme_move_keys() {
   static const Shape shape{"move",
-                           "What one arm does: from pose to pose with least jerk, at rest in each.",
+                           "The motion of one arm: from pose to pose with least jerk, at rest in each.",
                            {needed(keys::name("arm", "of the room")),
                             needed(bounded_list(keys::objects("poses", programme_pose_keys, 1, "in time"), 500))}};
   return shape;

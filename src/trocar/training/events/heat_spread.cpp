@@ -36,7 +36,7 @@ const EventKind kHeatSpread{"heat_spread",
                             {{"hook_mm", ArgumentKind::number, "from a monopolar electrode's edge", true, 0, 100},
                              {"bipolar_mm", ArgumentKind::number, "from bipolar jaws", true, 0, 100}},
                             {},
-                            "Tissue has died farther than that from where it was treated; once a body.",
+                            "Tissue has died at more than this distance from the treated place; once a body.",
                             needs_energy,
                             &noticing<HeatSpread>};
 

@@ -53,7 +53,7 @@ class LensTouched final : public Noticer {
 const EventKind kLensTouched{"lens_touched",
                              {{"within_mm", ArgumentKind::number, "so near is a touch", true, 0, 100}},
                              {},
-                             "The endoscope's lens comes this near to tissue or a wall; once until it is farther away.",
+                             "The endoscope's lens comes this near to tissue or a wall; once until it has moved away.",
                              anywhere,
                              &noticing<LensTouched>,
                              true};

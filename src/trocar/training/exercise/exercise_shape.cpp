@@ -15,7 +15,7 @@ namespace keys = scene::keys;
 const Shape& step_shape() {
   static const Shape shape{
       "step",
-      "What has to be done: a state that lasts (when) or an act (on).",
+      "A part of the task: a state that lasts (when) or an act (on).",
       {needed(keys::name("step", "its name, each once")),
        needed(keys::text("title", "for people; {n}, {name}, {title}")),
        keys::text("hint", "how it is done; {placeholders} for limits"),
@@ -40,7 +40,7 @@ const Shape& error_shape() {
        keys::number("points", 0, 100, "taken from the score"),
        keys::flag("fails", "true: the attempt fails whatever its score"),
        keys::text("meaning", "for people: what happened"), keys::text("hint", "for people: how to avoid it"),
-       keys::text("source", "of the penalty: a publication, or \"ours\""),
+       keys::text("source", "of the penalty: a publication, or \"our estimate\""),
        keys::name("for_each", "set: one error an element"), keys::any("on", "event: made when it happens"),
        keys::any("when", "condition: made when it has held for for_s, again when it has ceased in between"),
        keys::any("for_s", "how long the condition must hold: a number or a limit, default 0"),
@@ -74,17 +74,16 @@ const Shape& later_shape() {
 const Shape& rehearsed_shape() {
   static const Shape shape{
       "rehearsed anatomy",
-      "Choices with which the demonstration came off with one anatomy: what `trocar rehearse` prints.",
+      "Choices with which the demonstration succeeds with one anatomy, as printed by `trocar rehearse`.",
       {needed(keys::integer("seed", 0, 2147483647, "of the anatomy")),
-       needed(
-           keys::any("choices", "list of [moment of choice, way]; where none is named it goes on as it is written"))}};
+       needed(keys::any("choices", "list of [decision, perturbation]; other decisions follow the plan as written"))}};
   return shape;
 }
 
 const Shape& score_shape() {
   static const Shape shape{
       "score",
-      "Shares of the score; what cannot be told is left out and the rest renormalised.",
+      "Shares of the score; unknown parts are left out and the rest renormalised.",
       {needed(keys::number("quality", 0, 100, "of the weighted share of steps done")),
        needed(keys::number("time", 0, 100, "of the time, from longest to expert")),
        needed(keys::number("motion", 0, 100, "of the motion against a reference group, as soon as there is one")),
@@ -99,7 +98,7 @@ std::vector<std::string> group_names() { return {std::begin(kGroups), std::end(k
 const Shape& exercise_shape() {
   static const Shape shape{
       "exercise",
-      "What has to be done in a scene, and what counts as done well: docs/reference/exercise_format.md.",
+      "A task in a scene and its evaluation: docs/reference/exercise_format.md.",
       {keys::text("$schema", "where editors find this kind of file's schema"),
        keys::format(3),
        needed(keys::name("name", "what the command line calls it")),
@@ -114,7 +113,7 @@ const Shape& exercise_shape() {
        keys::any("limits", "the numbers that decide, by name: {\"value\": number or [from, to], \"source\": ...}"),
        keys::any("sets", "what is done several times over, by name: a list of elements, or a pattern"),
        needed(keys::objects("steps", step_shape, 1, "in the order in which they are shown")),
-       keys::objects("errors", error_shape, 0, "in the order in which they are told"),
+       keys::objects("errors", error_shape, 0, "in the order in which they are reported"),
        keys::objects("details", detail_shape, 0, "facts that results tell"),
        keys::objects("later", later_shape, 0, "errors that cannot be detected yet"),
        keys::any("demonstration", "how it is shown: a plan of hand skills"),

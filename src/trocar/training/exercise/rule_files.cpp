@@ -19,7 +19,7 @@ const scene::Shape& limit_shape() {
       "A number that decides, and where it comes from.",
       {needed(keys::any("value", "a number or [from, to], in the unit that the name ends in")),
        keys::any("in", "what it is in another anatomy of the scene, by the variant's name: numbers or ranges likewise"),
-       needed(keys::text("source", "a publication, or \"ours\"")),
+       needed(keys::text("source", "a publication, or \"our estimate\"")),
        keys::choice("stricter", {"low", "high"}, "of common rules: the way in which an exercise may move it"),
        keys::text("loosened", "why this exercise allows more than the common rules")}};
   return shape;

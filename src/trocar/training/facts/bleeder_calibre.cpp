@@ -16,7 +16,7 @@ const Fact kBleederCalibre{"bleeder.calibre_mm",
                            {},
                            0,
                            100,
-                           "Of the lumen of the vessel that opens by itself, at that place, as drawn.",
+                           "Lumen of the vessel that opens by itself, at that place, in the standard shape.",
                            needs_bleeder,
                            &stateless<calibre>};
 

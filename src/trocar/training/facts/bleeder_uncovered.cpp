@@ -23,7 +23,7 @@ class Uncovered final : public Observer {
 
 std::string_view needs_bleeder_in_pool(const sim::Model& model) {
   if (!needs_bleeder(model).empty()) return needs_bleeder(model);
-  if (model.target_index("bleeder") < 0) return "a bleeder that can be told";  // nothing carries it
+  if (model.target_index("bleeder") < 0) return "a bleeder on a body";  // nothing carries it
   return model.wet.there ? "" : "fluids";
 }
 

@@ -29,7 +29,7 @@ class BloodFlow final : public Observer {
 }  // namespace
 
 const Fact kBloodFlow{
-    "blood.flow_mL_min",    {}, 0, 1e4, "What has left vessels in the last second, as a rate.", needs_fluids,
+    "blood.flow_mL_min",    {}, 0, 1e4, "Blood that left vessels in the last second, as a rate.", needs_fluids,
     &remembering<BloodFlow>};
 
 }  // namespace trocar::training

@@ -9,6 +9,6 @@ Value lost(const Moment& moment, const Arguments&) { return blood_lost(moment.mo
 
 }  // namespace
 
-const Fact kBloodLost{"blood.lost_mL", {}, 0, 1e4, "What has left vessels so far.", needs_fluids, &stateless<lost>};
+const Fact kBloodLost{"blood.lost_mL", {}, 0, 1e4, "Blood that left vessels so far.", needs_fluids, &stateless<lost>};
 
 }  // namespace trocar::training

@@ -17,8 +17,8 @@ Value pool(const Moment& moment, const Arguments&) {
 }  // namespace
 
 const Fact kBileSpilled{
-    "bile.spilled_mL",  {}, 0, 1e4, "What has run out of pouches that are open, so far.", needs_fluids,
+    "bile.spilled_mL",  {}, 0, 1e4, "Volume that left open closed membranes, such as bile, so far.", needs_fluids,
     &stateless<spilled>};
-const Fact kPoolVolume{"pool.volume_mL", {}, 0, 1e4, "What stands in the pool.", needs_fluids, &stateless<pool>};
+const Fact kPoolVolume{"pool.volume_mL", {}, 0, 1e4, "Volume in the pool.", needs_fluids, &stateless<pool>};
 
 }  // namespace trocar::training

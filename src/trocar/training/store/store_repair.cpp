@@ -24,7 +24,8 @@ void Store::repair(const std::string& what) {
     return;
   }
   for (const char* tail : {"-wal", "-shm"}) fs::rename(database().string() + tail, aside.string() + tail, error);
-  notice(fmt::format("the session store was damaged ({}): it is set aside as {} and built anew", what, aside.string()));
+  notice(
+      fmt::format("the session store was damaged ({}): it is set aside as {} and built again", what, aside.string()));
   try {
     Database db(database(), Database::Access::write, m_patience);
     make_durable(db);
@@ -32,7 +33,7 @@ void Store::repair(const std::string& what) {
     salvage(db, aside);
     take_in_recordings(db);
   } catch (const DatabaseFault& fault) {
-    notice(fmt::format("the session store could not be built anew: {}", fault.what()));
+    notice(fmt::format("the session store could not be built again: {}", fault.what()));
   }
 }
 

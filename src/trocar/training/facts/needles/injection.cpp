@@ -121,7 +121,7 @@ const Fact kNeedlePlunger{"needle.plunger_N",
                           "The force on the plunger: pressing above 0, drawing below.",
                           needs_syringe,
                           &stateless<plunger_force>};
-const Fact kNeedleLeft{"needle.left_mL", {kWhoseNeedle},          0, 100, "What is left in the syringe.",
+const Fact kNeedleLeft{"needle.left_mL", {kWhoseNeedle},          0, 100, "Volume left in the syringe.",
                        needs_syringe,    &stateless<syringe_left>};
 const Fact kNeedleDrawn{"needle.drawn_s",
                         {kWhoseNeedle},
@@ -137,13 +137,13 @@ const Fact kInjectedVolume{"injected.volume_mL",
                            {kInfusedOrgan},
                            0,
                            1e3,
-                           "What has been injected into an organ.",
+                           "Volume injected into an organ.",
                            needs_syringe,
                            &stateless<injected_into>,
                            false,
                            &takes_nothing_up};
 const Fact kInjectedVessels{
-    "injected.in_vessels_mL",       {}, 0, 1e3, "What has been injected straight into vessels.", needs_syringe,
+    "injected.in_vessels_mL",       {}, 0, 1e3, "Volume injected straight into vessels.", needs_syringe,
     &stateless<injected_in_vessels>};
 const Fact kInjectedSpilled{"injected.spilled_mL",
                             {},

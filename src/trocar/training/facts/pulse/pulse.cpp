@@ -72,8 +72,8 @@ const Fact kPulseTappedOff{"pulse.tapped_off_per_min",
                            {},
                            -1000,
                            1000,
-                           "By how much the rate in which somebody declares, six times one after the other, is above "
-                           "the heart's. Unknown before the sixth; a pause of 2.5 s begins anew.",
+                           "Difference between the rate of six declarations in a row and the heart rate. Unknown "
+                           "before the sixth; a pause of 2.5 s restarts it.",
                            needs_arteries,
                            &remembering<TappedRate>};
 

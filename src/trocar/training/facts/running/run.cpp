@@ -126,7 +126,7 @@ const Fact kRunReached{
     100'000,
     "How far a gut has been run, hand over hand, from its beginning: from a hold within 25 mm of the "
     "first station on, each next hold taken while the last one still holds. Where both hands were "
-    "off, it goes on from a hold within 35 mm of where it had come to.",
+    "off, it continues from a hold within 35 mm of the last place.",
     anywhere,
     &remembering<Reached>,
     false,
