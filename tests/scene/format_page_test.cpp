@@ -1,4 +1,5 @@
 // docs/reference/scene_format.md ends with the tables of keys; they are written from the reader's own tables.
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -67,12 +68,30 @@ std::string values_of(const Key& key) {
   return "";
 }
 
+/// Lines of at most 118 bytes, broken at spaces.
+std::string in_lines(const std::string& text) {
+  std::string lines;
+  std::size_t used = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string word = text.substr(at, end - at);
+    if (used > 0 && used + 1 + word.size() > 118) {
+      lines += '\n';
+      used = 0;
+    }
+    lines += (used > 0 ? " " : "") + word;
+    used += (used > 0 ? 1 : 0) + word.size();
+    at = end + 1;
+  }
+  return lines;
+}
+
 /// The tables of a shape and of all shapes it refers to, each once.
 void add_tables(const Shape& shape, std::vector<std::string>& done, std::string& page) {
   for (const std::string& name : done)
     if (name == shape.name) return;
   done.push_back(shape.name);
-  page += fmt::format("\n### {}\n\n{}\n\n|key|value|meaning|\n|-|-|-|\n", shape.name, shape.meaning);
+  page += fmt::format("\n### {}\n\n{}\n\n|key|value|meaning|\n|-|-|-|\n", shape.name, in_lines(shape.meaning));
   for (const Key& key : shape.keys)
     page += fmt::format("|`{}`{}|{}|{}|\n", key.name, key.required ? " (needed)" : "", values_of(key), key.meaning);
   for (const Key& key : shape.keys)

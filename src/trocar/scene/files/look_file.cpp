@@ -47,12 +47,8 @@ const Table<Surrounding>& surrounding() {
   static const Table<Surrounding> table{
       "surrounding",
       "Anatomy that is drawn only, around a body of this look.",
-      {needed(R::choice(
-           "generator", kGenerators, &Surrounding::generator,
-           "Cushions of fat on large bowel (fat_tags). Strings and veils (adhesions) or broad veils (curtains) to the "
-           "wall. Peritoneum over the body and its surroundings (drape). Fat on the lowest part of a wall (omentum). "
-           "The rest of an organ whose lower edge is a body (liver_dome). More bowel where a wall ends in a floor "
-           "(bowel_loops). Fat over the ends of rods that enter an organ (porta)")),
+      {needed(R::choice("generator", kGenerators, &Surrounding::generator,
+                        "which anatomy is drawn there: docs/guides/materials.md describes each generator")),
        R::integer("count", &Surrounding::count, 1, 200, "of fat_tags, adhesions, curtains, at most; default {}")}};
   return table;
 }
