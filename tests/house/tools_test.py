@@ -145,6 +145,20 @@ def EquationCheckFindsEachFault():
         expect(tool("check_equations.py", folder)[0] == 1, "a missing page passed")
 
 
+def NamedCheckFindsEachFault():
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        expect(tool("check_named.py", root)[0] == 1, "a checkout without pages passed")
+        put(root, "tests/tissue/a_test.cpp", "TEST(Strand, Sags) {}\nTEST_P(Strand, Swings) {}")
+        put(root, "src/trocar/tissue/strand/strand.hpp", "")
+        put(root, "docs/science/a.md", "`Strand.Sags` `Bodies/Strand.*` `Strand.S*gs` `strand/strand.hpp` `verbs/NAME.hpp`")
+        expect(tool("check_named.py", root)[0] == 0, "names of tests and files that exist were refused")
+        for bad in ("`Strand.Sinks`", "`Cord.*`", "`strand/cord.hpp`"):
+            put(root, "docs/science/b.md", f"one\n\n{bad}")
+            code, text = tool("check_named.py", root)
+            expect(code == 1 and "docs/science/b.md:3: there is no" in text, f"{bad} passed: {text}")
+
+
 def ObjectCodeCheckFindsEachFault():
     if platform.machine() not in ("x86_64", "AMD64"):
         print("not an x86-64 machine")
@@ -283,7 +297,8 @@ def LanguageCheckFindsEachFault():
 
 
 CASES = [LayerCheckFindsEachFault, EquationCheckFindsEachFault, ObjectCodeCheckFindsEachFault,
-         EmptyTestExecutableIsFound, LinkCheckFindsEachFault, CommandBlockCheckFindsEachFault, LanguageCheckFindsEachFault]
+         EmptyTestExecutableIsFound, LinkCheckFindsEachFault, CommandBlockCheckFindsEachFault, LanguageCheckFindsEachFault,
+         NamedCheckFindsEachFault]
 
 if __name__ == "__main__":
     wanted = sys.argv[1:] or [c.__name__ for c in CASES]
