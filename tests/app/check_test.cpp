@@ -118,9 +118,9 @@ TEST_F(Check, TissueTooHeavyForItsSpringsDoesNotHangStill) {
   EXPECT_EQ(r["verdict"], "does not hang still");
   ASSERT_FALSE(r["sinks"].empty());
   const std::string told = r["sinks"][0];
-  EXPECT_EQ(told.find("uterus does not hang still: "), 0u) << told;
+  EXPECT_EQ(told.find("uterus is not in equilibrium: it sagged "), 0u) << told;
   EXPECT_NE(told.find("mm off at ("), std::string::npos) << told;
-  EXPECT_NE(told.find("more anchors may hold it"), std::string::npos) << told;
+  EXPECT_NE(told.find("more anchors may support it"), std::string::npos) << told;
   const Outcome o = trocar({"train", scenes("gynaecology/scene.json").string(), "--headless", "--input",
                             "motion:" TROCAR_SOURCE_DIR "/no such file"});
   EXPECT_NE(o.err.find("uterus does not hang still"), std::string::npos) << "train warns, too: " << o.err;
@@ -237,17 +237,17 @@ constexpr Faulty kFaulty[] = {
      "a limit in the unit \"mm\" (millimetres), got \"long_s\" (seconds)"},
     {"no price", R"("steps": [{"step": "a", "title": "A", "on": {"event": "clipped"}}],
 "errors": [@{"code": "E", "name": "e", "meaning": "m", "source": "ours", "on": {"event": "grasped"}}])",
-     "a price for E: points, or fails: true, got none"},
+     "a penalty for E: points, or fails: true, got none"},
     {"nothing can make it true", R"("steps": [@{"step": "a", "title": "A"}])",
      "when or on for the step \"a\", got neither: nothing can make it true"},
     {"an event on no body", R"("steps": [{"step": "a", "title": "A", "on": @{"event": "clipped", "on": []}}])",
      "an event that can make the step \"a\" true, got one on no body"},
     {"a circle of after", R"("steps": [@{"step": "a", "title": "A", "after": "b", "on": {"event": "clipped"}},
 {"step": "b", "title": "B", "after": "a", "on": {"event": "clipped"}}])",
-     "got a circle: \"a\" waits for \"b\", and \"b\" waits for \"a\""},
+     "got a cycle: \"a\" waits for \"b\", and \"b\" waits for \"a\""},
     {"a circle of when", R"("steps": [@{"step": "a", "title": "A", "when": {"step": "b"}},
 {"step": "b", "title": "B", "when": {"step": "a"}}])",
-     "got a circle: \"a\" waits for \"b\", and \"b\" waits for \"a\""},
+     "got a cycle: \"a\" waits for \"b\", and \"b\" waits for \"a\""},
     {"an attribute out of bounds",
      R"("steps": [{"step": "a", "title": "A", "on": {"event": "clipped", "angle_deg": @{"min": 500}}}])",
      "what \"angle_deg\" can be, 0 to 90 deg, got at least 500"},

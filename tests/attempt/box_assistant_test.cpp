@@ -145,7 +145,7 @@ TEST(BoxAssistant, TakesNoRowFromAHandThatMovesOrHasNotMovedSinceTheLast) {
   for (int i = 0; i < 40; ++i) sitter.show(assistant, 5, 2000);
   EXPECT_EQ(assistant.take(), "");
   for (int i = 0; i < 40; ++i) sitter.show(assistant, 5, 1500);
-  EXPECT_NE(assistant.take().find("does not fit"), std::string::npos) << "the angles rise, the codes do not";
+  EXPECT_NE(assistant.take().find("contradicts"), std::string::npos) << "the angles rise, the codes do not";
 }
 
 TEST(BoxAssistant, OneBlockThatComesWrongMovesNothing) {
@@ -168,9 +168,9 @@ TEST(BoxAssistant, TakesASwitchOnlyWhenItWasPressedAloneAndLetGo) {
   sitter.press(assistant, -1);
   EXPECT_EQ(assistant.take(), "");
   for (const int bit : {-1, 4, -1}) sitter.press(assistant, bit);
-  EXPECT_EQ(assistant.take(), "that one has a meaning already");
+  EXPECT_EQ(assistant.take(), "this contact is already assigned");
   for (const int bit : {6, -1, 9, -1}) sitter.press(assistant, bit);
-  EXPECT_EQ(assistant.take(), "several were pressed: press this one alone");
+  EXPECT_EQ(assistant.take(), "several contacts closed: press only this one");
 }
 
 TEST(BoxAssistant, GoesBackToWhatWasSkippedOrTaken) {

@@ -51,11 +51,11 @@ TEST(Examine, PlacesThatAreNoNumbersAreFoundAndAllElseIsLookedAt) {
   EXPECT_EQ(d.not_finite, (Places{9, 10, 26}));
   EXPECT_TRUE(std::isfinite(d.area) && std::isfinite(d.volume));
   EXPECT_FALSE(d.is_body());
-  EXPECT_EQ(findings(d).front().words, "3 vertices whose places are no numbers");
+  EXPECT_EQ(findings(d).front().words, "3 vertices with coordinates that are not numbers");
   const Repaired good = without_broken(mesh);
   EXPECT_TRUE(examine(good.mesh).not_finite.empty());
   EXPECT_EQ(good.mesh.positions.size(), mesh.positions.size() - 3);
-  EXPECT_EQ(good.changes.front().words, "3 vertices whose places are no numbers left out");
+  EXPECT_EQ(good.changes.front().words, "3 vertices with coordinates that are not numbers removed");
 }
 
 TEST(Examine, ASoupIsWeldedIntoABody) {

@@ -69,7 +69,7 @@ TEST(FatFile, ASeedMovesItWithWhatItLiesOn) {
 
 TEST(FatFile, WhatCannotBeBuiltIsRefusedAndSaysWhy) {
   EXPECT_TRUE(tells(refusal([](FatSetting& s) { s.on = {"spleen"}; }), "\"spleen\""));
-  EXPECT_TRUE(tells(refusal([](FatSetting& s) { s.on = {"duodenum"}; }), "nothing to hold on"));
+  EXPECT_TRUE(tells(refusal([](FatSetting& s) { s.on = {"duodenum"}; }), "got none"));
   EXPECT_TRUE(tells(refusal([](FatSetting& s) { s.fills = {{{{0.5, 0.5, 0.5}, {0.9, 0.5, 0.5}}, 0.05}}; }), "lobules"));
   EXPECT_TRUE(tells(refusal([](FatSetting& s) { s.spacing = 0.001, s.fills[0].radius = 0.02; }), "got 41"))
       << "more than a tick bears";

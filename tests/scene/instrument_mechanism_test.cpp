@@ -169,7 +169,7 @@ TEST(InstrumentMechanism, WhatDoesNotCloseIsALocatedFault) {
   kinematics::MechanismDescription d = *i.linkage.description;
   d.actuators[0].at_1.constant = 0.0080;  // farther than tang and bar are long together
   i.linkage.description = std::make_shared<const kinematics::MechanismDescription>(d);
-  EXPECT_NE(fault_of(i).find("closes the jaws all along the handle's way"), std::string::npos) << fault_of(i);
+  EXPECT_NE(fault_of(i).find("closes the jaws over the handle's whole range"), std::string::npos) << fault_of(i);
   d.actuators[0].at_1.constant = 0.0062;
   i.linkage.description = std::make_shared<const kinematics::MechanismDescription>(d);
   EXPECT_NE(fault_of(i).find("jaws that meet"), std::string::npos) << fault_of(i);
@@ -296,7 +296,7 @@ TEST(InstrumentMechanism, AFileThatNamesWhatIsNotThereOrContradictsItIsToldInOne
   std::string joined;
   for (const std::string& line : all) joined += line + "\n";
   EXPECT_NE(joined.find("2:"), std::string::npos) << joined;
-  EXPECT_NE(joined.find("expected nothing beside mechanism"), std::string::npos) << joined;
+  EXPECT_NE(joined.find("expected no other key beside mechanism"), std::string::npos) << joined;
   EXPECT_NE(joined.find("missing.json"), std::string::npos) << joined;
 }
 

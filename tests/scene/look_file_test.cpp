@@ -94,7 +94,7 @@ TEST(LookFile, LooksThatInheritEachOtherInACircleAreAFault) {
       {{"looks/a.json", R"({"format": 1, "inherits": "b"})"}, {"looks/b.json", R"({"format": 1, "inherits": "a"})"}});
   EXPECT_EQ(
       told(s.faults),
-      (std::vector<std::string>{"1:27 expected looks that do not inherit each other in a circle, got a -> b -> a"}));
+      (std::vector<std::string>{"1:27 expected materials that do not inherit each other in a cycle, got a -> b -> a"}));
 }
 
 /// The cutting scene with another text for its liver's look.

@@ -126,7 +126,7 @@ TEST(Marks, FaultsSayWhatIsMissing) {
   EXPECT_EQ(faults_of(R"({"name": "a", "on": "ball"})"),
             Messages{"expected place_mm of a disc or at_mm of a stripe, got neither"});
   EXPECT_EQ(faults_of(R"({"name": "a", "on": "cord", "at_mm": 15, "label": "3"})"),
-            Messages{"expected none of a stripe (at_mm), which goes around its strand, got one"});
+            Messages{"expected no normal of a stripe (at_mm), got one"});
   EXPECT_EQ(faults_of(R"({"name": "a", "on": "ball", "at_mm": 15})"),
             Messages{"expected a strand that the stripe goes around, got \"ball\""});
   EXPECT_EQ(faults_of(R"({"name": "a", "on": "cord", "place_mm": [30, 0, -50]})"),

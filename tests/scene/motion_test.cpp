@@ -97,13 +97,13 @@ TEST(MotionFile, FaultsOfWavesAreToldWithTheirPlaces) {
             one("expected a solid that is not cuttable, got \"slice\""));
   EXPECT_EQ(faults_of(waves("\"per_minute\": @0")), one("expected a number in [0.1, 60] for \"per_minute\", got 0"));
   EXPECT_EQ(faults_of(waves("\"per_minute\": 60, \"width_mm\": @10")),
-            one("expected at most half the way from wave to wave, 15 mm (15 mm/s at 60 per minute), got 10"));
+            one("expected at most half of the wavelength, 15 mm (15 mm/s at 60 per minute), got 10"));
   EXPECT_EQ(faults_of(waves("\"per_minute\": 3, \"active_share\": @1.5")),
             one("expected a number in [0, 1] for \"active_share\", got 1.5"));
   EXPECT_EQ(faults_of(waves("\"per_minute\": 3", bowel, station("9") + ", " + station("@9"))),
             one("expected more than the station before, 9 mm, got 9"));
   EXPECT_EQ(faults_of(waves("\"per_minute\": 3", bowel, station("@200"))),
-            one("expected a way on the centre line (at most 80.0 mm), got 200"));
+            one("expected an arc length on the centre line (at most 80.0 mm), got 200"));
   EXPECT_EQ(faults_of(waves("\"per_minute\": 3, \"centreline_mm\": [[0, 0, 0], @[0, 0, 0]]")),
             one("expected a point at least 0.01 mm from the one before, got the same place"));
 }

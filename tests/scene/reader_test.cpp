@@ -164,7 +164,7 @@ TEST(Reader, AMissingFormatOrKeyIsAFaultAtItsObject) {
   EXPECT_EQ(faults_of({{1, "@{"}, {2, ""}}),
             one("expected the key \"format\" (version of this kind of file) in this scene, got none"));
   EXPECT_EQ(faults_of({{21, R"("scope": @{"port": "navel"})"}}),
-            one("expected the key \"tip_mm\" (where its tip stands at the start) in this scope, got none"));
+            one("expected the key \"tip_mm\" (position of its tip at the start) in this scope, got none"));
 }
 
 TEST(Reader, WrongTypesAreLocated) {
@@ -413,8 +413,7 @@ TEST(Reader, OnlyFilesOfTheTreeOrOfADeclaredLibraryAreOpened) {
   folder.write("elsewhere/secret.json", kOrgan);
   const std::string tree = std::filesystem::canonical(folder.path()).generic_string() + "/mine";
   const auto refused = [&](const std::string& name) {
-    return one("6:12 expected a file in " + tree + " or in a library that TROCAR_LIBRARY declares, got \"" + name +
-               "\"");
+    return one("6:12 expected a file in " + tree + " or in a library of TROCAR_LIBRARY, got \"" + name + "\"");
   };
   const auto naming = [&](const std::string& name) {
     return folder.write("mine/scene.json", scene_with({{6, "\"organs\": [\"" + name + "\", {"}}));
@@ -437,7 +436,7 @@ TEST(Reader, AMeshOutsideOfTheTreeIsNotOpened) {
       "{\"format\": 1, \"solids\": [{\"name\": \"x\", \"tissue\": \"y\",\n\"mesh\": {\"file\": \"" + name + "\"}}]}");
   EXPECT_EQ(told(check_file(path)),
             one("2:18 expected a file in " + std::filesystem::canonical(folder.path()).generic_string() +
-                " or in a library that TROCAR_LIBRARY declares, got \"" + name + "\""));
+                " or in a library of TROCAR_LIBRARY, got \"" + name + "\""));
 }
 
 TEST(Reader, AnUnknownNameIsToldInWordsThatFit) {
@@ -471,9 +470,9 @@ TEST(Reader, FilesThatIncludeEachOtherInACircleAreAFault) {
   folder.write("self.json", "{\"format\": 1, \"organs\": [\"self.json\"]}");
   const std::string in = folder.path().generic_string();
   const auto path = folder.write("scene.json", scene_with({{6, "\"organs\": [\"a.json\", \"self.json\", {"}}));
-  EXPECT_EQ(told(faults_of_file(path)), (Faults{"1:26 expected files that do not include each other in a circle, got " +
+  EXPECT_EQ(told(faults_of_file(path)), (Faults{"1:26 expected files that do not include each other in a cycle, got " +
                                                     in + "/a.json -> " + in + "/b.json -> " + in + "/a.json",
-                                                "1:26 expected files that do not include each other in a circle, got " +
+                                                "1:26 expected files that do not include each other in a cycle, got " +
                                                     in + "/self.json -> " + in + "/self.json"}));
 }
 
@@ -542,7 +541,7 @@ TEST(Like, ACircleIsAFaultAndSoIsAFileThatIsNotThereOrLiesElsewhere) {
   };
   folder.write("tree/b.json", like("a.json"));
   const auto path = folder.write("tree/a.json", like("b.json"));
-  EXPECT_EQ(told(faults_of_file(path)), one("2:9 expected files that do not include each other in a circle, got " + in +
+  EXPECT_EQ(told(faults_of_file(path)), one("2:9 expected files that do not include each other in a cycle, got " + in +
                                             "/tree/a.json -> " + in + "/tree/b.json -> " + in + "/tree/a.json"));
   EXPECT_EQ(told(faults_of_file(folder.write("tree/c.json", like("d.json")))),
             one("2:9 expected the name of a file, got \"d.json\" (there is no file " + in + "/tree/d.json)"));
@@ -668,7 +667,7 @@ TEST(Reader, AVariationNamesBodiesThatAreThereAndFiguresThatFit) {
             one("expected shares of at most 1 in all, got 1.2"));
   EXPECT_EQ(faults(R"({"variants": [@{"name": "common", "title": "", "source": "ours", "share": 0.6}]})"),
             one("expected a name of its own for every variant, and not \"common\", got \"common\""));
-  EXPECT_EQ(faults(R"(@{"bleeder": true})"), one("expected a bleeder whose hole can vary, got none in this scene"));
+  EXPECT_EQ(faults(R"(@{"bleeder": true})"), one("expected a bleeder with a variable hole, got none in this scene"));
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST(RoomFile, TellsEveryFaultInOnePassWithItsPlace) {
   const std::vector<std::string> faults = faults_of_room(text);
   EXPECT_EQ(faults.size(), 5u);
   EXPECT_TRUE(one_has(faults, "2:28 expected")) << faults[0];
-  EXPECT_TRUE(one_has(faults, "expected what the table can, -30 to 30, got 50"));
+  EXPECT_TRUE(one_has(faults, "expected an angle in the table's range, -30 to 30, got 50"));
   EXPECT_TRUE(one_has(faults, "expected a name that no other port has, got \"a\" again"));
   EXPECT_TRUE(one_has(faults, "got \"somebody\""));
   EXPECT_TRUE(one_has(faults, "got \"c\""));

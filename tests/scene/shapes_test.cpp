@@ -298,10 +298,10 @@ TEST(SurfaceShapes, WhatIsNotClosedIsMendedAndTold) {
   CompileReport report;
   compile(read(t.solid(file + R"(}, "cell_mm": 6)")), &report);
   ASSERT_FALSE(report.doubts.empty());
-  EXPECT_NE(report.doubts[0].message.find("the surface 'open.obj' of 'body' is not sound; mended: "), std::string::npos)
+  EXPECT_NE(report.doubts[0].message.find("the surface 'open.obj' of 'body' has defects; mended: "), std::string::npos)
       << report.doubts[0].message;
   expect_only(t.faults(t.solid(file + R"(, "mend": false}, "cell_mm": 6)")),
-              "expected a closed surface, as it is not to be mended, got: ");
+              "expected a closed surface, as mending is off, got: ");
   geometry::TriMesh sheet;
   sheet.positions = {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -336,7 +336,7 @@ TEST(SurfaceShapes, AnSTLThatIsNoManifoldIsMendedAndToldOrRefusedWithWhatIsLeftO
   CompileReport report;
   compile(read(t.solid(R"("surface": {"file": "twins.stl"}, "cell_mm": 6)")), &report);
   ASSERT_FALSE(report.doubts.empty());
-  EXPECT_NE(report.doubts[0].message.find("is not sound; mended: "), std::string::npos) << report.doubts[0].message;
+  EXPECT_NE(report.doubts[0].message.find("has defects; mended: "), std::string::npos) << report.doubts[0].message;
   EXPECT_NEAR(report.bodies[0].volume / (2e-9 * geometry::volume(ball)), 1, 0.05);
 }
 

@@ -148,7 +148,7 @@ TEST(Facts, AMarkLiesInThePictureOnlyWhileItIsSeen) {
   w.aim("pad", {0.03, 0, 0.04});
   EXPECT_GT(w.value(kMarkOffCentre, pad).number, off) << "farther from the middle";
   expect_value(w.value(kMarkDistance, pad), 0.05, 1e-6);
-  EXPECT_UNKNOWN(w.value(kMarkFacing, pad)) << "a closed surface faces every way";
+  EXPECT_UNKNOWN(w.value(kMarkFacing, pad)) << "a closed surface has no single normal";
 }
 
 /// The small scene with a disc and a stripe around the left tube.

@@ -122,7 +122,7 @@ void AttemptLog::place_recording(const AttemptPlan& plan) {
     notice(fmt::format("{} cannot be written: the recording goes to {}", (m_store->folder() / "recordings").string(),
                        m_attempt.recording));
   else
-    notice("nothing is recorded: neither the data folder nor the temporary folder can be written");
+    notice("the attempt is not recorded: neither the data folder nor the temporary folder is writable");
 }
 
 bool AttemptLog::try_to_record(const fs::path& path) {

@@ -22,7 +22,8 @@ std::unique_ptr<training::Monitor> Lesson::monitor(bool scored) const {
 
 std::unique_ptr<InputSource> Lesson::surgeon() const {
   if (!exercise)
-    throw core::BadInput({{{name, 0, 0}, "expected an exercise that the scripted surgeon knows, got a bare scene"}});
+    throw core::BadInput(
+        {{{name, 0, 0}, "expected an exercise with a demonstration, got a scene without an exercise"}});
   return std::make_unique<SurgeonSource>(*exercise, model, seed);
 }
 

@@ -85,7 +85,7 @@ fs::path scenes_folder() {
   std::error_code error;
   if (const std::string given = environment("TROCAR_SCENES"); !given.empty() && !fs::is_directory(given, error))
     throw core::EnvironmentLacks(
-        fmt::format("TROCAR_SCENES names '{}', which is no folder: unset or correct it", given));
+        fmt::format("TROCAR_SCENES names '{}', which is not a folder: unset or correct it", given));
   if (const std::optional<fs::path> found = scene::found_scenes_folder()) return *found;
   throw core::EnvironmentLacks("there is no folder 'scenes' near the program: set TROCAR_SCENES to it");
 }

@@ -141,7 +141,7 @@ Press plan_press(const sim::Model& model, int organ, double depth) {
   if (blocked.hand >= 0) return blocked;
   throw core::BadInput({{{"--organ", 0, 0},
                          fmt::format("expected an organ that an instrument can press {:.1f} mm in, got '{}', which no "
-                                     "hand of {} reaches where it gives way: give recorded hands with --hands, or a "
+                                     "hand of {} can press: give recorded hands with --hands, or a "
                                      "smaller --depth",
                                      1e3 * depth, model.organ_name(organ), model.name)}});
 }

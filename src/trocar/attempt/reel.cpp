@@ -207,7 +207,7 @@ void Reel::note(Explorer& e) {
   }
   if (differs && m_findings.difference.empty()) {
     const std::string told = sim::told_difference(m_lesson.model, m_recording, session.state());
-    m_findings.difference = fmt::format("doing it again differs from the recording at {}{}{}", clock_text(tick),
+    m_findings.difference = fmt::format("the repetition differs from the recording at {}{}{}", clock_text(tick),
                                         told.empty() ? "" : "; ", told);
     m_findings.marks.push_back({TimelineMark::Kind::damage, tick, m_findings.difference});
     ++m_version;
@@ -305,7 +305,7 @@ void Reel::loop_keyframes() {
   }
   const std::lock_guard lock(m_lock);
   if (!footage.sound())
-    m_findings.difference = fmt::format("the keyframes do not fit the scene as it is now, from {} on",
+    m_findings.difference = fmt::format("the keyframes do not fit the present scene, from {} on",
                                         clock_text(footage.empty() ? 0 : footage.last()));
   m_complete.store(true, std::memory_order_release);
   ++m_version;

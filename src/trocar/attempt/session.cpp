@@ -45,10 +45,9 @@ std::filesystem::path keep_older(const std::filesystem::path& path) {
     kept = path.parent_path() / fmt::format("{}-older-{}{}", path.stem().string(), n, path.extension().string());
   std::filesystem::rename(path, kept, error);
   if (error)
-    throw core::EnvironmentLacks(
-        fmt::format("{} is there and cannot be kept under another name ({}): record to another file or move that one",
-                    path.string(), error.message()));
-  core::log::info("{} was there: it is now {}", path.string(), kept.string());
+    throw core::EnvironmentLacks(fmt::format("{} exists and cannot be renamed ({}): record to another file, or move it",
+                                             path.string(), error.message()));
+  core::log::info("{} existed and was renamed to {}", path.string(), kept.string());
   return kept;
 }
 

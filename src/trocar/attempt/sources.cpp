@@ -86,8 +86,7 @@ std::array<HandPlacement, 2> place_hands(const sim::Model& model, const devices:
 MotionSource::MotionSource(const sim::Model& model, const std::string& argument)
     : m_model(model), m_trial(devices::read_motion_trial(argument)), m_curve(m_trial) {
   if (model.hands.size() < 2)
-    throw core::BadInput(
-        {{{argument, 0, 0}, "expected a scene with two instruments for two hands, got one with less"}});
+    throw core::BadInput({{{argument, 0, 0}, "expected a scene with two instruments for two hands, got fewer"}});
   const std::array<HandPlacement, 2> places = place_hands(model, m_trial);
   double farthest = 0;
   for (const devices::Hand which : {devices::Hand::left, devices::Hand::right}) {
@@ -186,8 +185,8 @@ std::unique_ptr<InputSource> replay_source(const Lesson& lesson, const std::stri
   if (recording.header.seed != lesson.seed)
     core::log::warn("{}: was made with --seed {}, not {}", file, recording.header.seed, lesson.seed);
   else if (recording.header.model_hash != lesson.model.hash)
-    core::log::warn("{}: was made with another version of the physics or scene: the same motions may do other things",
-                    file);
+    core::log::warn(
+        "{}: was made with another version of the physics or the scene; the same motions may have other effects", file);
   return std::make_unique<ReplaySource>(std::move(recording.inputs));
 }
 

@@ -125,7 +125,7 @@ class MotionReader {
   void fault(int line, int column, const std::string& what) {
     if (full()) return;
     m_faults.push_back({core::Location{m_path.string(), line, column}, what});
-    if (full()) m_faults.push_back({core::Location{m_path.string(), line, 0}, "too many faults, not read further"});
+    if (full()) m_faults.push_back({core::Location{m_path.string(), line, 0}, "too many faults, reading stopped"});
   }
 
   bool next(std::istream& file, std::string& line) {

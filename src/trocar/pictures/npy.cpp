@@ -10,7 +10,7 @@
 namespace trocar::pictures {
 namespace {
 
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the files say little-endian");
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the files are little-endian");
 
 /// The format's dictionary, filled up so that the values begin at a multiple of 64 bytes.
 std::string head(const char* type, const std::vector<std::size_t>& shape) {

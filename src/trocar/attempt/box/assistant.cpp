@@ -37,19 +37,19 @@ bool is_post(BoxActor actor, BoxAxis axis) { return actor == BoxActor::scope && 
 std::string sweep_text(BoxActor actor, BoxAxis axis) {
   switch (axis) {
     case BoxAxis::yaw:
-      return fmt::format("Swing the {} from side to side, as far as it goes. Nothing else.", who(actor));
+      return fmt::format("Swing the {} from side to side over its full range. Move nothing else.", who(actor));
     case BoxAxis::pitch:
-      return fmt::format("Swing the {} towards the patient's head and feet, as far as it goes. Nothing else.",
+      return fmt::format("Swing the {} towards the patient's head and feet over its full range. Move nothing else.",
                          who(actor));
     case BoxAxis::roll:
-      return fmt::format("Turn the {} about its own shaft, as far as it goes. Nothing else.", who(actor));
+      return fmt::format("Turn the {} about its own shaft over its full range. Move nothing else.", who(actor));
     case BoxAxis::depth:
-      return fmt::format("Draw the {} out and push it in, as far as it goes. Nothing else.", who(actor));
+      return fmt::format("Pull the {} out and push it in over its full range. Move nothing else.", who(actor));
     case BoxAxis::handle:
       break;
   }
-  return is_post(actor, axis) ? "Turn the endoscope's light post all the way round. Nothing else."
-                              : fmt::format("Open and close the handle of the {}. Nothing else.", who(actor));
+  return is_post(actor, axis) ? "Turn the endoscope's light post by a full turn. Move nothing else."
+                              : fmt::format("Open and close the handle of the {}. Move nothing else.", who(actor));
 }
 
 /// Where it shall be held; angles as kinematics/fulcrum.hpp has them.
@@ -152,7 +152,7 @@ void BoxAssistant::ask_axis(BoxActor actor, BoxAxis which) {
 void BoxAssistant::ask_press(BoxActor actor, int pedal, int button) {
   constexpr std::array<const char*, devices::kBoxPedals> kPedals = {
       "the pedal for coagulation (blue)", "the pedal for cutting (yellow)", "the switch that wipes the endoscope",
-      "the switch that declares what is shown", "the switch that restarts (reset)"};
+      "the switch that declares the target as shown", "the switch that restarts (reset)"};
   constexpr std::array<const char*, devices::kBoxButtons> kButtons = {"the switch for the next instrument",
                                                                       "the valve that rinses", "the valve that sucks"};
   BoxQuestion q;
@@ -160,7 +160,7 @@ void BoxAssistant::ask_press(BoxActor actor, int pedal, int button) {
   q.actor = actor, q.pedal = pedal, q.button = button;
   q.heading = pedal >= 0 ? "Foot switches" : fmt::format("{}: switches", who(actor));
   if (pedal < 0) q.heading[0] = char(q.heading[0] - 'a' + 'A');
-  q.text = fmt::format("Press {} and let it go.",
+  q.text = fmt::format("Press and release {}.",
                        pedal >= 0 ? std::string(kPedals[std::size_t(pedal)])
                                   : fmt::format("{} of the {}", kButtons[std::size_t(button)], who(actor)));
   m_questions.push_back(q);
@@ -263,8 +263,8 @@ double BoxAssistant::moved() const {
 }
 
 std::string BoxAssistant::why_not() const {
-  if (done()) return "there is nothing more to be asked";
-  if (m_recent.empty()) return "nothing comes from the box";
+  if (done()) return "the calibration is complete";
+  if (m_recent.empty()) return "the box sends no data";
   switch (question().kind) {
     case BoxQuestion::Kind::sweep:
       return why_not_swept();
@@ -282,7 +282,7 @@ std::string BoxAssistant::why_not_swept() const {
   if (range(most) < kLeastSweep)
     return fmt::format("no free channel has moved by {:g} of its 4096 codes yet", kLeastSweep);
   if (const int second = most_moved(most); second >= 0 && range(second) > range(most) / 2)
-    return fmt::format("channels {} and {} both moved: move this axis alone, or choose one", most, second);
+    return fmt::format("channels {} and {} both moved: move only this axis, or choose a channel", most, second);
   return {};
 }
 
@@ -290,25 +290,25 @@ std::string BoxAssistant::why_not_held() const {
   if (m_recent.size() < kLeastBlocks) return "hold it";
   const int channel = axis().channel;
   if (const double by = unrest(channel); by > kMostUnrest)
-    return fmt::format("it moves: by {:.0f} codes in half a second, {:g} at most", by, kMostUnrest);
+    return fmt::format("the axis is moving: by {:.0f} codes in half a second, {:g} are allowed", by, kMostUnrest);
   const double code = held_code(channel);
   for (const double other : axis().table.codes)
-    if (std::abs(code - other) < kLeastApart) return "it reads as where it was held before";
+    if (std::abs(code - other) < kLeastApart) return "its reading equals that of the previous position";
   devices::AxisTable table = axis().table;
   const auto row = std::lower_bound(table.codes.begin(), table.codes.end(), code) - table.codes.begin();
   table.codes.insert(table.codes.begin() + row, code);
   table.values.insert(table.values.begin() + row, question().value);
   if (table.codes.size() < 2) return {};
   const std::string fault = devices::unfit(table);
-  return fault.empty() ? "" : "this does not fit what was held before: expected " + fault;
+  return fault.empty() ? "" : "this reading contradicts the previous positions: expected " + fault;
 }
 
 std::string BoxAssistant::why_not_pressed() const {
   int pressed = 0, whole = 0;
   for (int bit = 0; bit < devices::kBoxDigitalBits; ++bit)
     if ((m_pressed >> bit & 1) != 0 && !bit_taken(bit)) ++pressed, whole += int(m_came_back >> bit & 1);
-  if (pressed == 0) return m_pressed != 0 ? "that one has a meaning already" : "nothing was pressed";
-  if (pressed > 1) return "several were pressed: press this one alone";
+  if (pressed == 0) return m_pressed != 0 ? "this contact is already assigned" : "nothing was pressed";
+  if (pressed > 1) return "several contacts closed: press only this one";
   return whole == 1 ? "" : "let it go";
 }
 
@@ -356,7 +356,7 @@ void BoxAssistant::add_row(double value) {
 }
 
 std::string BoxAssistant::choose(int channel) {
-  if (done() || question().kind != BoxQuestion::Kind::sweep) return "no channel is looked for";
+  if (done() || question().kind != BoxQuestion::Kind::sweep) return "no channel is being assigned";
   if (channel < 0 || channel >= devices::kBoxChannels) return "there is no such channel";
   if (channel_taken(channel)) return fmt::format("channel {} has an axis already", channel);
   remember();

@@ -49,14 +49,14 @@ const scene::Shape& angle_shape() {
 const scene::Shape& depth_shape() {
   static const scene::Shape shape{
       "depth",
-      "The way along the shaft.",
+      "The depth along the shaft.",
       {channel_key(), scene::needed(keys::table("mm", -kMostMillimetres, devices::kBoxTopCode, 2,
                                                 "rows of code and depth, 0 at the trocar: codes rise"))}};
   return shape;
 }
 const scene::Shape& handle_shape() {
   static const scene::Shape shape{"handle",
-                                  "How far a handle is closed.",
+                                  "The closure of a handle.",
                                   {channel_key(), scene::needed(keys::table("closed", -1, devices::kBoxTopCode, 2,
                                                                             "rows of code and 0 open .. 1 closed"))}};
   return shape;
@@ -90,19 +90,18 @@ const scene::Shape& pedals_shape() {
       "pedals",
       "Foot switches.",
       {bit_key("coagulate", "blue"), bit_key("cut", "yellow"), bit_key("wipe", "the lens is wiped"),
-       bit_key("declare", "\"this is what was asked for\""),
-       bit_key("reset", "held for a second: from the beginning")}};
+       bit_key("declare", "declares the target as shown"), bit_key("reset", "reset, when held for a second")}};
   return shape;
 }
 const scene::Shape& box_shape() {
   static const scene::Shape shape{
       "box",
-      "How an instrument box is wired and calibrated.",
+      "The wiring and calibration of an instrument box.",
       {scene::needed(keys::format(1)), keys::integer("baud", 9600, 4'000'000, "of the line, default 38400"),
        keys::number("rate_hz", kLeastBoxRate, kMostBoxRate, "blocks a second, default 50"),
        keys::choice("protocol", {"framed", "raw"}, "default framed; raw: 76 bytes without frames"),
        keys::choice("zero", {"placed", "upright"},
-                    "where angles count from: the scene's placing (default), or the shaft upright"),
+                    "zero of the angles: the scene's pose (default), or the upright shaft"),
        keys::number("filter_hz", 0, 100, "corner of the low-pass at rest, default 5; 0: none"),
        keys::objects("hands", hand_shape, 0, "at most four"), keys::object("scope", scope_shape, "the endoscope"),
        keys::object("pedals", pedals_shape, "foot switches"),
@@ -185,7 +184,7 @@ class WiringReader {
       table.values.push_back(rows.values[2 * row + 1] / unit.per_ours);
     }
     if (const std::string wrong = devices::unfit(table); !wrong.empty())
-      return o.fault(unit.key, fmt::format("expected {}, got a table that has not", wrong));
+      return o.fault(unit.key, fmt::format("expected {}, got another table", wrong));
     axis = {o.integer("channel"), std::move(table)};
     m_channels.take(o, "channel", axis.channel);
   }

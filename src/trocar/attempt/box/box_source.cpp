@@ -164,7 +164,7 @@ void BoxSource::wait_for_first() {
     if (devices::box_now() > until)
       throw core::EnvironmentLacks(
           fmt::format("no box answers at {}: is it switched on, and are baud rate and protocol those of its file? "
-                      "`trocar box monitor {}` shows what comes",
+                      "`trocar box monitor {}` shows the received data",
                       m_port, m_port));
     if (m_thread) {
       take_live();
@@ -251,13 +251,13 @@ void BoxSource::note_news(const sim::State& state) {
   const devices::BoxCounts c = counts();
   const double rate = m_thread ? m_thread->status().rate : m_link->settings().rate;
   if (m_leader.bridge().freshness() == BoxFreshness::frozen) {
-    news.warning = open ? fmt::format("The box at {} does not answer: the instruments stand still.", m_port)
-                        : fmt::format("The box at {} is gone: plug it in again; the instruments stand still.", m_port);
+    news.warning =
+        open ? fmt::format("The box at {} does not answer: the instruments do not move.", m_port)
+             : fmt::format("The box at {} is disconnected: plug it in again. The instruments do not move.", m_port);
   } else {
     for (int h = 0; h < int(m_model.hands.size()); ++h)
       if (m_leader.waits_in_trocar(h) && state.tools[std::size_t(h)].instrument == m_leader.instrument(h))
-        news.hint =
-            fmt::format("{}: draw the instrument back, and the new one comes in with it", hand_name(m_model, h));
+        news.hint = fmt::format("{}: withdraw the instrument to insert the new one", hand_name(m_model, h));
   }
   news.text = fmt::format("box: {:.0f} blocks a second, {:.1f} % lost", rate, 100 * c.missed_share());
   const std::lock_guard lock(m_lock);

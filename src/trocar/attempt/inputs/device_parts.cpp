@@ -28,7 +28,8 @@ DeviceParts::DeviceParts(const InputMap& map, const sim::Model& model) : m_input
     for (const Player& other : m_players)
       if (other.duty.overlaps(player.duty))
         throw core::BadInput(
-            {{{map.file, 0, 0}, "expected each to lead something else, got " + other.part.role + " and " + part.role}});
+            {{{map.file, 0, 0},
+              "expected devices with different targets, got " + other.part.role + " and " + part.role}});
     m_players.push_back(std::move(player));
   }
 }
@@ -54,7 +55,8 @@ void DeviceParts::take_up(std::span<const devices::DeviceReading> readings) {
 
 std::string DeviceParts::missing(std::span<const devices::DeviceReading> readings) const {
   for (const Player& player : m_players)
-    if (!find(player.part, readings)) return player.part.device + " is not there, which leads the " + player.part.role;
+    if (!find(player.part, readings))
+      return player.part.device + " is not connected; it controls the " + player.part.role;
   return {};
 }
 

@@ -21,18 +21,19 @@ const std::vector<std::string>& axis_names() {
 constexpr int kMostAxes = 64, kMostButtons = 256;
 
 const Shape& axis_shape() {
-  static const Shape shape{"axis",
-                           "An axis of the device stands for one of a gamepad.",
-                           {scene::needed(keys::integer("from", 0, kMostAxes - 1, "the device's axis by number")),
-                            scene::needed(keys::choice("to", axis_names(), "a gamepad's axis, or one of a wrist")),
-                            keys::number("scale", -10, 10, "what its way is multiplied by, default 1"),
-                            keys::number("dead", 0, 0.9, "share of its way about the middle that is rest, default 0")}};
+  static const Shape shape{
+      "axis",
+      "An axis of the device that acts as an axis of a gamepad.",
+      {scene::needed(keys::integer("from", 0, kMostAxes - 1, "the device's axis by number")),
+       scene::needed(keys::choice("to", axis_names(), "a gamepad's axis, or one of a wrist")),
+       keys::number("scale", -10, 10, "gain of its range, default 1"),
+       keys::number("dead", 0, 0.9, "dead zone around the middle, as a share of its range, default 0")}};
   return shape;
 }
 
 const Shape& button_shape() {
   static const Shape shape{"button",
-                           "A button of the device stands for one of a gamepad.",
+                           "A button of the device that acts as a button of a gamepad.",
                            {scene::needed(keys::integer("from", 0, kMostButtons - 1, "the device's button by number")),
                             scene::needed(keys::choice("to", devices::button_names(), "a gamepad's button"))}};
   return shape;
@@ -41,11 +42,11 @@ const Shape& button_shape() {
 const Shape& part_shape() {
   static const Shape shape{
       "part",
-      "A device and what it leads.",
+      "A device and its target.",
       {scene::needed(keys::text("role", "camera, assistant, left, right, or a trocar's name")),
        scene::needed(keys::text("device", "gamepad N, joystick N, or part of a device's name")),
-       keys::objects("axes", axis_shape, 0, "which axes stand for a gamepad's; none: as it is"),
-       keys::objects("buttons", button_shape, 0, "which buttons stand for a gamepad's; none: as it is")}};
+       keys::objects("axes", axis_shape, 0, "axes that act as a gamepad's; default: unchanged"),
+       keys::objects("buttons", button_shape, 0, "buttons that act as a gamepad's; default: unchanged")}};
   return shape;
 }
 
@@ -97,12 +98,11 @@ std::size_t numbered(const std::string& text, const std::string& kind) {
 }  // namespace
 
 const Shape& input_map_shape() {
-  static const Shape shape{
-      "input map",
-      "Which device leads what. What no part leads is the operator's, by mouse, keys and the other "
-      "gamepads.",
-      {keys::text("$schema", "where this table stands"), scene::needed(keys::format(1)),
-       scene::needed(keys::objects("parts", part_shape, 1, "devices and what they lead"))}};
+  static const Shape shape{"input map",
+                           "Devices and their targets. Hands without a device here follow mouse, keys and the other "
+                           "gamepads.",
+                           {keys::text("$schema", "format of this file"), scene::needed(keys::format(1)),
+                            scene::needed(keys::objects("parts", part_shape, 1, "devices and their targets"))}};
   return shape;
 }
 

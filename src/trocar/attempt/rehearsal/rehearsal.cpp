@@ -39,7 +39,7 @@ class SharedBlackboard {
  public:
   SharedBlackboard() {
     void* place = mmap(nullptr, sizeof(Blackboard), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (place == MAP_FAILED) throw core::EnvironmentLacks("no memory that processes share: close other programs");
+    if (place == MAP_FAILED) throw core::EnvironmentLacks("no shared memory available: close other programs");
     m_board = new (place) Blackboard;
   }
   ~SharedBlackboard() { munmap(m_board, sizeof(Blackboard)); }
@@ -81,7 +81,8 @@ class Attempt {
                    m_board->seconds);
     }
     look();
-    if (!m_monitor->score().passed) fail(fmt::format("{:.0f} points are no pass", m_monitor->score().total));
+    if (!m_monitor->score().passed)
+      fail(fmt::format("{:.0f} points are below the pass mark", m_monitor->score().total));
     m_board->came_off = true;
     m_board->score = m_monitor->score().total;
     keep("");
@@ -126,7 +127,7 @@ class Attempt {
   }
 
   void look() {
-    if (spent()) fail("the time for it is spent");
+    if (spent()) fail("the time limit is reached");
     const std::vector<training::ErrorMade>& errors = m_monitor->errors();
     double points = 0;
     for (const training::ErrorMade& e : errors) points += e.points;
@@ -182,12 +183,12 @@ class Attempt {
 
 Rehearsal rehearse(const Lesson& lesson, const Patience& patience) {
   if (!lesson.exercise)
-    throw core::BadInput({{{lesson.scene.string(), 0, 0}, "expected an exercise to be rehearsed, got a bare scene"}});
+    throw core::BadInput({{{lesson.scene.string(), 0, 0}, "expected an exercise, got a scene without an exercise"}});
   static_cast<void>(training::read_demonstration(*lesson.exercise, lesson.model, lesson.seed));  // faults are told here
   const SharedBlackboard board;
   std::fflush(nullptr);
   const pid_t first = fork();
-  if (first < 0) throw core::EnvironmentLacks("no process for the rehearsal: close other programs");
+  if (first < 0) throw core::EnvironmentLacks("cannot start a process for the rehearsal: close other programs");
   if (first == 0) {
     Attempt attempt(lesson, patience, board);
     attempt.run();

@@ -89,7 +89,7 @@ struct TeamHost::Desk {
         if (&other != &seat && other.shown.duty.overlaps(seat.shown.duty))
           throw core::BadInput(
               {{{"--team", 0, 0},
-                fmt::format("expected each to lead something else, got {} and {}", other.shown.role, role)}});
+                fmt::format("expected participants with different roles, got {} and {}", other.shown.role, role)}});
     }
     listener = listening_at(plan.address, plan.port);
     update_ready();
@@ -164,10 +164,10 @@ struct TeamHost::Desk {
     const auto at =
         std::find_if(seats.begin(), seats.end(), [&](const Seat& s) { return s.shown.role == hello->role; });
     if (hello->version != TROCAR_VERSION)
-      return refuse(
-          fmt::format("the host is Trocar {}, this is {}: both must be the same", TROCAR_VERSION, hello->version));
-    if (at == seats.end()) return refuse(fmt::format("nobody is expected as {}", hello->role));
-    if (at->shown.here) return refuse(fmt::format("there is a {} already", hello->role));
+      return refuse(fmt::format("the host runs Trocar {}, this is {}: both versions must be equal", TROCAR_VERSION,
+                                hello->version));
+    if (at == seats.end()) return refuse(fmt::format("this session has no role {}", hello->role));
+    if (at->shown.here) return refuse(fmt::format("the role {} is already taken", hello->role));
     if (hello->ticks > made) return refuse("it is ahead of the host: restart it");
     at->link = std::move(link);
     at->heard = Clock::now();
@@ -186,7 +186,7 @@ struct TeamHost::Desk {
       seat.heard = Clock::now();
       const std::optional<message::Message> m = message::decoded(bytes);
       if (!m) {
-        seat.link->close("it says what is no message");
+        seat.link->close("it sent an invalid message");
       } else if (const auto* share = std::get_if<message::Share>(&*m)) {
         copy(seat.shown.duty, share->input, seat.share);
         seat.number = share->number, seat.sent_us = share->sent_us;
@@ -203,14 +203,14 @@ struct TeamHost::Desk {
 
   /// How far it is, and whether it came to the same.
   void note(Seat& seat, const message::Done& done) {
-    if (done.ticks > made) return seat.link->close("it counts ticks that are not");
+    if (done.ticks > made) return seat.link->close("it counts ticks that do not exist");
     seat.shown.ticks = std::max(seat.shown.ticks, done.ticks);
     seat.shown.latency = 1e-6 * double(done.latency_us);
     const auto known = std::find_if(hashes.begin(), hashes.end(), [&](const Hash& h) { return h.tick == done.hashed; });
     if (done.hash == 0 || known == hashes.end() || known->hash == done.hash) return;
-    seat.link->send(message::coded(message::End{"its simulation has come to another state than the host's"}));
+    seat.link->send(message::coded(message::End{"its simulation differs from the host's"}));
     seat.link->exchange();
-    seat.link->close("it came to another state");
+    seat.link->close("its simulation differs from the host's");
   }
 
   /// What the simulation has made since goes to the log, in blocks of what one message carries.
@@ -260,7 +260,7 @@ struct TeamHost::Desk {
       const std::uint64_t lag = made - std::min(made, seat.shown.ticks);
       seat.catching_up = seat.catching_up ? lag > kCaughtUp : lag > kMostLag;
       if (!seat.shown.here)
-        why = fmt::format("the {} is not here{}", seat.shown.role, made == 0 ? " yet" : " any more");
+        why = fmt::format("the {} is disconnected{}", seat.shown.role, made == 0 ? " yet" : " any more");
       else if (seat.catching_up && why.empty())
         why = fmt::format("the {} is {:.1f} s behind", seat.shown.role, double(lag) * sim::kTick);
     }

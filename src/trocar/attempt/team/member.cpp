@@ -84,12 +84,12 @@ struct TeamMember::Desk {
       return true;
     }
     if (Clock::now() - lost_at > (introduced ? kPatience : kFirstPatience))
-      finish(fmt::format("nobody answers at {}:{} ({})", plan.address, plan.port, why));
+      finish(fmt::format("no host answers at {}:{} ({})", plan.address, plan.port, why));
     return false;
   }
 
   void lose(const std::string& why) {
-    if (!introduced && !link->trusted()) finish(why.empty() ? "the host says nothing" : "the host refuses: " + why);
+    if (!introduced && !link->trusted()) finish(why.empty() ? "the host does not respond" : "the host refuses: " + why);
     link.reset();
     lost_at = Clock::now();
     host_waits = "the host does not answer";
@@ -104,7 +104,7 @@ struct TeamMember::Desk {
     for (core::ByteString bytes; link->take(bytes);) {
       heard = Clock::now();
       std::optional<message::Message> m = message::decoded(bytes);
-      if (!m) return link->close("it says what is no message");
+      if (!m) return link->close("the host sent an invalid message");
       if (auto* ticks = std::get_if<message::Ticks>(&*m)) {
         keep(*ticks);
       } else if (const auto* waits = std::get_if<message::Waits>(&*m)) {
@@ -113,7 +113,7 @@ struct TeamMember::Desk {
         finish(end->why);
       } else if (const auto* a = std::get_if<message::Attempt>(&*m)) {
         if (introduced && (a->model_hash != attempt.model_hash || a->seed != attempt.seed))
-          finish("the host has begun something else");
+          finish("the host has started another attempt");
         attempt = *a;
         introduced = true;
         host_waits.clear();
@@ -123,8 +123,7 @@ struct TeamMember::Desk {
   }
 
   void keep(message::Ticks& ticks) {
-    if (ticks.first != first + waiting.size() || waiting.size() > kMostWaiting)
-      return link->close("ticks came that do not follow");
+    if (ticks.first != first + waiting.size() || waiting.size() > kMostWaiting) return link->close("ticks are missing");
     waiting.insert(waiting.end(), ticks.inputs.begin(), ticks.inputs.end());
     if (ticks.sent_us != 0 && ticks.number > echoed) {
       echoed = ticks.number;
@@ -174,7 +173,7 @@ TeamMember::TeamMember(const MemberPlan& plan) : m_desk(std::make_unique<Desk>(p
   m_desk->changed.wait(hold, [this] { return m_desk->introduced || !m_desk->ended.empty(); });
   if (!m_desk->introduced)
     throw core::EnvironmentLacks(fmt::format(
-        "{}: ask who runs the exercise for address, port and token (`trocar train EXERCISE --team {}` shows them)",
+        "{}: ask the host of the exercise for address, port and token (`trocar train EXERCISE --team {}` shows them)",
         m_desk->ended, plan.role));
 }
 TeamMember::~TeamMember() = default;
@@ -186,8 +185,7 @@ const std::string& TeamMember::role() const { return m_desk->plan.role; }
 void TeamMember::begin(const Lesson& lesson) {
   if (lesson.model.hash != m_desk->attempt.model_hash)
     throw core::EnvironmentLacks(fmt::format(
-        "{} is not here what it is at the host (another hash of the compiled scene): both need the same files",
-        lesson.name));
+        "{} differs from the host's (another hash of the compiled scene): both need the same files", lesson.name));
   m_desk->duty = duty_of(m_desk->plan.role, lesson.model, "--role");
   m_desk->wish = lesson.model.start;
 }

@@ -19,7 +19,7 @@ constexpr std::size_t kHello = kGreeting.size() + 32, kTag = crypto_aead_chacha2
 constexpr std::size_t kPiece = 1 << 16;
 
 void need_sodium() {
-  if (sodium_init() < 0) throw core::EnvironmentLacks("libsodium does not start: no random numbers on this machine");
+  if (sodium_init() < 0) throw core::EnvironmentLacks("libsodium cannot start: this machine gives no random numbers");
 }
 
 std::array<unsigned char, crypto_aead_chacha20poly1305_ietf_NPUBBYTES> nonce_of(std::uint64_t number) {
@@ -63,7 +63,7 @@ void SealedLink::send(core::ByteView message) {
     m_waiting.emplace_back(message.begin(), message.end());
     return;
   }
-  if (m_out.size() - m_sent > kLargestBacklog) return close("the other side takes nothing any more");
+  if (m_out.size() - m_sent > kLargestBacklog) return close("the other side no longer receives");
   const std::size_t size = message.size() + kTag;
   core::put(m_out, std::uint32_t(size));
   const std::size_t at = m_out.size();
@@ -93,7 +93,7 @@ void SealedLink::receive() {
     }
     if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
     if (got < 0 && errno == EINTR) continue;
-    return close(got == 0 ? "the other side has gone" : std::strerror(errno));
+    return close(got == 0 ? "the other side has disconnected" : std::strerror(errno));
   }
 }
 
@@ -136,14 +136,14 @@ void SealedLink::open_messages() {
   if (!m_keyed) {
     if (m_in.size() < kHello) return;
     if (!std::equal(kGreeting.begin(), kGreeting.end(), m_in.begin()))
-      return close("the other side is no Trocar of this version");
+      return close("the other side is not Trocar of this version");
     derive(m_in.data() + kGreeting.size());
     at = kHello;
   }
   while (open() && m_in.size() - at >= 4) {
     core::ByteReader head(core::ByteView(m_in).subspan(at, 4));
     const std::size_t size = head.get<std::uint32_t>();
-    if (size < kTag || size > kLargestMessage + kTag) return close("what came is no message");
+    if (size < kTag || size > kLargestMessage + kTag) return close("an invalid message was received");
     if (m_in.size() - at - 4 < size) break;
     core::ByteString message(size - kTag);
     const auto nonce = nonce_of(m_received);

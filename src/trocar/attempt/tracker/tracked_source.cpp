@@ -59,7 +59,7 @@ TrackedSource::TrackedSource(InputSource& own, const sim::Model& model, const Tr
     for (const Led& other : m_led)
       if (duty.overlaps(other.duty))
         throw core::BadInput(
-            {{{m_plan.file, 0, 0}, fmt::format("expected tools that lead different things, got {} twice", tool.role)}});
+            {{{m_plan.file, 0, 0}, fmt::format("expected tools with different targets, got {} twice", tool.role)}});
     m_led.push_back({&tool, duty, first_of(duty), TrackedTool(m_plan, tool)});
   }
 }
@@ -67,12 +67,12 @@ TrackedSource::TrackedSource(InputSource& own, const sim::Model& model, const Tr
 /// What the tracker does not see now, in words.
 std::string TrackedSource::missing() const {
   const std::string place = m_tracker.place();
-  if (!m_tracker.status().connected) return fmt::format("the tracker at {}: it has hung up", place);
+  if (!m_tracker.status().connected) return fmt::format("the tracker at {} has disconnected", place);
   const std::int64_t now = steady_now();
   for (const Led& led : m_led) {
     const auto seen = m_tracker.pose(led.tool->transform);
-    if (!seen) return fmt::format("the tracked tool {}: it has not been seen yet", led.tool->transform);
-    if (seen->at + kUnseen < now) return fmt::format("the tracked tool {}: it is not seen", led.tool->transform);
+    if (!seen) return fmt::format("the tracked tool {} has not been seen yet", led.tool->transform);
+    if (seen->at + kUnseen < now) return fmt::format("the tracked tool {} is not visible", led.tool->transform);
   }
   return {};
 }

@@ -42,7 +42,7 @@ const Shape& grip_shape() {
   static const Shape shape{"grip",
                            "A sensor that measures how far the handle is closed.",
                            {scene::needed(keys::text("sensor", "its name at the tracker (a SENSOR message)")),
-                            keys::integer("index", 0, 63, "which of its values, default 0"),
+                            keys::integer("index", 0, 63, "index of its value, default 0"),
                             scene::needed(keys::number("open", -1e9, 1e9, "its value with the handle open")),
                             scene::needed(keys::number("closed", -1e9, 1e9, "its value with the handle closed"))}};
   return shape;
@@ -51,7 +51,7 @@ const Shape& grip_shape() {
 const Shape& tool_shape() {
   static const Shape shape{
       "tool",
-      "A tracked tool and what it leads.",
+      "A tracked tool and its target.",
       {scene::needed(keys::text("role", "camera, left, right, or a trocar's name")),
        scene::needed(keys::text("transform", "its name at the tracker (TRANSFORM, POSITION or an entry of TDATA)")),
        keys::vec3("tip_mm", -2000, 2000, "where the instrument's tip is in the tool's frame, default its origin"),
@@ -101,15 +101,15 @@ const Shape& tracker_plan_shape() {
   static const Shape shape{
       "tracker",
       "Which tool of a tracker (OpenIGTLink) controls which hand. Other inputs control hands without a tool.",
-      {keys::text("$schema", "where this table stands"), scene::needed(keys::format(1)),
+      {keys::text("$schema", "format of this file"), scene::needed(keys::format(1)),
        scene::needed(keys::text("server", "ADDRESS:PORT where the tracker's server listens")),
        keys::choice("x_points", direction_names(), "where the tracker's x points in the patient, default left"),
        keys::choice("y_points", direction_names(), "where its y points, default head"),
-       keys::number("scale", 0.01, 100, "of ways, default 1"),
+       keys::number("scale", 0.01, 100, "scale of displacements, default 1"),
        keys::vec3("origin_mm", -10000, 10000,
-                  "where the tracker's origin lies in the scene; none: every tip is where the scene places it when "
+                  "position of the tracker's origin in the scene; without it every tip is at the scene's pose when "
                   "its tool is first seen"),
-       scene::needed(keys::objects("tools", tool_shape, 1, "tracked tools and what they lead"))}};
+       scene::needed(keys::objects("tools", tool_shape, 1, "tracked tools and their targets"))}};
   return shape;
 }
 

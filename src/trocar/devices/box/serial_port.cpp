@@ -44,7 +44,7 @@ std::string remedy(const std::string& path, int error) {
     case ENODEV:
       return fmt::format(
           "no port {}: plug the box in, or see with `ls /dev/ttyUSB* /dev/ttyACM* /dev/ttyS*` what it is "
-          "called; `trocar box simulate {}` makes one of software",
+          "called; `trocar box simulate {}` makes a simulated one",
           path, path);
     case EACCES:
     case EPERM:

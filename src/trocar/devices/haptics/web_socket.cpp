@@ -180,13 +180,14 @@ std::string WebSocket::connect(int port, const std::string& path, double patienc
   if (::send(m_socket, request.data(), request.size(), MSG_NOSIGNAL) != ssize_t(request.size()))
     return fail("it takes nothing");
   const std::string header = read_header(m_socket, until);
-  if (header.rfind("HTTP/1.1 101", 0) != 0) return fail(header.empty() ? "it does not answer" : "it is no web socket");
+  if (header.rfind("HTTP/1.1 101", 0) != 0)
+    return fail(header.empty() ? "it does not answer" : "it is not a web socket");
   const std::string field = "sec-websocket-accept:";
   const std::size_t at = lower(header).find(field);
-  if (at == std::string::npos) return fail("it is no web socket");
+  if (at == std::string::npos) return fail("it is not a web socket");
   const std::size_t begin = header.find_first_not_of(' ', at + field.size()), end = header.find("\r\n", at);
   if (begin == std::string::npos || begin > end || header.substr(begin, end - begin) != web_socket_answer(key))
-    return fail("it is no web socket");
+    return fail("it is not a web socket");
   return {};
 }
 

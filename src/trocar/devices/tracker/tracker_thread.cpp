@@ -46,7 +46,7 @@ TrackerThread::TrackerThread(std::string address, int port) : m_address(std::mov
   m_socket = connect_tcp(m_address, m_port, why);
   if (m_socket < 0)
     throw core::EnvironmentLacks(
-        fmt::format("nobody listens at {} ({}): start the tracker's server (OpenIGTLink), or give its place in the "
+        fmt::format("no server at {} ({}): start the tracker's server (OpenIGTLink), or correct its address in the "
                     "file's \"server\"",
                     place(), why));
   m_status.connected = true, m_status.connections = 1;

@@ -97,9 +97,9 @@ Repaired without_broken(const TriMesh& mesh) {
   const std::size_t dropped = std::erase_if(
       out.mesh.triangles, [&](const std::array<int, 3>& t) { return !good[t[0]] || !good[t[1]] || !good[t[2]]; });
   keep_vertices(out.mesh, good);
-  out.tell("without_broken", bad, "vertex whose place is no number left out",
-           "vertices whose places are no numbers left out");
-  out.tell("without_broken", int(dropped), "triangle with it left out", "triangles with them left out");
+  out.tell("without_broken", bad, "vertex with a coordinate that is not a number removed",
+           "vertices with coordinates that are not numbers removed");
+  out.tell("without_broken", int(dropped), "triangle with it removed", "triangles with them removed");
   return out;
 }
 
@@ -107,8 +107,8 @@ Repaired welded(const TriMesh& mesh, double distance) {
   Repaired out{mesh, {}, {}};
   const int count = take_same(out.mesh, same_nodes(mesh.positions, vertices_in_use(mesh), distance));
   out.tell("welded", count, "vertex welded", "vertices welded");
-  out.tell("welded", int(mesh.triangles.size() - out.mesh.triangles.size()), "triangle without area left out",
-           "triangles without area left out");
+  out.tell("welded", int(mesh.triangles.size() - out.mesh.triangles.size()), "triangle without area removed",
+           "triangles without area removed");
   return out;
 }
 
@@ -152,16 +152,16 @@ Repaired without_duplicates(const TriMesh& mesh) {
     drop_triangles(out.mesh, drop);
     if (!out.mesh.triangles.empty()) break;
   }
-  out.tell("without_duplicates", int(mesh.triangles.size() - out.mesh.triangles.size()),
-           "triangle that was there twice left out", "triangles that were there twice left out");
+  out.tell("without_duplicates", int(mesh.triangles.size() - out.mesh.triangles.size()), "duplicate triangle removed",
+           "duplicate triangles removed");
   return out;
 }
 
 Repaired without_unused(const TriMesh& mesh) {
   Repaired out{mesh, {}, {}};
   keep_vertices(out.mesh, vertices_in_use(mesh));
-  out.tell("without_unused", int(mesh.positions.size() - out.mesh.positions.size()),
-           "vertex without triangles left out", "vertices without triangles left out");
+  out.tell("without_unused", int(mesh.positions.size() - out.mesh.positions.size()), "vertex without triangles removed",
+           "vertices without triangles removed");
   return out;
 }
 
@@ -178,7 +178,7 @@ Repaired without_small_shells(const TriMesh& mesh, double share, bool open_only)
   for (std::size_t t = 0; t < drop.size(); ++t) drop[t] = shells.of[t] >= 0 && small(shells.list[shells.of[t]]);
   drop_triangles(out.mesh, drop);
   out.tell("without_small_shells", int(std::count_if(shells.list.begin(), shells.list.end(), small)),
-           "small shell left out", "small shells left out");
+           "small shell removed", "small shells removed");
   out.mesh = without_unused(out.mesh).mesh;
   return out;
 }

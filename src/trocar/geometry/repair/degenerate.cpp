@@ -106,8 +106,8 @@ Repaired without_degenerate(const TriMesh& mesh, double height) {
   if (twice + work.left() == 0) return out;
   const int removed = twice + work.remove_all();
   if (removed > 0) out.mesh = work.taken();
-  out.tell("without_degenerate", removed, "triangle without area taken out", "triangles without area taken out");
-  if (work.left() > 0) out.left.push_back(fmt::format("{} triangles without area are still there", work.left()));
+  out.tell("without_degenerate", removed, "triangle without area removed", "triangles without area removed");
+  if (work.left() > 0) out.left.push_back(fmt::format("{} triangles without area remain", work.left()));
   return out;
 }
 

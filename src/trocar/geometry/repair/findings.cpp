@@ -29,8 +29,8 @@ std::string shells_in_words(const Diagnosis& d) {
     all += shell.area;
     cavities += shell.is_cavity;
   }
-  std::string words = fmt::format("{} shells that do not hang together, the largest {:.3g} % of the area",
-                                  d.shells.list.size(), all > 0 ? 100 * largest / all : 0.0);
+  std::string words = fmt::format("{} separate shells, the largest with {:.3g} % of the area", d.shells.list.size(),
+                                  all > 0 ? 100 * largest / all : 0.0);
   if (cavities > 0) words += fmt::format(", {}", counted(std::size_t(cavities), "cavity", "cavities"));
   return words;
 }
@@ -45,14 +45,14 @@ std::vector<Finding> findings(const Diagnosis& d) {
   const auto tell = [&](MeshFault fault, std::size_t count, const char* one, const char* many, const char* remedy) {
     add(fault, count, counted(count, one, many), remedy);
   };
-  tell(MeshFault::not_finite, d.not_finite.size(), "vertex whose place is no number",
-       "vertices whose places are no numbers", "without_broken");
+  tell(MeshFault::not_finite, d.not_finite.size(), "vertex with a coordinate that is not a number",
+       "vertices with coordinates that are not numbers", "without_broken");
   tell(MeshFault::duplicate_vertices, d.duplicate_vertices.size(), "vertex at the place of another one",
        "vertices at the places of others", "welded");
   tell(MeshFault::degenerate, d.degenerate.size(), "triangle without area", "triangles without area",
        "without_degenerate");
-  tell(MeshFault::duplicate_triangles, d.duplicate_triangles.size(), "triangle that is there twice",
-       "triangles that are there twice", "without_duplicates");
+  tell(MeshFault::duplicate_triangles, d.duplicate_triangles.size(), "duplicate triangle", "duplicate triangles",
+       "without_duplicates");
   tell(MeshFault::unused, d.unused.size(), "vertex without triangles", "vertices without triangles", "without_unused");
   tell(MeshFault::crowded_edges, d.crowded_edges.size(), "edge with more than two triangles",
        "edges with more than two triangles", "parted");

@@ -107,14 +107,14 @@ class MeshMending {
   bool refill() {
     Refilled fresh = refilled(m_out.mesh, m_options.refilling);
     if (fresh.mesh.triangles.empty()) {
-      m_out.left.push_back("it could not be made again: " + fresh.why);
+      m_out.left.push_back("it could not be rebuilt: " + fresh.why);
       return false;
     }
     m_out.mesh = parted(fresh.mesh).mesh;
     m_out.was_refilled = true;
     m_out.changes.push_back({"refilled", 1,
-                             fmt::format("made again with cells of {:.3g} mm, {:.3g} mm off at most", 1000 * fresh.cell,
-                                         1000 * fresh.farthest)});
+                             fmt::format("rebuilt with cells of {:.3g} mm, largest deviation {:.3g} mm",
+                                         1000 * fresh.cell, 1000 * fresh.farthest)});
     return true;
   }
 

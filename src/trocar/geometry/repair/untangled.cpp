@@ -109,7 +109,7 @@ Repaired untangled(const TriMesh& mesh) {
       Tangle tangle(std::move(trial));
       if (tangle.pairs.size() >= best.pairs.size()) continue;
       best = std::move(tangle);
-      out.tell("untangled", gone, "triangle about crossings cut out", "triangles about crossings cut out");
+      out.tell("untangled", gone, "triangle at crossings removed", "triangles at crossings removed");
     }
   out.mesh = std::move(best.mesh);
   if (!best.pairs.empty()) out.left.push_back(fmt::format("{} pairs of triangles still cross", best.pairs.size()));

@@ -175,7 +175,7 @@ class Checking {
       for (; at != "ground" && steps <= m_d.links.size(); ++steps) at = m_d.links[std::size_t(m_link[at])].parent;
       if (at != "ground")
         tell(Part::link, int(i), "parent",
-             fmt::format("expected parents up to the ground, got a circle through \"{}\"", m_d.links[i].name));
+             fmt::format("expected parents up to the ground, got a cycle through \"{}\"", m_d.links[i].name));
     }
     std::vector<std::vector<int>> needs(m_coordinates.size());
     for (std::size_t c = 0; c < m_coordinates.size(); ++c)
@@ -191,7 +191,7 @@ class Checking {
     for (std::size_t i = 0; i < m_d.couplings.size(); ++i)
       if (!good[std::size_t(m_coordinate[m_d.couplings[i].coordinate])])
         tell(Part::coupling, int(i), "coordinate",
-             fmt::format("expected couplings that end at a free coordinate, got a circle through \"{}\"",
+             fmt::format("expected couplings that end at a free coordinate, got a cycle through \"{}\"",
                          m_d.couplings[i].coordinate));
   }
 

@@ -27,7 +27,7 @@ const char* words(MotionStatus status) noexcept {
     case MotionStatus::open:
       return "loops came open: take a shorter step, or begin away from a singular pose";
     case MotionStatus::not_finite:
-      return "speeds beyond all bounds: take a shorter step";
+      return "speeds without bounds: take a shorter step";
   }
   return "";
 }

@@ -193,7 +193,7 @@ std::string words(const Mechanism& m, const LoopReport& r) {
       text = fmt::format("closed, and singular: at a dead point (smallest pivot {:.1e})", r.pivot);
       break;
     case LoopStatus::out_of_reach:
-      text = fmt::format("out of reach: the nearest pose stands open by {:.3g} mm and {:.3g} degrees", 1e3 * r.metres,
+      text = fmt::format("out of reach: the nearest pose is open by {:.3g} mm and {:.3g} degrees", 1e3 * r.metres,
                          r.radians * 180 / portable::pi);
       break;
   }
@@ -201,8 +201,8 @@ std::string words(const Mechanism& m, const LoopReport& r) {
     text += fmt::format("; over-constrained but consistent: {} of {} conditions follow from the others", r.redundant(),
                         r.conditions);
   if (r.closed() && r.idle() > 0)
-    text += fmt::format("; {}", r.idle() == 1 ? std::string("a freedom is left to itself")
-                                              : fmt::format("{} freedoms are left to themselves", r.idle()));
+    text += fmt::format("; {}", r.idle() == 1 ? std::string("a degree of freedom is undetermined")
+                                              : fmt::format("{} degrees of freedom are undetermined", r.idle()));
   if (r.limit >= 0) {
     const auto i = std::size_t(r.limit);
     const bool angle = m.measures[i] == Measure::angle;

@@ -49,8 +49,8 @@ Standing stand(const sim::Model& scene, std::uint64_t ticks, const std::function
 
 std::string in_words(const Standing& standing, const Standing::Organ& o) {
   return fmt::format(
-      "{} does not hang still: {:.1f} mm off at ({:.1f}, {:.1f}, {:.1f}) mm after {:.2g} s at rest (a "
-      "stiffer or lighter tissue, larger cells or more anchors may hold it)",
+      "{} is not in equilibrium: it sagged {:.1f} mm at ({:.1f}, {:.1f}, {:.1f}) mm in {:.2g} s (a "
+      "stiffer or lighter tissue, larger cells or more anchors may support it)",
       o.name, 1e3 * o.off, 1e3 * o.at.x, 1e3 * o.at.y, 1e3 * o.at.z, standing.seconds);
 }
 

@@ -70,7 +70,7 @@ sim::StrandEndModel compile_end(const StrandEnd& end, Vec3d at, const sim::Model
     out.patch = patch_on(model, organ, at);
   } catch (const std::invalid_argument&) {
     faults.push_back(
-        {end.at, "expected the strand's end within a few cells of '" + end.organ + "', got one further away"});
+        {end.at, "expected the strand's end within a few cells of '" + end.organ + "', got a larger distance"});
   }
   return out;
 }

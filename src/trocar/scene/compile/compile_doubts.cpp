@@ -91,7 +91,7 @@ void tell_mended(const ClosedShape& shape, const std::string& body, const core::
                  std::vector<core::Fault>& doubts) {
   if (!shape.surface) return;
   for (const std::string& doubt : shape.surface->doubts)
-    doubts.push_back({at, fmt::format("the surface '{}' of '{}' is not sound; {}", shape.surface->file, body, doubt)});
+    doubts.push_back({at, fmt::format("the surface '{}' of '{}' has defects; {}", shape.surface->file, body, doubt)});
 }
 
 void find_tips(const Description& d, const sim::Model& model, std::vector<core::Fault>& doubts) {
@@ -121,7 +121,7 @@ void find_doubts(const Description& d, const sim::Model& model, std::vector<core
     if (!solid.tets) continue;
     for (const std::string& doubt : solid.tets->doubts)
       doubts.push_back(
-          {solid.at, fmt::format("the mesh '{}' of '{}' is not sound; {}", solid.tets->file, solid.name, doubt)});
+          {solid.at, fmt::format("the mesh '{}' of '{}' has defects; {}", solid.tets->file, solid.name, doubt)});
     find_slivers(d, solid, model, doubts);
   }
   for (const Pouch& pouch : d.pouches) tell_mended(pouch.shape, pouch.name, pouch.at, doubts);

@@ -132,15 +132,14 @@ std::string megabytes(double bytes) { return fmt::format("{:.0f} MB", bytes / 1e
 bool there_is_room(const Solid& solid, const ComplianceReport& r, std::vector<core::Fault>& faults) {
   if (r.most_bytes <= kMostBytes) {
     if (r.most_bytes > kWorthTelling)
-      core::log::info("'{}': its static solver has {} surface nodes, takes {} while it is made and {} from then on",
+      core::log::info("'{}': its static solver has {} surface nodes and takes {} during its computation, {} afterwards",
                       solid.name, r.kept, megabytes(r.most_bytes), megabytes(r.bytes));
     return true;
   }
   faults.push_back(
-      {solid.solver_at,
-       fmt::format("expected an organ whose static solver can be made with {}, got {} surface nodes of {}, "
-                   "which take {}: make its cells larger, or let its solver be \"dynamic\"",
-                   megabytes(kMostBytes), r.kept, r.nodes, megabytes(r.most_bytes))});
+      {solid.solver_at, fmt::format("expected an organ whose static solver fits into {}, got {} surface nodes of {}, "
+                                    "which take {}: make its cells larger, or let its solver be \"dynamic\"",
+                                    megabytes(kMostBytes), r.kept, r.nodes, megabytes(r.most_bytes))});
   return false;
 }
 
@@ -152,7 +151,7 @@ Compliance compliance_of(const tissue::Stiffness& k, std::span<const int> kept, 
   CachedCompliance cached = read_compliance(key, int(kept.size()), fields);
   r.file = cached.file.string();
   r.note = cached.damage;
-  if (!cached.damage.empty()) core::log::warn("{}: {}; made again", r.file, cached.damage);
+  if (!cached.damage.empty()) core::log::warn("{}: {}; computed again", r.file, cached.damage);
   if (cached.found) return std::move(cached.compliance);
   r.computed = true;
   const tissue::Condensed made = tissue::condense(k, kept, loads, nullptr, [&](double share) {
@@ -163,7 +162,7 @@ Compliance compliance_of(const tissue::Stiffness& k, std::span<const int> kept, 
   if (const std::string lack = keep_compliance(key, int(kept.size()), compliance); !lack.empty()) {
     r.file.clear();
     r.note = lack;
-    core::log::warn("'{}': {}; its static solver will be made again the next time", r.organ, lack);
+    core::log::warn("'{}': {}; its static solver will be computed again the next time", r.organ, lack);
   }
   return compliance;
 }
@@ -225,8 +224,8 @@ void compile_organ(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
                      "part, or let its solver be \"dynamic\"",
                      solid.name, e.what(), known ? ", near " + in_mm(d.points[std::size_t(e.node)]) : std::string())});
   } catch (const std::invalid_argument& e) {
-    faults.push_back({solid.solver_at, "expected '" + solid.name +
-                                           "' to be an organ that a static solver can be made of, got: " + e.what()});
+    faults.push_back(
+        {solid.solver_at, "expected '" + solid.name + "' to be an organ that suits a static solver, got: " + e.what()});
   }
 }
 

@@ -124,7 +124,7 @@ std::optional<sim::SolidModel> hung(const Solid& solid, const Tissue& tissue, Ve
   const tissue::PrestressReport prestress = tissue::prestress(network, out.anchors);
   if (!prestress.converged || prestress.failed_springs > 0) {
     faults.push_back({solid.at, "expected '" + solid.name + "' to be held against gravity by its anchors, got " +
-                                    std::to_string(prestress.failed_springs) + " springs that cannot bear it"});
+                                    std::to_string(prestress.failed_springs) + " springs that cannot support it"});
     return {};
   }
   out.network = tissue::build(network, sim::kTick);

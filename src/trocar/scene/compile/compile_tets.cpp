@@ -152,7 +152,7 @@ void add_network(const Solid& solid, Draft& d, tissue::NetworkDescription& n, si
   const tissue::PrestressReport prestress = tissue::prestress(n, d.anchors);
   if (!prestress.converged || prestress.failed_springs > 0) {
     faults.push_back({solid.at, "expected '" + solid.name + "' to be held against gravity by its anchors, got " +
-                                    std::to_string(prestress.failed_springs) + " springs that cannot bear it"});
+                                    std::to_string(prestress.failed_springs) + " springs that cannot support it"});
     return;
   }
   sim::SolidModel out;

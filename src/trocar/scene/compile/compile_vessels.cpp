@@ -179,8 +179,9 @@ sim::Bleeder bleeder_of(const BleederSetting& setting, const sim::Model& model, 
     const vessels::FlowSegment& segment = model.vessels.flow.segments[size_t(v)];
     const double lumen = 2 * (segment.radius + segment.taper * h.at);
     if (h.diameter > lumen)
-      faults.push_back({h.where, fmt::format("expected a hole no wider than '{}' is there, {:.2g} mm, got {:.2g} mm",
-                                             h.vessel, 1e3 * lumen, 1e3 * h.diameter)});
+      faults.push_back(
+          {h.where, fmt::format("expected a hole at most as wide as '{}' at that point, {:.2g} mm, got {:.2g} mm",
+                                h.vessel, 1e3 * lumen, 1e3 * h.diameter)});
   }
   return out;
 }
@@ -285,7 +286,7 @@ class Compiling {
     const Vessel& vessel = *m_vessels[v];
     if (!vessel.rides_on.empty() && !carried)
       m_faults.push_back({vessel.rides_at.front(),
-                          fmt::format("expected some of '{}' within {:g} mm of what it rides on, got none that near",
+                          fmt::format("expected some of '{}' within {:g} mm of the bodies that carry it, got none",
                                       vessel.name, 1e3 * vessel.reach)});
     follow_neighbours(path);
   }

@@ -52,11 +52,11 @@ std::uint64_t sum_of(const Compliance& c) {
 }
 
 std::string damage_in(const Header& h, const Header& wanted, std::size_t size, std::size_t wanted_size) {
-  if (h.magic != kMagic) return "it is no file of a compliance";
-  if (h.format != kFormat) return "it is of another version";
-  if (h.order != wanted.order) return "it is of a machine that writes numbers otherwise";
+  if (h.magic != kMagic) return "it is not a compliance file";
+  if (h.format != kFormat) return "its format has another version";
+  if (h.order != wanted.order) return "it is from a machine with another number format";
   if (h.key.a != wanted.key.a || h.key.b != wanted.key.b || h.kept != wanted.kept || h.fields != wanted.fields)
-    return "it is of another organ";
+    return "it belongs to another organ";
   if (size != wanted_size) return fmt::format("it has {} bytes instead of {}", size, wanted_size);
   return "";
 }
@@ -119,14 +119,14 @@ CachedCompliance read_compliance(ContentKey key, int kept, int fields) {
   std::memcpy(out.compliance.columns.data(), from, columns * sizeof(float));
   if (more > 0) std::memcpy(out.compliance.fields.data(), from + columns * sizeof(float), more * sizeof(float));
   out.found = sum_of(out.compliance) == header.sum;
-  if (!out.found) out.damage = "its content is not what was written", out.compliance = {};
+  if (!out.found) out.damage = "its content is damaged", out.compliance = {};
   if (out.found) fs::last_write_time(out.file, fs::file_time_type::clock::now(), error);  // it was used
   return out;
 }
 
 std::string keep_compliance(ContentKey key, int kept, const Compliance& c) {
   const fs::path file = file_of(key);
-  if (file.empty()) return "there is no folder to keep it in (set TROCAR_CACHE)";
+  if (file.empty()) return "there is no folder for it (set TROCAR_CACHE)";
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
   Header header;

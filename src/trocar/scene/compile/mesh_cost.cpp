@@ -57,7 +57,8 @@ std::string in_words(const geometry::TetMesh& mesh, const MeshCost& now, const R
     return tick < 1e-3 ? fmt::format("{:.0f} us", 1e6 * tick) : fmt::format("{:.2g} ms", 1e3 * tick);
   };
   return fmt::format(
-      "slivers (cells of {:.2g} degrees): {} sub-steps, about {} a tick; \"refill_mm\": {:g} fills its surface again: "
+      "slivers (cells of {:.2g} degrees): {} sub-steps, about {} a tick; \"refill_mm\": {:g} fills its surface with "
+      "new cells: "
       "{} "
       "nodes, {} sub-steps, about {} a tick",
       geometry::inspect(mesh).smallest_dihedral, now.substeps, time(now.tick), 1e3 * refill.cube, refill.cost.nodes,

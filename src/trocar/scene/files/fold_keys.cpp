@@ -49,8 +49,8 @@ const Table<Landmark>& landmark() {
   using R = Rows<Landmark>;
   static const Table<Landmark> table{
       "landmark",
-      "A named stretch of a strand, for exercises.",
-      {needed(R::name("name", &Landmark::name, "what exercises call it")),
+      "A named part of a strand, for exercises.",
+      {needed(R::name("name", &Landmark::name, "its name in exercises")),
        needed(R::number("from_mm", units::mm, &Landmark::from, 0, 5000, "arc length where it begins")),
        needed(R::number("to_mm", units::mm, &Landmark::to, 0, 5000, "arc length where it ends"))},
       [](const JsonObject& o, Landmark&, Context&) { check_rises(o); }};
@@ -144,16 +144,15 @@ const Table<Contents>& contents() {
   using R = Rows<Contents>;
   static const Table<Contents> table{
       "contents",
-      "What fills a pouch, and the pressure with which it does.",
+      "The contents of a pouch and their pressure.",
       {needed(R::choice("kind",
                         Choices<Contents::Kind>{
                             {"liquid", Contents::liquid}, {"gas", Contents::gas}, {"constant", Contents::constant}},
-                        &Contents::kind,
-                        "liquid: p0 + K (V0 - V) / V0; gas: Boyle's law; constant: p0 whatever the volume")),
+                        &Contents::kind, "liquid: p0 + K (V0 - V) / V0; gas: Boyle's law; constant: p0 at any volume")),
        needed(R::number("pressure_Pa", units::one, &Contents::pressure, -90000, 1e6,
                         "p0, above the surroundings, at the middle of the undeformed shape")),
        R::number("bulk_kPa", units::kilo, &Contents::bulk, 0.1, 1e7,
-                 "K of a liquid, default {}: how well it holds its volume")
+                 "K of a liquid, default {}: its resistance to compression")
            .only([](const Contents& c) { return c.kind == Contents::liquid; }),
        R::number("density_kg_m3", units::one, &Contents::density, 0, 25000, "default: liquid 1000, else 0")
            .only([](const Contents&) { return true; })},
@@ -166,7 +165,7 @@ constexpr double kMaxPouchNodes = 20'000;
 void check_pouch(const JsonObject& o, Pouch& p, Context&) {
   check_one_shape(o, {"sections", "surface", "nurbs", "tube", "revolved"});
   if (p.free && !p.held.empty())
-    o.fault("held", "expected no place where a wall is held that is free, got " + std::to_string(p.held.size()));
+    o.fault("held", "expected no held places for a free wall, got " + std::to_string(p.held.size()));
   const double nodes = extent_of(p).nodes;
   if (!(nodes <= kMaxPouchNodes))
     o.fault(p.spacing_at,
@@ -197,7 +196,7 @@ const Table<Strand>& strand() {
   static const Table<Strand> table{
       "strand",
       "A thin tube or cord along a smooth line through points.",
-      {needed(R::name("name", &Strand::name, "what scenes and exercises call it")),
+      {needed(R::name("name", &Strand::name, "its name in scenes and exercises")),
        needed(R::ref("tissue", Reference::To::tissue, &Strand::tissue, "its material")), look_row<Strand>(),
        needed(R::points("centreline_mm", units::mm, &Strand::centreline, -kFar, kFar, 2,
                         "points on its centre line, from start to end")),
@@ -222,8 +221,7 @@ const Table<Sheet>& sheet() {
   using R = Rows<Sheet>;
   static const Table<Sheet> table{
       "sheet", "A thin fold drawn between a strand and a line of points.",
-      joined<Sheet>({needed(R::name("name", &Sheet::name, "what it is called")), look_row<Sheet>()},
-                    border_rows<Sheet>(),
+      joined<Sheet>({needed(R::name("name", &Sheet::name, "its name")), look_row<Sheet>()}, border_rows<Sheet>(),
                     {R::ref("base_organ", Reference::To::solid_or_strand, &Sheet::base_organ,
                             "solid or strand that carries the other border, default: none, it stays in place")}),
       check_sheet};
@@ -235,7 +233,7 @@ const Table<Membrane>& membrane() {
   static const Table<Membrane> table{
       "membrane", "A thin fold with mechanics of its own, between a stretch of a strand and a line of points.",
       joined<Membrane>(
-          {needed(R::name("name", &Membrane::name, "what scenes and exercises call it")),
+          {needed(R::name("name", &Membrane::name, "its name in scenes and exercises")),
            needed(R::ref("tissue", Reference::To::tissue, &Membrane::tissue, "its material")), look_row<Membrane>()},
           border_rows<Membrane>(),
           {R::refs("base_on", Reference::To::solid_or_strand, &Membrane::base_on,
@@ -255,17 +253,17 @@ const Table<BondSetting>& bond_setting() {
   using R = Rows<BondSetting>;
   static const Table<BondSetting> table{
       "bonds",
-      "Loose tissue between a pouch's wall and what it lies on: it holds, and parts when it is pulled, pushed or cut.",
-      {needed(R::name("name", &BondSetting::name, "what exercises call it")),
+      "Loose tissue between a pouch's wall and other bodies: it attaches the wall, and separates when it is pulled, "
+      "pushed or cut.",
+      {needed(R::name("name", &BondSetting::name, "its name in exercises")),
        needed(R::objects("places", held_place, &BondSetting::places, 1, "where the wall is tied")),
        needed(R::refs("on", Reference::To::solid_or_strand, &BondSetting::on,
                       "solids and strands that it is tied to, where they are near")),
        R::number("reach_mm", units::mm, &BondSetting::reach, 0.1, 100,
                  "how near that is, from a strand's surface or a skin, default {}"),
        R::number("toughness_J_m2", units::one, &BondSetting::toughness, 0.1, 1e5,
-                 "what it takes to part a square metre, default {}"),
-       R::number("opens_mm", units::mm, &BondSetting::opens, 0.2, 100,
-                 "how far it opens until nothing holds, default {}"),
+                 "energy that separates a square metre, default {}"),
+       R::number("opens_mm", units::mm, &BondSetting::opens, 0.2, 100, "opening at which it has separated, default {}"),
        R::number("oozes_mL_min_cm2", units::one, &BondSetting::oozes, 0, 100,
                  "blood from the raw surface that it leaves when it is torn or cut, until that is coagulated, "
                  "default {}"),
@@ -279,11 +277,11 @@ const Table<Pouch>& pouch() {
   using R = Rows<Pouch>;
   static const Table<Pouch> table{
       "pouch",
-      "A thin closed wall around something: a gallbladder, a bladder. Its shape is one of: sections (a smooth loft), "
+      "A thin closed membrane with contents: a gallbladder, a bladder. Its shape is one of: sections (a smooth loft), "
       "surface, "
       "nurbs, tube, revolved.",
       joined<Pouch>(
-          {needed(R::name("name", &Pouch::name, "what scenes and exercises call it")),
+          {needed(R::name("name", &Pouch::name, "its name in scenes and exercises")),
            needed(R::ref("tissue", Reference::To::tissue, &Pouch::tissue, "of its wall")), look_row<Pouch>(),
            R::objects("sections", section, &Pouch::sections, 2, "from one end to the other, as a solid's",
                       [](const JsonObject& o, Pouch& p, Context&) { check_last_section(o, p); })},
@@ -298,12 +296,12 @@ const Table<Pouch>& pouch() {
                    "solids and strands that hold it where they are near; elsewhere it stays in place"),
            R::number("held_reach_mm", units::mm, &Pouch::held_reach, 0.1, 100,
                      "how near that is, from a strand's surface or a skin, default {}"),
-           R::objects("bonds", bond_setting, &Pouch::bonds, 0, "what ties the wall and can be parted"),
+           R::objects("bonds", bond_setting, &Pouch::bonds, 0, "bonds between the wall and other bodies"),
            R::object("contents", contents, &Pouch::contents, "default: nothing presses").only([](const Pouch& p) {
              return p.contents.kind != Contents::nothing;
            }),
            R::flag("cuttable", &Pouch::cuttable, "default {}"),
-           R::flag("free", &Pouch::free, "nothing holds it: it lies where it is put; default {}"),
+           R::flag("free", &Pouch::free, "true: it is attached to nothing; default {}"),
            R::ref("duct", Reference::To::strand, &Pouch::duct,
                   "the strand whose lumen opens into it, with the end that is nearer: parted without a clip, it lets "
                   "out what "

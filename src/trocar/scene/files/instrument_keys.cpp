@@ -38,8 +38,9 @@ const Table<NeedleSetting>& needle() {
        R::number("bore_mm", units::mm, &N::bore, 0.1, 2.8, "inner diameter, default {}"),
        R::number("plunger_mm", units::mm, &N::plunger, 2, 50, "inner diameter of the syringe, default {}"),
        R::number("holds_mL", units::millilitre, &N::holds, 0.1, 100, "in the syringe at the start, default {}"),
-       R::number("flow_mL_min", units::millilitre, &N::flow, 0.1, 120, "that a hand has in mind, default {}"),
-       R::number("most_force_N", units::one, &N::most_force, 1, 200, "of a thumb on the plunger, default {}"),
+       R::number("flow_mL_min", units::millilitre, &N::flow, 0.1, 120,
+                 "volume that a hand intends to inject, default {}"),
+       R::number("most_force_N", units::one, &N::most_force, 1, 200, "force of the thumb on the plunger, default {}"),
        R::number("drug_IU_mL", units::one, &N::units, 0, 1000,
                  "of a drug that narrows vessels, vasopressin; default {}: saline, which does not")},
       [](const JsonObject& o, N& n, Context&) {
@@ -70,17 +71,18 @@ const Table<WristSetting>& wrist() {
       "aside; or the hinges of a mechanism.",
       {R::number("between_mm", units::mm, &W::between, 0, 50, "from the first hinge to the second, default {}"),
        R::number("after_mm", units::mm, &W::after, 0, 50, "from there to the jaws' hinge, default {}"),
-       R::number("pitch_deg", units::deg, &W::pitch, 0, 120, "as far as the first turns either way, default {:.0f}"),
-       R::number("yaw_deg", units::deg, &W::yaw, 0, 120, "the second, default {:.0f}"),
+       R::number("pitch_deg", units::deg, &W::pitch, 0, 120,
+                 "range of the first hinge in each direction, default {:.0f}"),
+       R::number("yaw_deg", units::deg, &W::yaw, 0, 120, "range of the second hinge, default {:.0f}"),
        mechanism_row<W>("mechanism", &W::mechanism,
                         "a mechanism, by its name in a library or its file from this one on: what follows on its link "
                         "'shaft' up to its frame "
-                        "'tip'. With more than two joints the hand leads the tip, and the chain follows")},
+                        "'tip'. With more than two joints the hand controls the tip, and the chain follows")},
       [](const JsonObject& o, W& w, Context&) {
         w.there = true;
         for (const char* key : {"between_mm", "after_mm", "pitch_deg", "yaw_deg"})
           if (o.has("mechanism") && o.has(key))
-            o.fault(key, "expected nothing beside mechanism, which says how it bends, got a number");
+            o.fault(key, "expected no other key beside mechanism, which defines the bending, got a number");
       }};
   return table;
 }
@@ -95,8 +97,8 @@ std::vector<Row<Instrument>> instrument_rows() {
   using R = Rows<Instrument>;
   using I = Instrument;
   return {
-      needed(R::name("name", &I::name, "what scenes call it")),
-      R::text("title", &I::title, "one line for people"),
+      needed(R::name("name", &I::name, "its name in scenes")),
+      R::text("title", &I::title, "one line for lists"),
       needed(R::choice("kind", kinds(), &I::kind, "what it does")),
       R::number("shaft_diameter_mm", units::diameter, &I::shaft_radius, 1, 30, "default {}"),
       R::number("shaft_length_mm", units::mm, &I::shaft_length, 50, 1000,
@@ -112,7 +114,7 @@ std::vector<Row<Instrument>> instrument_rows() {
                 "of a hook: from its wire's axis to the foot's end, to where jaws would open, default {}: it has none"),
       R::number("pinch_max_N", units::one, &I::pinch_max, 0, 200,
                 "between the jaws with the handle closed, default {}"),
-      R::number("friction", units::one, &I::friction, 0, 10, "pull that the grip bears per pinch force, default {}"),
+      R::number("friction", units::one, &I::friction, 0, 10, "largest pull of the grip per pinch force, default {}"),
       R::number("clip_length_mm", units::mm, &I::clip_length, 0.5, 50, "of a closed clip, default {}"),
       R::integer("clips", &I::clips, 0, 1000, "in the magazine, default {}"),
       R::object("electrode", electrode, &I::electrode, "of a hook or bipolar forceps").only([](const I& i) {
@@ -142,7 +144,7 @@ void check_instrument(const JsonObject& o, Instrument& i, Context&) {
   if (i.parallel_gap > 0 && i.opening > 0)
     o.fault("opening_deg", "expected 0 or nothing beside parallel_gap_mm (jaws turn or stay parallel), got an angle");
   if (o.has("mechanism") && o.has("opening_deg"))
-    o.fault("opening_deg", "expected nothing beside mechanism, whose jaws say how far they open, got an angle");
+    o.fault("opening_deg", "expected no angle beside mechanism, which defines the opening of the jaws, got one");
   if (o.has("handle") && !o.has("mechanism")) o.fault("handle", "expected a mechanism that it moves, got none");
   if (i.wrist.there && i.foot > 0) o.fault("wrist", "expected a rigid instrument with a foot, got one that bends");
   if (i.foot > 0 && o.has("kind") && !i.can().hook)

@@ -83,7 +83,7 @@ std::vector<fs::path> Library::folders(const char* name) const {
 }
 
 std::string Library::refusal(const std::string& name) const {
-  return fmt::format("expected a file in {} or in a library that TROCAR_LIBRARY declares, got \"{}\"",
+  return fmt::format("expected a file in {} or in a library of TROCAR_LIBRARY, got \"{}\"",
                      m_folders.front().generic_string(), name);
 }
 

@@ -17,7 +17,7 @@ const Table<Look::Relief>& relief() {
   using L = Look::Relief;
   static const Table<L> table{
       "relief",
-      "Unevenness that mechanics do not have, made once, so that it rides on the tissue.",
+      "Surface detail that the mechanics do not have. It moves with the tissue.",
       {R::number("broad_mm", units::mm, &L::broad, 0, 20, "height of its larger waves, default {}"),
        R::number("broad_size_mm", units::mm, &L::broad_size, 0.5, 200, "their length, default {}"),
        R::number("fine_mm", units::mm, &L::fine, 0, 20, "height of its smaller waves, default {}"),
@@ -46,9 +46,9 @@ const Table<Surrounding>& surrounding() {
   using R = Rows<Surrounding>;
   static const Table<Surrounding> table{
       "surrounding",
-      "Anatomy that is drawn only, around a body of this look.",
+      "Anatomy around a body of this material, for display only.",
       {needed(R::choice("generator", kGenerators, &Surrounding::generator,
-                        "which anatomy is drawn there: docs/guides/materials.md describes each generator")),
+                        "the kind of anatomy: docs/guides/materials.md describes each generator")),
        R::integer("count", &Surrounding::count, 1, 200, "of fat_tags, adhesions, curtains, at most; default {}")}};
   return table;
 }
@@ -67,16 +67,16 @@ void check_surrounding(const JsonObject& o, Look& look, Context&) {
 std::vector<Row<Look>> colour_rows() {
   using R = Rows<Look>;
   return {
-      R::own(keys::name("inherits", "a look of the same folder: this one says what differs; default: from neutral")),
+      R::own(keys::name("inherits", "a material of the same folder that supplies the missing keys; default: neutral")),
       R::choice("surface", Choices<Look::Surface>{{"tissue", Look::Surface::tissue}, {"metal", Look::Surface::metal}},
                 &Look::surface, "default {}"),
-      R::vec3("colour", units::one, &Look::colour, 0, 255, "sRGB as read off a picture, default {}"),
+      R::vec3("colour", units::one, &Look::colour, 0, 255, "sRGB as in a picture, default {}"),
       R::vec3("patches", units::one, &Look::patches, 0, 255, "of broad patches, default {}"),
       R::vec3("flecks", units::one, &Look::flecks, 0, 255, "of fine flecks, default {}"),
       R::vec3("tint", units::one, &Look::tint, 0, 255,
-              "where something else shimmers through or grows out, default {}"),
+              "colour of patches where something below is visible, default {}"),
       R::number("mottle_size_mm", units::mm, &Look::mottle_size, 0.1, 500, "of patches, default {}"),
-      R::number("mottle", units::one, &Look::mottle, 0, 1, "how much of patches and flecks, default {}"),
+      R::number("mottle", units::one, &Look::mottle, 0, 1, "share of patches and flecks, default {}"),
       R::number("lobule_size_mm", units::mm, &Look::lobule_size, 0, 100, "of lobules of fat, default {}: none"),
       R::number("lobule_depth", units::one, &Look::lobule_depth, 0, 1, "how round they are shaded, default {}"),
       R::number("lobule_contrast", units::one, &Look::lobule_contrast, 0, 1,
@@ -107,30 +107,34 @@ std::vector<Row<Look>> film_rows() {
                     "sharp: broken flecks, blunt: sheen; default {}"),
           R::number("film_size_mm", units::mm, &Look::film_size, 0.1, 50, "length of the film's ripples, default {}"),
           R::number("film_bump", units::one, &Look::film_bump, 0, 1, "how much they break highlights up, default {}"),
-          R::number("fresnel", units::one, &Look::fresnel, 0, 1, "what it mirrors straight on, default {}"),
-          R::vec3("wrap", units::one, &Look::wrap, 0, 1, "how far light goes round, red, green, blue; default {}"),
+          R::number("fresnel", units::one, &Look::fresnel, 0, 1, "reflectance at normal incidence, default {}"),
+          R::vec3("wrap", units::one, &Look::wrap, 0, 1,
+                  "width of scattered light around edges, red, green, blue; default {}"),
           R::vec3("glow", units::one, &Look::glow, 0, 1, "colour of light through a thin rim, linear; default {}"),
           R::number("glow_amount", units::one, &Look::glow_amount, 0, 1, "of that, default {}"),
-          R::number("alpha", units::one, &Look::alpha, 0, 1, "of what is translucent, facing the eye; default {}"),
-          R::number("rim_alpha", units::one, &Look::rim_alpha, 0, 1, "and edge on, default {}"),
-          R::flag("translucent", &Look::translucent, "what lies behind shines through, default {}"),
-          R::flag("moulded", &Look::moulded, "of a model: it does not grow out of what holds it, default {}"),
-          R::flag("two_sided", &Look::two_sided, "both sides are seen, default {}"),
+          R::number("alpha", units::one, &Look::alpha, 0, 1,
+                    "opacity of a translucent surface that faces the viewer; default {}"),
+          R::number("rim_alpha", units::one, &Look::rim_alpha, 0, 1, "opacity edge on, default {}"),
+          R::flag("translucent", &Look::translucent, "true: objects behind it are visible through it, default {}"),
+          R::flag("moulded", &Look::moulded,
+                  "true: an artificial model without a smooth transition to its attachments, default {}"),
+          R::flag("two_sided", &Look::two_sided, "true: both sides are drawn, default {}"),
           R::number("scatter", units::one, &Look::scatter, 0, 1, "of metal: 0 bare, 1 ceramic or plastic; default {}"),
           R::number("soil", units::one, &Look::soil, 0, 1, "of metal: share of blood and burn that shows, default {}")};
 }
 
 const Table<Look>& look_keys() {
   using R = Rows<Look>;
-  static const Table<Look> table{"look", "What a surface looks like, and what anatomy is drawn around it.", [] {
-                                   std::vector<Row<Look>> rows = colour_rows();
-                                   for (const std::vector<Row<Look>>& more : {vessel_rows(), film_rows()})
-                                     rows.insert(rows.end(), more.begin(), more.end());
-                                   rows.push_back(R::object("relief", relief, &Look::relief, "default: smooth"));
-                                   rows.push_back(R::objects("surroundings", surrounding, &Look::surroundings, 0,
-                                                             "default: none", check_surrounding));
-                                   return of_file(std::move(rows));
-                                 }()};
+  static const Table<Look> table{
+      "look", "A material: the appearance of a surface, and anatomy that is drawn around it.", [] {
+        std::vector<Row<Look>> rows = colour_rows();
+        for (const std::vector<Row<Look>>& more : {vessel_rows(), film_rows()})
+          rows.insert(rows.end(), more.begin(), more.end());
+        rows.push_back(R::object("relief", relief, &Look::relief, "default: smooth"));
+        rows.push_back(
+            R::objects("surroundings", surrounding, &Look::surroundings, 0, "default: none", check_surrounding));
+        return of_file(std::move(rows));
+      }()};
   return table;
 }
 
@@ -189,9 +193,9 @@ void LookShelf::inherit(const JsonObject& o, Look& look, Open& open) {
     o.fault("inherits", unknown_name("look", base, names()));
   else if (std::find(open.begin(), open.end(), base) != open.end())
     o.fault("inherits",
-            fmt::format("expected looks that do not inherit each other in a circle, got {}{}", chain, base));
+            fmt::format("expected materials that do not inherit each other in a cycle, got {}{}", chain, base));
   else if (open.size() >= kMostInherited)
-    o.fault("inherits", fmt::format("expected at most {} looks that inherit each other, got more", kMostInherited));
+    o.fault("inherits", fmt::format("expected at most {} materials that inherit each other, got more", kMostInherited));
   else
     look = this->look(base, open);
 }

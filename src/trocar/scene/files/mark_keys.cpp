@@ -33,7 +33,7 @@ void check_mark(const JsonObject& o, MarkSetting& m, Context&) {
   if (!readable(m.label)) o.fault("label", fmt::format("expected at most three digits, got \"{}\"", m.label));
   if (!m.stripe) return check_disc(o, m);
   for (const char* key : {"place_mm", "normal", "diameter_mm", "label", "look", "high_mm"})
-    if (o.names(key)) o.fault(key, "expected none of a stripe (at_mm), which goes around its strand, got one");
+    if (o.names(key)) o.fault(key, "expected no normal of a stripe (at_mm), got one");
 }
 
 }  // namespace
@@ -43,15 +43,16 @@ const Table<MarkSetting>& mark() {
   using M = MarkSetting;
   static const Table<M> table{
       "mark",
-      "A disc, in space or on a body, pouch or wall, or a stripe around a strand: seen by exercises, felt by nothing.",
-      {needed(R::name("name", &M::name, "what exercises call it")),
+      "A disc, in space or on a body, pouch or wall, or a stripe around a strand. Exercises use it; it has no "
+      "mechanics.",
+      {needed(R::name("name", &M::name, "its name in exercises")),
        R::ref("on", Reference::To::marked, &M::on,
               "solid, pouch or wall that a disc lies on, strand that a stripe goes around; default: a disc in space"),
        R::vec3("place_mm", units::mm, &M::place, -kFar, kFar,
-               "middle of a disc; on something: the nearest place of that")
+               "centre of a disc; on a body: the nearest point of that body")
            .only(is_disc),
        R::vec3("normal", units::one, &M::normal, -1, 1,
-               "where a disc faces, any length; default: out of what it lies on"),
+               "normal of a disc, any length; default: the outward normal of its body"),
        R::number("diameter_mm", units::mm, &M::size, 0.5, 50, "of a disc, default {}").only(is_disc),
        R::number("at_mm", units::mm, &M::s, 0, 5000, "arc length on the strand of a stripe's middle").only(is_stripe),
        R::own(keys::number("width_mm", 0.2, 50, "of a stripe, default 1"), nullptr,
@@ -60,8 +61,8 @@ const Table<MarkSetting>& mark() {
               }),
        R::text("label", &M::label, "written on a disc: at most three digits, default none"),
        R::ref("look", Reference::To::look, &M::look,
-              "of a disc on a solid: how tissue is changed there, in place of paint; default none"),
-       R::number("high_mm", units::mm, &M::high, 0, 20, "by how much such tissue stands out, default {}").only(is_disc),
+              "of a disc on a solid: tissue change that is drawn there instead of paint; default none"),
+       R::number("high_mm", units::mm, &M::high, 0, 20, "height of the changed tissue, default {}").only(is_disc),
        R::own(
            keys::choice("colour", {kMarkColours.begin(), kMarkColours.end()}, "none: it is not drawn; default white"),
            [](const JsonObject& o, M& m, Context&) { m.colour = o.text("colour"); },

@@ -12,11 +12,11 @@ const Table<Station>& wave_station() {
   using R = Rows<Station>;
   static const Table<Station> table{
       "wave station",
-      "What waves are like at one place of the centre line; linear between stations.",
-      {needed(R::number("s_mm", units::mm, &Station::s, 0, 5000, "way along the centre line").placed(&Station::at)),
-       needed(R::number("pressure_kPa", units::kilo, &Station::pressure, 0, 100,
-                        "with which a crest presses the wall together")),
-       needed(R::number("speed_mm_s", units::mm, &Station::speed, 0.1, 200, "with which waves run there"))}};
+      "The waves at one point of the centre line; linear between stations.",
+      {needed(
+           R::number("s_mm", units::mm, &Station::s, 0, 5000, "arc length along the centre line").placed(&Station::at)),
+       needed(R::number("pressure_kPa", units::kilo, &Station::pressure, 0, 100, "pressure of a crest on the wall")),
+       needed(R::number("speed_mm_s", units::mm, &Station::speed, 0.1, 200, "speed of the waves there"))}};
   return table;
 }
 
@@ -35,7 +35,7 @@ void check_wave(const JsonObject& o, WaveSetting& w, Context&) {
   for (const Station& s : w.stations) {
     const double apart = s.speed * 60 / w.per_minute;
     if (!(w.width * kWidthsApart > apart)) continue;
-    o.fault("width_mm", fmt::format("expected at most half the way from wave to wave, {:.3g} mm ({} mm/s at {} per "
+    o.fault("width_mm", fmt::format("expected at most half of the wavelength, {:.3g} mm ({} mm/s at {} per "
                                     "minute), got {}",
                                     1000 * apart, 1000 * s.speed, w.per_minute, 1000 * w.width));
     return;
@@ -48,7 +48,7 @@ const Table<Carried>& carried() {
   using R = Rows<Carried>;
   static const Table<Carried> table{
       "carried body",
-      "A body whose holders in space go along with the breath.",
+      "A body whose fixed points move with breathing.",
       {needed(R::ref("body", Reference::To::carrier, &Carried::body, "a solid, strand, membrane or pouch")
                   .placed(&Carried::at)),
        R::number("share", units::one, &Carried::share, 0, 1, "of the amplitude, default {}")}};
@@ -68,10 +68,10 @@ const Table<Level>& level() {
   using R = Rows<Level>;
   static const Table<Level> table{
       "level of detail",
-      "What a thing is like from a distance on.",
+      "Detail of a body from a distance on.",
       {needed(R::number("from_mm", units::mm, &Level::from, 1, kFar, "its distance from the endoscope's tip")),
        needed(R::number("error_mm", units::mm, &Level::error, 0.001, 20,
-                        "by which its surface may depart from the full one")),
+                        "largest deviation of its surface from the full one")),
        R::integer("surface", &Level::surface, 0, 2,
                   "patterns: 2 all, 1 no fine flecks, 0 no vessels either; default {}")}};
   return table;
@@ -115,10 +115,10 @@ const Table<WaveSetting>& wave() {
        needed(R::number("per_minute", units::one, &W::per_minute, 0.1, 60, "waves that begin")),
        R::number("width_mm", units::mm, &W::width, 1, 100, "sigma of a wave's Gaussian profile, default {}"),
        R::number("first_s", units::one, &W::first, 0, 36000,
-                 "when a crest is at the centre line's beginning, default {}"),
-       R::number("cycle_s", units::one, &W::cycle, 1, 36000,
-                 "the organ is active for a share of this time and rests then, default {}"),
-       R::number("active_share", units::one, &W::active_share, 0, 1, "that share, default {}: always active")},
+                 "time at which a crest is at the centre line's start, default {}"),
+       R::number("cycle_s", units::one, &W::cycle, 1, 36000, "period of activity and rest, default {}"),
+       R::number("active_share", units::one, &W::active_share, 0, 1,
+                 "active share of the period, default {}: always active")},
       check_wave};
   return table;
 }
@@ -128,13 +128,13 @@ const Table<BreathingSetting>& breathing() {
   using B = BreathingSetting;
   static const Table<B> table{
       "breathing",
-      "What the diaphragm carries goes to and fro; a scene begins at the end of an expiration.",
+      "Breathing: bodies carried by the diaphragm move to and fro; a scene starts at the end of an expiration.",
       {needed(R::number("per_minute", units::one, &B::per_minute, 1, 60, "breaths")),
        needed(R::number("amplitude_mm", units::mm, &B::amplitude, 0, 50,
                         "from the end of an expiration to that of an inspiration")),
        R::vec3("direction", units::one, &B::direction, -1, 1,
                "of inspiration, any length, default {}: towards the feet"),
-       needed(R::objects("carries", carried, &B::carries, 1, "bodies that go along", check_carried))},
+       needed(R::objects("carries", carried, &B::carries, 1, "bodies that move with it", check_carried))},
       [](const JsonObject& o, B& b, Context&) {
         if (length(b.direction) > 1e-6) return;
         o.fault("direction", "expected a direction, got none");
@@ -147,9 +147,10 @@ const Table<DetailSetting>& detail() {
   using R = Rows<DetailSetting>;
   static const Table<DetailSetting> table{
       "detail",
-      "How finely things are drawn, by how far off they are. Distances are meant for a picture 600 px high through a "
+      "Level of detail by distance. Distances are for a picture 600 px high and a "
       "lens "
-      "of 70 degrees; in another one a thing changes at the same size. The physics knows nothing of it.",
+      "of 70 degrees; in other pictures the level changes at the same size on screen. The physics does not depend on "
+      "it.",
       {needed(R::refs("of", Reference::To::drawn, &DetailSetting::of,
                       "bodies, walls, instruments, ports (for their sleeves), cavity, endoscope, arteries, veins")),
        needed(R::objects("levels", level, &DetailSetting::levels, 0, "by rising from_mm; none: always in full",

@@ -61,9 +61,9 @@ const Table<TetSource>& voxel_body() {
   using R = Rows<TetSource>;
   static const Table<TetSource> table{
       "voxels",
-      "What fills one label of a segmented volume: NRRD, as 3D Slicer saves it.",
+      "The body of one label of a segmented volume: NRRD, as 3D Slicer saves it.",
       {file_row(), needed(R::integer("label", &TetSource::label, 1, 65535, "the value of the organ's voxels")),
-       R::integer("smoothing", &TetSource::smoothing, 0, 16, "passes that take away the voxels' steps, default {}"),
+       R::integer("smoothing", &TetSource::smoothing, 0, 16, "smoothing passes against the voxels' steps, default {}"),
        place_row()}};
   return table;
 }
@@ -157,7 +157,7 @@ void check_masses(const JsonObject& o, const Solid& s) {
   if (s.shape.nurbs->closing == NurbsShape::ring)
     o.fault("masses", "expected \"closed\": \"ends\" where masses are control points, got a ring");
   if ((s.shape.nurbs->degree[0] + 1) * (s.shape.nurbs->degree[1] + 1) > kMostCarriers)
-    o.fault("masses", fmt::format("expected degrees such that at most {} control points move a place, got {} and {}",
+    o.fault("masses", fmt::format("expected degrees with at most {} control points per surface point, got {} and {}",
                                   kMostCarriers, s.shape.nurbs->degree[0], s.shape.nurbs->degree[1]));
 }
 
@@ -241,16 +241,16 @@ std::vector<Row<Solid>> with_shapes(std::vector<Row<Solid>> rows) {
 std::vector<Row<Description>> organ_rows() {
   using R = Rows<Description>;
   return {
-      R::own(keys::name("name", "what it is called")),
+      R::own(keys::name("name", "its name")),
       R::own(keys::includes(
                  "organs", []() -> const Shape& { return organ_keys(); }, "organs that belong to it: files or objects"),
              [](const JsonObject& o, Description&, Context& c) { c.reading->organs(o, c.folder); }),
       R::objects("solids", solid, &Description::solids, 0, "volumetric organs"),
       R::objects("strands", strand, &Description::strands, 0, "tubes and cords"),
       R::objects("walls", wall, &Description::walls, 0, "surfaces that do not move"),
-      R::objects("sheets", sheet, &Description::sheets, 0, "folds that are only drawn"),
-      R::objects("membranes", membrane, &Description::membranes, 0, "folds that are bodies"),
-      R::objects("pouches", pouch, &Description::pouches, 0, "closed walls with something inside")};
+      R::objects("sheets", sheet, &Description::sheets, 0, "folds for display only"),
+      R::objects("membranes", membrane, &Description::membranes, 0, "folds with mechanics"),
+      R::objects("pouches", pouch, &Description::pouches, 0, "closed membranes with contents")};
 }
 
 }  // namespace
@@ -259,9 +259,9 @@ const Table<StiffnessRegion>& stiffness_region() {
   using R = Rows<StiffnessRegion>;
   static const Table<StiffnessRegion> table{
       "stiffness region",
-      "A dab that makes tissue stiffer or softer: whole within half of its radius, fading out to it. A later one "
+      "A local change of stiffness: full within half of its radius, fading out to the radius. A later one "
       "paints "
-      "over those before; 1 wipes them out.",
+      "over those before; 1 restores the tissue.",
       {needed(R::vec3("centre_mm", units::mm, &StiffnessRegion::centre, -kFar, kFar, "centre of the ball")),
        needed(R::number("radius_mm", units::mm, &StiffnessRegion::radius, 0.1, 500, "nothing beyond it")),
        needed(R::number("stiffness", units::one, &StiffnessRegion::stiffness, 0.1, 10, "times the tissue's"))}};
@@ -292,7 +292,7 @@ const Table<Solid>& solid() {
       "tetrahedra "
       "where they are cuttable.",
       with_shapes(
-          {needed(R::name("name", &Solid::name, "what scenes and exercises call it")),
+          {needed(R::name("name", &Solid::name, "its name in scenes and exercises")),
            needed(R::ref("tissue", Reference::To::tissue, &Solid::tissue, "its material")),
            look_row<Solid>(),
            R::objects("sections", section, &Solid::sections, 2, "from one end to the other",
@@ -322,13 +322,12 @@ const Table<Solid>& solid() {
            R::flag("cuttable", &Solid::cuttable, "can it be cut anywhere, so that pieces detach? default {}"),
            R::vec3("fibre", units::one, &Solid::fibre, -1, 1, "direction of its fibres everywhere, default: none"),
            R::lines("fibres_mm", units::mm, &Solid::fibre_strokes, -kFar, kFar, 2,
-                    "strokes along its fibres, instead of one direction: near a stroke they run as it does"),
+                    "strokes along its fibres, instead of one direction: fibres follow the nearest stroke"),
            R::flag("fibres_along", &Solid::fibres_along,
-                   "do its fibres run along its middle line, of its sections or its tube? default {}"),
+                   "true: its fibres run along the middle line of its sections or its tube; default {}"),
            R::number("fibre_ratio", units::one, &Solid::fibre_ratio, 0.2, 5,
                      "stiffness along the fibres over across, default {}"),
-           R::objects("regions", stiffness_region, &Solid::regions, 0,
-                      "where it is stiffer or softer than its tissue, dab by dab"),
+           R::objects("regions", stiffness_region, &Solid::regions, 0, "local changes of stiffness"),
            R::number("skin_edge_mm", units::mm, &Solid::skin_edge, 0.2, 100,
                      "edge of the touched skin's triangles, default: cell_mm")
                .only(of_lattice),
@@ -336,11 +335,10 @@ const Table<Solid>& solid() {
                      "edge of the drawn skin's triangles, default: half of skin_edge_mm")
                .only(of_lattice),
            R::objects("anchors", anchor, &Solid::anchors, 0, "what holds it"),
-           R::choice(
-               "solver", Choices<Solver>{{"dynamic", Solver::dynamic_network}, {"static", Solver::elastostatic}},
-               &Solid::solver,
-               "dynamic: springs and masses, step by step; static: linear elastostatics, which answers at once and "
-               "knows no inertia; default {}")
+           R::choice("solver", Choices<Solver>{{"dynamic", Solver::dynamic_network}, {"static", Solver::elastostatic}},
+                     &Solid::solver,
+                     "dynamic: springs and masses, step by step; static: quasi-static linear elastostatics, "
+                     "without inertia; default {}")
                .placed(&Solid::solver_at),
            R::choice(
                "elasticity",
@@ -351,10 +349,10 @@ const Table<Solid>& solid() {
            R::number(
                "beyond_deg", units::deg, &Solid::beyond_angle, 0.1, 180,
                "of a static solver: turn of the whole organ, or largest displacement beside that over the organ's size "
-               "(57.3 degrees: as large as it), that is too much for it, default {}"),
-           R::choice(
-               "beyond", Choices<BeyondLinear>{{"warn", BeyondLinear::warn}, {"hand_over", BeyondLinear::hand_over}},
-               &Solid::beyond, "what it does then: say so, or go over to the dynamic solver for good; default {}")}),
+               "(57.3 degrees: as large as it), beyond which the solver is inaccurate, default {}"),
+           R::choice("beyond",
+                     Choices<BeyondLinear>{{"warn", BeyondLinear::warn}, {"hand_over", BeyondLinear::hand_over}},
+                     &Solid::beyond, "then: warn, or switch to the dynamic solver permanently; default {}")}),
       check_solid};
   return table;
 }
@@ -365,7 +363,7 @@ const Table<Wall>& wall() {
       "wall",
       "A surface that does not move: a NURBS patch over a net of control points; d/drow x d/dcolumn points to the free "
       "side.",
-      {needed(R::name("name", &Wall::name, "what it is called")), look_row<Wall>(),
+      {needed(R::name("name", &Wall::name, "its name")), look_row<Wall>(),
        needed(R::own(keys::grid("net_mm", -kFar, kFar, 2, "rows of control points"), read_net, written_net)),
        weights_row<Wall>(),
        degree_row<Wall>("along a row and along a column, default: 3, or one less than there are points"),

@@ -56,7 +56,7 @@ void Reading::include(const fs::path& path, const core::Location& from, const Sh
     if (cycle) chain += name + " -> ";
   }
   if (cycle)
-    return refuse(fmt::format("expected files that do not include each other in a circle, got {}{}", chain,
+    return refuse(fmt::format("expected files that do not include each other in a cycle, got {}{}", chain,
                               path.generic_string()));
   if (m_open.size() >= kMaxIncludeDepth)
     return refuse(fmt::format("expected at most {} files inside each other, got more", kMaxIncludeDepth));

@@ -103,7 +103,7 @@ void Reading::check_together() {
   for (const WaveSetting& wave : description.peristalsis) check_wave(wave);
   for (const MarkSetting& mark : description.marks) check_mark(mark);
   if (description.variation && description.variation->bleeder && !description.bleeder)
-    tell(m_faults, {description.variation->at, "expected a bleeder whose hole can vary, got none in this scene"});
+    tell(m_faults, {description.variation->at, "expected a bleeder with a variable hole, got none in this scene"});
   if (description.variation)
     for (const VariationSetting::Finding& finding : description.variation->findings) check_finding(finding);
   if (description.variation && m_faults.empty()) check_variants();
@@ -114,7 +114,7 @@ void Reading::check_variants() {
   const std::vector<VariationSetting::Variant>& variants = common.variation->variants;
   if (!common.variant.empty() && !find_variant(*common.variation, common.variant))
     tell(m_faults, {common.variation->at,
-                    fmt::format("expected a variant \"{}\", which the scene asks for, got none", common.variant)});
+                    fmt::format("expected the variant \"{}\" of the scene, got none of this name", common.variant)});
   for (std::size_t i = 0; i < variants.size() && m_faults.empty(); ++i) {
     put_in(description, variants[i]);
     if (i < m_of_variants.size()) resolve(m_of_variants[i]);
@@ -262,8 +262,8 @@ void Reading::check_wave(const WaveSetting& wave) {
     const double whole = curve_length(line);
     for (const WaveSetting::Station& s : wave.stations)
       if (beyond(s.s, whole))
-        tell(m_faults, {s.at, fmt::format("expected a way on the centre line (at most {:.1f} mm), got {}", whole * 1000,
-                                          s.s * 1000)});
+        tell(m_faults, {s.at, fmt::format("expected an arc length on the centre line (at most {:.1f} mm), got {}",
+                                          whole * 1000, s.s * 1000)});
   }
 }
 

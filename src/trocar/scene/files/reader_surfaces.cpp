@@ -66,8 +66,7 @@ bool become_closed(const JsonObject& o, const std::string& parts, SurfaceSource&
   const geometry::Diagnosis before = geometry::examine(source.mesh);
   if (before.is_body()) return true;
   if (!source.mend) {
-    o.fault("file",
-            fmt::format("expected a closed surface, as it is not to be mended, got: {}{}", faults_of(before), parts));
+    o.fault("file", fmt::format("expected a closed surface, as mending is off, got: {}{}", faults_of(before), parts));
     return false;
   }
   geometry::MendedMesh mended = geometry::mend(source.mesh);

@@ -23,8 +23,9 @@ void refill(TetSource& source) {
   const double after = geometry::volume(filled);
   source.doubts.clear();
   if (after < kKept * before || after > before / kKept)
-    source.doubts.push_back(fmt::format("filled anew it holds {:.3g} of {:.3g} ml: a smaller \"refill_mm\" keeps more",
-                                        1e6 * after, 1e6 * before));
+    source.doubts.push_back(
+        fmt::format("filled with new cells it has {:.3g} of {:.3g} ml: a smaller \"refill_mm\" keeps more", 1e6 * after,
+                    1e6 * before));
   source.mesh = std::move(filled);
 }
 

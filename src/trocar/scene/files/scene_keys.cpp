@@ -48,13 +48,13 @@ const Table<Port>& port() {
   static const Table<Port> table{
       "port",
       "A trocar: the point about which an instrument turns.",
-      {needed(R::name("name", &Port::name, "what tools call it")),
+      {needed(R::name("name", &Port::name, "its name for instruments")),
        needed(R::vec3("position_mm", units::mm, &Port::position, -kFar, kFar, "the pivot, in the abdominal wall")),
        R::number("diameter_mm", units::mm, &Port::diameter, 2, 40, "inner diameter, default {}"),
        R::number("seal_friction_N", units::one, &Port::seal_friction, 0, 5,
                  "of its seal along a shaft, felt with a haptic device; default {}"),
        R::number("stiffness_N_mm", units::kilo, &Port::stiffness, 0, 100,
-                 "of the abdominal wall about it against a shaft that presses across itself; 0: rigid; default {}"),
+                 "stiffness of the abdominal wall around it against a shaft's sideways load; 0: rigid; default {}"),
        R::number("drift_mm", units::mm, &Port::drift, 0, 10,
                  "how far it moves from its place during an operation; default {}")}};
   return table;
@@ -68,7 +68,7 @@ std::vector<Row<T>> placement_rows(Of of) {
               "port", Reference::To::port, [of](auto& t) -> auto& { return of(t).port; }, "the port it passes")),
           needed(R::vec3(
                      "tip_mm", units::mm, [of](auto& t) -> auto& { return of(t).tip; }, -kFar, kFar,
-                     "where its tip stands at the start")
+                     "position of its tip at the start")
                      .placed([of](auto& t) -> auto& { return of(t).at; })),
           R::number(
               "roll_deg", units::deg, [of](auto& t) -> auto& { return of(t).roll; }, -360, 360,
@@ -112,7 +112,7 @@ std::vector<Row<Description>> scope_rows() {
 }
 
 const Table<Description>& scope() {
-  static const Table<Description> table{"scope", "The endoscope and where it stands at the start.", scope_rows(),
+  static const Table<Description> table{"scope", "The endoscope and its pose at the start.", scope_rows(),
                                         [](const JsonObject& o, Description& d, Context& c) {
                                           if (o.has("tip_mm")) c.reading->reaches(d.scope_placement);
                                         }};
@@ -124,17 +124,16 @@ const Table<FluidsSetting>& fluids() {
   using F = FluidsSetting;
   static const Table<F> table{
       "fluids",
-      "Blood that leaves vessels becomes drops and gathers in a pool; without this key it is only counted.",
-      {needed(R::vec3("pool_middle_mm", units::mm, &F::pool_middle, -kFar, kFar,
-                      "middle of the field in which a pool can be")),
+      "Free blood: drops and pooled fluid. Without this key lost blood is only counted.",
+      {needed(
+           R::vec3("pool_middle_mm", units::mm, &F::pool_middle, -kFar, kFar, "centre of the field for pooled fluid")),
        R::number("pool_size_mm", units::mm, &F::pool_size, 20, 1000, "edge of that field, default {}"),
        R::refs("pool_on", Reference::To::solid, &F::pool_on,
                "solids whose tops are part of its floor, as they lie, beside the walls"),
        R::integer("drops", &F::drops, 64, 65536, "at a time, default {}"),
-       R::number("pool_mL", units::millilitre, &F::pool_at_start, 0, 500,
-                 "blood that lies in the pool at the start, default {}"),
+       R::number("pool_mL", units::millilitre, &F::pool_at_start, 0, 500, "pooled blood at the start, default {}"),
        R::number("pool_bile_mL", units::millilitre, &F::bile_at_start, 0, 500,
-                 "bile that lies there with it, default {}")}};
+                 "pooled bile at the start, default {}")}};
   return table;
 }
 
@@ -144,11 +143,10 @@ const Table<Hole>& hole() {
   using R = Rows<Hole>;
   static const Table<Hole> table{
       "hole",
-      "Where a vessel may open.",
+      "A possible bleeding point of a vessel.",
       {needed(R::ref("vessel", Reference::To::vessel, &Hole::vessel, "artery or vein of the scene")),
        needed(R::number(
-           "at", units::one, [](auto& h) -> auto& { return h.at; }, 0, 1,
-           "place along it: 0 its beginning, 1 its end")),
+           "at", units::one, [](auto& h) -> auto& { return h.at; }, 0, 1, "position along it: 0 its start, 1 its end")),
        needed(R::number("diameter_mm", units::mm, &Hole::diameter, 0.01, 20, "of the hole"))},
       [](const JsonObject& o, Hole& h, Context&) { h.where = o.at(); }};
   return table;
@@ -158,10 +156,10 @@ const Table<BleederSetting>& bleeder() {
   using R = Rows<BleederSetting>;
   static const Table<BleederSetting> table{
       "bleeder",
-      "A vessel opens by itself: one of these holes, the first unless the scene's variation says that the seed "
-      "chooses.",
-      {needed(R::objects("holes", hole, &BleederSetting::holes, 1, "where that may be")),
-       R::number("opens_s", units::one, &BleederSetting::opens, 0, 36000, "when, after the start, default {}")}};
+      "Spontaneous bleeding from one of these holes: the first, unless the scene's variation lets the seed "
+      "choose.",
+      {needed(R::objects("holes", hole, &BleederSetting::holes, 1, "possible holes")),
+       R::number("opens_s", units::one, &BleederSetting::opens, 0, 36000, "time after the start, default {}")}};
   return table;
 }
 
@@ -170,9 +168,9 @@ const Table<EnergySetting>& energy() {
   using E = EnergySetting;
   static const Table<E> table{
       "energy",
-      "What the generator's panel is set to; without this key instruments have no current and nothing is heated.",
+      "Settings of the generator. Without this key instruments have no current and nothing is heated.",
       {R::choice("yellow", Choices<bool>{{"cut", false}, {"blend", true}}, &E::blend,
-                 "what the yellow pedal gives, default {}"),
+                 "mode of the yellow pedal, default {}"),
        R::number("yellow_W", units::one, &E::yellow_watts, 0, 120, "default {}"),
        R::number("blue_W", units::one, &E::blue_watts, 0, 120, "coagulation, default {}"),
        R::number("bipolar_W", units::one, &E::bipolar_watts, 0, 120, "blue pedal, bipolar forceps, default {}"),
@@ -251,26 +249,26 @@ std::vector<Row<Description>> scene_rows() {
   using R = Rows<Description>;
   using D = Description;
   std::vector<Row<Description>> rows{
-      needed(R::name("name", &D::name, "what exercises call it")),
-      R::own(keys::text(kLike, "a scene file: what this one does not say is as there, key by key")),
-      R::text("title", &D::title, "one line for people"),
+      needed(R::name("name", &D::name, "its name in exercises")),
+      R::own(keys::text(kLike, "a scene file that supplies the missing keys")),
+      R::text("title", &D::title, "one line for lists"),
       R::vec3("gravity_m_s2", units::one, &D::gravity, -100, 100, "in the patient's frame, default {}"),
       included("tissues", tissue, &D::tissues, &Reading::tissues, "materials: tables in files, or rows"),
       organs_row(),
       vessels_row(),
-      R::object("fluids", fluids, &D::fluids, "drops and a pool, default none"),
-      R::object("bleeder", bleeder, &D::bleeder, "a vessel that opens by itself, default none"),
+      R::object("fluids", fluids, &D::fluids, "drops and pooled fluid, default none"),
+      R::object("bleeder", bleeder, &D::bleeder, "spontaneous bleeding of a vessel, default none"),
       R::object("energy", energy, &D::energy, "current and heat, default none"),
       R::objects("peristalsis", wave, &D::peristalsis, 0, "waves of hollow organs, default none"),
       R::object("breathing", breathing, &D::breathing, "default none"),
-      R::objects("detail", detail, &D::detail, 0, "how finely things are drawn, default: as far as one sees it",
-                 check_details),
-      R::objects("marks", mark, &D::marks, 0, "what exercises look for or work at, default none"),
-      R::object("variation", variation, &D::variation, "what another seed makes different, default nothing"),
-      R::name("variant", &D::variant, "one of the variation's variants, which every seed has; default: the seed draws"),
+      R::objects("detail", detail, &D::detail, 0, "level of detail, default: by visibility", check_details),
+      R::objects("marks", mark, &D::marks, 0, "marks for exercises, default none"),
+      R::object("variation", variation, &D::variation, "random variation by seed, default none"),
+      R::name("variant", &D::variant, "a variant that every seed has; default: drawn by the seed"),
       included("instruments", instrument, &D::instruments, &Reading::instruments, "instruments: files or objects"),
       needed(R::objects("ports", port, &D::ports, 1, "trocars")),
-      R::flag("instruments_push", &D::instruments_push, "instruments that meet push each other aside, default {}"),
+      R::flag("instruments_push", &D::instruments_push,
+              "true: instruments in contact push each other aside, default {}"),
       needed(R::objects("tools", tool, &D::placements, 0, "in the order of the hands: left, right, assistant",
                         check_tool)),
       needed(R::object(
@@ -287,7 +285,7 @@ const Table<Tissue>& tissue() {
   static const Table<T> table{
       "tissue",
       "A material: sigma = E eps (1 + p1 |eps| + p2 eps^2), continued linearly beyond strain_cap.",
-      {needed(R::name("name", &T::name, "what solids and strands call it")),
+      {needed(R::name("name", &T::name, "its name for solids and strands")),
        needed(R::number("density_kg_m3", units::one, &T::density, 1, 25000, "mass per volume")),
        needed(R::number("young_Pa", units::one, &T::young, 1, 1e9, "Young's modulus E at small strain")),
        R::number("poisson", units::one, &T::poisson, 0.25, 0.45,
@@ -300,14 +298,13 @@ const Table<Tissue>& tissue() {
                  "strain at which it tears, default {}: never"),
        R::number("damping_ms", units::one, &T::damping_ms, 0, 1000, "stiffness-proportional damping time, default {}"),
        R::number("fracture_J_m2", units::one, &T::fracture, 0, 1e6,
-                 "of an organ: what it takes to tear a square metre off its surface, where bonds are tougher than "
-                 "that; default {}: they never tear it"),
-       R::number(
-           "puncture_N", units::one, &T::puncture, 0, 50,
-           "force at which a suture needle's tip gets through its surface, a ground injection needle's at a third; "
-           "default {}; 0: none does"),
+                 "of an organ: energy that tears a square metre off its surface, where bonds are tougher than "
+                 "that; default {}: bonds never tear it"),
+       R::number("puncture_N", units::one, &T::puncture, 0, 50,
+                 "force at which a suture needle's tip pierces its surface; a ground injection needle needs a third; "
+                 "default {}; 0: not pierceable"),
        R::number("stitch_damage_N", units::one, &T::stitch_damage, 0, 100,
-                 "pull of a thread from which on a stitch harms; three times that cuts through; default {}: 2"),
+                 "pull of a thread from which a stitch damages it; three times that cuts through; default {}: 2"),
        R::number("strangle_N", units::one, &T::strangle, 0, 200,
                  "tension of a sling's loop that cuts through a strand of it, default {}: 8"),
        needed(R::text("source", &T::source, "source of the figures: a publication, or \"our estimate\"")),
@@ -325,7 +322,7 @@ const Table<Description>& tissue_file_keys() {
 }
 
 const Table<Description>& scene_file_keys() {
-  static const Table<Description> table{"scene", "Organs, instruments and where they stand.", of_file(scene_rows()),
+  static const Table<Description> table{"scene", "Organs, instruments and their poses.", of_file(scene_rows()),
                                         [](const JsonObject& o, Description& d, Context&) { d.file = o.at().file; }};
   return table;
 }

@@ -21,7 +21,7 @@ const Table<SurfaceSource>& surface_source() {
        R::text("part", &SurfaceSource::part, "the one of this name of several in the file, default: all together"),
        R::number("unit_mm", units::mm, &SurfaceSource::unit, 1e-6, 1e6,
                  "unit of its coordinates, default: what its format says (glTF: 1000), else 1"),
-       R::flag("mend", &SurfaceSource::mend, "is it mended where it is no closed surface? default {}"),
+       R::flag("mend", &SurfaceSource::mend, "true: defects of an open surface are mended; default {}"),
        R::vec3("place_mm", units::mm, &SurfaceSource::place, -kFar, kFar,
                "where its origin goes, default: the origin")}};
   return table;

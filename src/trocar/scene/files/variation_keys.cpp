@@ -28,18 +28,20 @@ const Table<V::Region>& region() {
   using G = V::Region;
   static const Table<G> table{
       "region",
-      "A part of space that is bent, smoothly, with all that lies there: whole about its middle, fading out further "
-      "off. Figures are the most that a seed takes, to either side.",
+      "A smooth deformation of a part of space with all bodies in it: full around its middle, fading out further "
+      "off. Figures are the largest random change in each direction.",
       {R::ref("around", Reference::To::solid_or_strand, &G::around,
               "its middle: where a strand begins, or the middle of a solid")
            .placed(&G::around_at),
        R::vec3("centre_mm", units::mm, &G::centre, -kFar, kFar, "or a place"),
        R::vec3("towards", units::one, &G::towards, -1, 1,
                "only on this side of the middle, any length, default: all around"),
-       R::number("begins_mm", units::mm, &G::begins, -500, 500, "way in that direction at which it begins, default {}"),
-       R::number("whole_mm", units::mm, &G::whole, -500, 500, "and at which it is whole, default {}"),
-       R::number("near_mm", units::mm, &G::near, 0, 1000, "distance from the middle to which it is whole, default {}"),
-       R::number("far_mm", units::mm, &G::far, 1, 1000, "from which on there is nothing of it, default {}"),
+       R::number("begins_mm", units::mm, &G::begins, -500, 500,
+                 "distance in that direction at which it begins, default {}"),
+       R::number("whole_mm", units::mm, &G::whole, -500, 500, "distance at which it is full, default {}"),
+       R::number("near_mm", units::mm, &G::near, 0, 1000,
+                 "distance from the middle up to which it is full, default {}"),
+       R::number("far_mm", units::mm, &G::far, 1, 1000, "distance from which it is zero, default {}"),
        R::number("scale", units::one, &G::scale, 0, 0.5, "of lengths, relative; default {}"),
        R::number("length", units::one, &G::length, 0, 0.5, "of lengths along the axis, relative; default {}"),
        R::number("shift_mm", units::mm, &G::shift, 0, 50, "along x, y and z, default {}"),
@@ -53,7 +55,7 @@ const Table<V::Girth>& girth() {
   using R = Rows<V::Girth>;
   static const Table<V::Girth> table{
       "girth",
-      "Bodies that are thicker or thinner, all by one share.",
+      "Bodies that are thicker or thinner by a common factor.",
       {needed(R::refs("of", Reference::To::carrier, &V::Girth::of, "solids, strands, membranes and pouches")),
        needed(R::number("radius", units::one, &V::Girth::radius, 0, 0.5,
                         "of half axes, radii, a membrane's thickness; relative, at most"))}};
@@ -64,11 +66,12 @@ const Table<V::Finding>& finding() {
   using R = Rows<V::Finding>;
   static const Table<V::Finding> table{
       "finding",
-      "Something that is found in some patients and not in others: a mark, and what goes with it.",
-      {needed(R::name("mark", &V::Finding::mark, "the mark, which is left out where it is not found")),
-       R::texts("with", &V::Finding::with, "marks that are there when it is"),
+      "A finding of some patients: a mark and its related changes.",
+      {needed(R::name("mark", &V::Finding::mark, "the mark, which is absent in the other patients")),
+       R::texts("with", &V::Finding::with, "marks that are present together with it"),
        R::number("share", units::one, &V::Finding::share, 0, 1,
-                 "of patients in whom it is found, each by itself, always with seed 0; default {}: one of `present`"),
+                 "share of patients with this finding, independent of others, always with seed 0; default {}: one of "
+                 "`present`"),
        R::ref("solid", Reference::To::solid, &V::Finding::solid, "a lofted organ that is narrow there, default none"),
        R::number("narrower", units::one, &V::Finding::narrower, 0, 0.6, "its half axes, relative; default {}"),
        R::number("over_mm", units::mm, &V::Finding::over, 1, 200, "as far to either side, fading out; default {}")}};
@@ -80,13 +83,13 @@ const Table<V::Variant::Hold>& variant_hold() {
   using R = Rows<H>;
   static const Table<H> table{
       "variant hold",
-      "Where a pouch's wall rides on something that a variant brings: an artery's end, say.",
+      "An attachment of a pouch's wall to a body of the variant, for example to an artery's end.",
       {needed(R::ref("pouch", Reference::To::pouch, &H::pouch, "whose wall")),
-       needed(R::ref("on", Reference::To::solid_or_strand, &H::on, "what it rides on")),
-       needed(R::vec3("centre_mm", units::mm, &H::centre, -kFar, kFar, "middle of the ball whose nodes ride")),
+       needed(R::ref("on", Reference::To::solid_or_strand, &H::on, "the body that carries it")),
+       needed(R::vec3("centre_mm", units::mm, &H::centre, -kFar, kFar, "centre of the ball of attached nodes")),
        needed(R::number("radius_mm", units::mm, &H::radius, 0.1, 100, "its radius")),
        R::vec3("instead_mm", units::mm, &H::instead, -kFar, kFar,
-               "the pouch's hold nearest to this place ends; default: none does")}};
+               "the pouch's hold nearest to this point is removed; default: none")}};
   return table;
 }
 
@@ -104,11 +107,12 @@ const Table<FatSetting::Fill>& more_fill() {
 const Table<V::Variant::MoreFat>& more_fat() {
   using F = V::Variant::MoreFat;
   using R = Rows<F>;
-  static const Table<F> table{"more fat",
-                              "More of a fat that a scene has; scenes that have none of its name go without.",
-                              {needed(R::name("of", &F::of, "the fat's name")),
-                               R::objects("fills", more_fill, &F::fills, 0, "where it is, too"),
-                               R::refs("on", Reference::To::carrier, &F::on, "what it holds on, too")}};
+  static const Table<F> table{
+      "more fat",
+      "Additional volume of a fat of the scene; scenes without this fat ignore it.",
+      {needed(R::name("of", &F::of, "the fat's name")),
+       R::objects("fills", more_fill, &F::fills, 0, "additional positions"),
+       R::refs("on", Reference::To::carrier, &F::on, "additional bodies that it is attached to")}};
   return table;
 }
 
@@ -124,7 +128,7 @@ std::vector<Row<V::Variant>> bringing_rows() {
   return {R::own(
               keys::includes(
                   "organs", []() -> const Shape& { return organ_keys(); },
-                  "bodies that it brings: files or objects; one of a name that the scene has takes its place"),
+                  "bodies that it adds: files or objects; a body with a name of the scene replaces that one"),
               [](const JsonObject& o, T& v, Context& c) { c.reading->variant_bodies(o, c.folder, v); },
               [](const T& v, bool) {
                 return brought(v, v.brings && !organ_keys().written(*v.brings).members.empty(),
@@ -149,7 +153,7 @@ Row<V> variants_row() {
   return Rows<V>::own(
       keys::objects(
           "variants", []() -> const Shape& { return variant_keys(); }, 0,
-          "another anatomy that some patients have: at most one a patient"),
+          "variants of the anatomy: at most one for each patient"),
       [](const JsonObject& o, V& v, Context& c) {
         for (const JsonObject& one : o.objects("variants")) c.reading->variant(one, c.folder, v);
       },
@@ -186,15 +190,14 @@ const Table<VariationSetting::Variant>& variant_keys() {
   using T = V::Variant;
   using R = Rows<T>;
   static const Table<T> table{
-      "variant", "An anatomy that some patients have instead of the common one.", [] {
+      "variant", "A variant of the anatomy in some patients.", [] {
         std::vector<Row<T>> rows{
-            needed(R::name("name", &T::name, "what results call it")),
-            needed(R::text("title", &T::title, "for people")),
-            needed(R::number("share", units::one, &T::share, 0, 1, "of patients who have it")),
+            needed(R::name("name", &T::name, "its name in results")), needed(R::text("title", &T::title, "for people")),
+            needed(R::number("share", units::one, &T::share, 0, 1, "share of patients with this variant")),
             needed(R::text("source", &T::source, "of the share: a publication, or \"our estimate\""))};
         for (Row<T>& row : bringing_rows()) rows.push_back(std::move(row));
-        rows.push_back(R::objects("holds", variant_hold, &T::holds, 0, "where walls of pouches ride on it"));
-        rows.push_back(R::objects("fat", more_fat, &T::fat, 0, "more of the fat that a scene has"));
+        rows.push_back(R::objects("holds", variant_hold, &T::holds, 0, "attachments of pouches' walls to it"));
+        rows.push_back(R::objects("fat", more_fat, &T::fat, 0, "additional volumes of fats of the scene"));
         return rows;
       }()};
   return table;
@@ -206,14 +209,15 @@ const Table<VariationSetting>& variation() {
       "variation",
       "Differences that another seed makes, and their greatest size; without this key every seed is the standard "
       "patient.",
-      {R::objects("regions", region, &V::regions, 0, "where bodies lie, how large they are and how they are turned"),
-       R::objects("girths", girth, &V::girths, 0, "how thick they are"),
-       R::number("stiffness", units::one, &V::stiffness, 0, 0.9, "of every tissue, relative; default {}"),
-       R::number("foundation", units::one, &V::foundation, 0, 0.9, "of every strand's hold, relative; default {}"),
-       R::flag("bleeder", &V::bleeder, "which of the bleeder's holes opens; default {}: the first"),
-       R::objects("findings", finding, &V::findings, 0, "what is found in some patients"),
+      {R::objects("regions", region, &V::regions, 0, "positions, sizes and rotations of bodies"),
+       R::objects("girths", girth, &V::girths, 0, "thickness of bodies"),
+       R::number("stiffness", units::one, &V::stiffness, 0, 0.9, "stiffness of every tissue, relative; default {}"),
+       R::number("foundation", units::one, &V::foundation, 0, 0.9,
+                 "stiffness of every strand's foundation, relative; default {}"),
+       R::flag("bleeder", &V::bleeder, "true: the seed draws the bleeding hole; default {}: the first"),
+       R::objects("findings", finding, &V::findings, 0, "findings of some patients"),
        R::integer("present", &V::present, 0, 64,
-                  "so many of the findings are there, drawn by the seed; with seed 0 the first; default {}"),
+                  "number of findings that are present, drawn by the seed; with seed 0 the first; default {}"),
        variants_row()},
       check_variation};
   return table;

@@ -48,12 +48,12 @@ const Table<VesselLine>& vessel() {
   static const Table<L> table{
       "vessel",
       "A piece of artery or vein between two nodes. Its wall: a wave speed, or a modulus and a thickness.",
-      {needed(R::name("name", &L::name, "what exercises and results call it")),
+      {needed(R::name("name", &L::name, "its name in exercises and results")),
        needed(R::name("from", &L::from_node, "the node it comes from, towards the heart in arteries")),
        needed(R::name("to", &L::to_node, "the node it leads to")),
        needed(R::points("path_mm", units::mm, &L::path, -kFar, kFar, 2, "its middle line, drawn through these points")),
        R::number("length_mm", units::mm, &L::length, 0.01, 5000,
-                 "where it is more tortuous than its path, default: the path's"),
+                 "length if it is more tortuous than its path, default: the path's"),
        needed(R::number("radius_mm", units::mm, &L::radius, 0.001, 50,
                         "of its lumen at its beginning, at the mean pressure")),
        R::number("radius_to_mm", units::mm, &L::radius_to, 0.001, 50, "at its end, default: the same"),
@@ -68,9 +68,8 @@ const Table<VesselLine>& vessel() {
            "poisson", units::one, [](auto& l) -> auto& { return l.wall.poisson; }, 0, 0.5,
            "of its wall, default {}, as in the formula of Moens and Korteweg"),
        R::number("loss", units::one, &L::loss, 0, 1000,
-                 "what a narrow or a bend costs beside friction, in rho u^2 / 2, default {}"),
-       R::texts("rides_on", &L::rides_on,
-                "solids, strands, membranes and pouches that it goes with where they are near"),
+                 "pressure loss of a stenosis or a bend besides friction, in rho u^2 / 2, default {}"),
+       R::texts("rides_on", &L::rides_on, "solids, strands, membranes and pouches that carry it where they are near"),
        R::number("reach_mm", units::mm, &L::reach, 0.1, 100, "how near that is, default {}")},
       check_wall};
   return table;
@@ -82,12 +81,13 @@ const Table<EndLine>& vessel_end() {
   static const Unit ml_min{[](double v) { return v / 60e6; }, [](double v) { return v * 60e6; }};
   static const Table<L> table{
       "vessel end",
-      "Where a node's blood goes: a mean flow, without reflection, or a resistance, then a compliance beside another.",
+      "The outflow of a node: a mean flow without reflection, or a resistance in series with a compliance parallel to "
+      "a second resistance.",
       {needed(R::name("node", &L::name_of_node, "a node at which vessels end")),
        R::number("flow_mL_min", ml_min, &L::flow, 0.001, 20000, "mean flow"),
        R::number("at_mmHg", units::mmhg, &L::flow_pressure, 1, 300, "with this mean pressure at the node, default {}"),
        R::number("time_s", units::one, &L::time, 0, 100,
-                 "with which the pressure falls when nothing comes, default {}"),
+                 "time constant of the pressure's decay without inflow, default {}"),
        R::number("near_mmHg_s_mL", units::mmhg_s_ml, &L::r_near, 0, 1e9, "first resistance"),
        R::number("far_mmHg_s_mL", units::mmhg_s_ml, &L::r_far, 0, 1e9, "second resistance"),
        R::number("compliance_mL_mmHg", units::ml_mmhg, &L::compliance, 0, 1000, "between the two, default {}"),
@@ -102,7 +102,7 @@ const Table<SourceLine>& vessel_source() {
   using Kind = VesselSource::Kind;
   static const Table<L> table{
       "vessel source",
-      "What feeds a node. Clips must stand between every source and a hole to stop its bleeding.",
+      "The inflow of a node. Clips between every source and a hole stop its bleeding.",
       {needed(R::name("node", &L::name_of_node, "the node")),
        R::choice("kind", Choices<Kind>{{"heart", Kind::heart}, {"steady", Kind::steady}}, &L::kind,
                  "default {}: its beat; steady: one pressure"),
@@ -135,7 +135,7 @@ const Table<VesselTree>& vessel_file_keys() {
   using R = Rows<VesselTree>;
   using T = VesselTree;
   static const Table<T> table{
-      "vessel file", "Arteries or veins: a graph of vessels and what feeds it.",
+      "vessel file", "Arteries or veins: a graph of vessels and its sources.",
       of_file<T>({needed(R::name("name", &T::name, "of all of them")),
                   R::own(keys::choice("kind", {"arteries", "veins"},
                                       "default arteries; opened veins ooze also at low pressure")),
@@ -146,7 +146,7 @@ const Table<VesselTree>& vessel_file_keys() {
                       "blood_L", units::litre, [](auto& t) -> auto& { return t.graph.blood.volume; }, 0.01, 100,
                       "in the whole patient, default {}"),
                   R::number("pulse_gain", units::one, &T::pulse_gain, 0, 50,
-                            "of the pulse's force on tissue and of what is shown of it, default {}: physical"),
+                            "gain of the pulse's force on tissue and of its display, default {}: physical"),
                   R::own(keys::object(
                       "heart", []() -> const Shape& { return heart(); }, "default: as at rest")),
                   needed(list_row("vessels", vessel, 1, vessels::kMaxSegments, "in any order")),

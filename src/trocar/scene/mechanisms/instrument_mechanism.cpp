@@ -170,7 +170,8 @@ void take_linkage(const Instrument& i, interactions::ToolModel& tool, std::vecto
   LedLinkage led(m, drive, upper, lower, sling ? LedLinkage::along : parallel ? LedLinkage::gap : LedLinkage::angle);
   Ways ways;
   if (const std::string why = find_ways(led, ways); !why.empty()) {
-    faults.push_back({i.linkage.at, "expected a linkage that closes the jaws all along the handle's way, got " + why});
+    faults.push_back(
+        {i.linkage.at, "expected a linkage that closes the jaws over the handle's whole range, got " + why});
     return;
   }
   constexpr int last = interactions::kLinkageSteps;

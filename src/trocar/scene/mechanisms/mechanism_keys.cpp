@@ -30,13 +30,13 @@ const Shape& mechanism_parameter_keys() {
   static const Shape shape{
       "parameter",
       "A dimension with a name: a length, an angle or a ratio. Design studies change it.",
-      {needed(keys::name("name", "what dimensions call it; letters, digits and _")),
+      {needed(keys::name("name", "its name in dimensions; letters, digits and _")),
        keys::number("length_mm", -kFarMechanism, kFarMechanism, "of a length: its value"),
        keys::number("angle_deg", -kMostDegrees, kMostDegrees, "of an angle: its value"),
        keys::number("ratio", -kMostRatio, kMostRatio, "of a ratio: its value"),
        list(keys::numbers("between", -kMostRatio, kMostRatio, 2, "low and high, within which a study may change it"),
             2),
-       keys::number("plus_minus", 0, kFarMechanism, "as made, default: not said")}};
+       keys::number("plus_minus", 0, kFarMechanism, "manufacturing tolerance, default: unknown")}};
   return shape;
 }
 
@@ -52,7 +52,8 @@ const Shape& mechanism_dh_keys() {
 const Shape& mechanism_joint_keys() {
   static const Shape shape{
       "joint",
-      "How a link moves against its parent. Coordinates: of one freedom the joint's name, of several NAME.angle, "
+      "The motion of a link against its parent. Coordinates: with one freedom the joint's name, with several "
+      "NAME.angle, "
       ".slide, "
       ".about_x, .about_y, .about_z, .along_x, .along_y.",
       {needed(keys::choice(
@@ -85,10 +86,10 @@ const Shape& mechanism_shape_keys() {
 const Shape& mechanism_link_keys() {
   static const Shape shape{
       "mechanism link", "A rigid part. at_mm, turn_deg or dh: where its joint is on its parent.",
-      with_place(needed(keys::name("name", "what others call it")),
+      with_place(needed(keys::name("name", "its name")),
                  keys::name("parent", "the link that its joint is on, default: ground, the fixed frame"),
                  needed(keys::object("joint", mechanism_joint_keys, "how it moves")),
-                 keys::number("mass_g", 0, 1e7, "default 0; wanted by dynamics only"),
+                 keys::number("mass_g", 0, 1e7, "default 0; used by dynamics only"),
                  keys::vec3("centre_mm", -kFarMechanism, kFarMechanism, "of mass, default [0, 0, 0]"),
                  list(keys::numbers("inertia_g_mm2", -1e15, 1e15, 6, "about it: xx, yy, zz, xy, xz, yz; default 0"), 6),
                  list(keys::objects("shapes", mechanism_shape_keys, 0, "default: none"), 50))};
@@ -129,7 +130,7 @@ const Shape& mechanism_coupling_keys() {
 const Shape& mechanism_actuator_keys() {
   static const Shape shape{
       "actuator",
-      "A driven coordinate, from where the drive stands at 0 to where it stands at 1.",
+      "A driven coordinate, from its value at drive 0 to its value at drive 1.",
       {needed(keys::name("name", "of the drive: handle, motor")), needed(keys::text("coordinate", "which it drives")),
        dimension("at_0_deg", "of an angle"), dimension("at_1_deg", "of an angle"), dimension("at_0_mm", "of a slide"),
        dimension("at_1_mm", "of a slide")}};
@@ -138,7 +139,7 @@ const Shape& mechanism_actuator_keys() {
 
 const Shape& mechanism_frame_keys() {
   static const Shape shape{"mechanism frame", "A named place on a link: a tip, a remote centre.",
-                           with_place(needed(keys::name("name", "what goals and tables call it")),
+                           with_place(needed(keys::name("name", "its name in goals and tables")),
                                       keys::name("link", "which it is fixed on, default: ground"))};
   return shape;
 }
@@ -151,8 +152,8 @@ const Shape& mechanism_end_keys() {
 const Shape& mechanism_closure_keys() {
   static const Shape shape{
       "closure",
-      "What holds two links together that joints do not: it closes a loop.",
-      {needed(keys::name("name", "what messages call it")),
+      "A constraint between two links besides the joints. It closes a loop.",
+      {needed(keys::name("name", "its name in messages")),
        keys::choice("kind", closure_words(),
                     "All directions (rigid). Free about z (pin), about a point (ball), along a's x (slider), along and "
                     "about z (cylinder). B's origin on a's x axis (slot), on its z axis (through), on its plane of x "
@@ -167,7 +168,7 @@ const Shape& mechanism_spring_keys() {
   static const Shape shape{
       "spring",
       "A spring and damper between two points, for dynamics.",
-      {needed(keys::name("name", "what messages call it")), needed(keys::object("a", mechanism_end_keys, "one end")),
+      {needed(keys::name("name", "its name in messages")), needed(keys::object("a", mechanism_end_keys, "one end")),
        needed(keys::object("b", mechanism_end_keys, "the other")), keys::number("stiffness_N_m", 0, 1e9, "default 0"),
        keys::number("damping_N_s_m", 0, 1e9, "default 0"),
        keys::number("rest_mm", 0, kFarMechanism, "length without force, default 0")}};
@@ -178,9 +179,9 @@ const Shape& mechanism_shape() {
   using kinematics::kMostLinks;
   static const Shape shape{
       "mechanism file",
-      "Links, the joints that they hang by, what closes loops between them, and what drives them.",
+      "A mechanism: links with joints, loop closures, couplings and drives.",
       {keys::text("$schema", "where editors find this kind of file's schema"), keys::format(1),
-       needed(keys::name("name", "of the mechanism")), keys::text("title", "one line for people"),
+       needed(keys::name("name", "of the mechanism")), keys::text("title", "one line for lists"),
        list(keys::objects("parameters", mechanism_parameter_keys, 0, "dimensions with names"), 500),
        needed(list(keys::objects("links", mechanism_link_keys, 1, "in any order"), kMostLinks)),
        list(keys::objects("motors", mechanism_motor_keys, 0, "coordinates without a link"), 100),

@@ -17,12 +17,12 @@ const Shape& bag_shape() {
       "A retrieval bag, which comes out of the sleeve of an instrument of the kind \"bag\". Things are put into it "
       "through "
       "its mouth, which is drawn shut before it goes out by the port.",
-      {needed(keys::name("name", "what exercises call it")),
-       keys::text("look", "its cloth in the picture, default \"bag_film\""),
+      {needed(keys::name("name", "its name in exercises")),
+       keys::text("look", "material of its cloth, default \"bag_film\""),
        keys::number("mouth_mm", 20, 120, "diameter of its open hoop, default 60"),
        keys::number("deep_mm", 20, 250,
                     "from the mouth to the bottom, at least three quarters of mouth_mm; default 110"),
-       keys::number("weight_g", 1, 50, "of the cloth with what clings to it, default 4")}};
+       keys::number("weight_g", 1, 50, "mass of the cloth with adhering fluid, default 4")}};
   return shape;
 }
 
@@ -46,7 +46,7 @@ bool brings_bags(const sim::HandModel& hand) {
 }  // namespace
 
 Key BagScene::row() {
-  Key row = keys::objects(kKey, bag_shape, 0, "the bag that things are taken out with, default none");
+  Key row = keys::objects(kKey, bag_shape, 0, "the retrieval bag, default none");
   row.max_count = 1;
   return row;
 }

@@ -27,11 +27,10 @@ const Shape& fill_shape() {
 const Shape& nodule_shape() {
   static const Shape shape{
       "nodule",
-      "Lobules within a thick line that are drawn as one thing: a lymph node. For the picture only; "
-      "they are fat in all else.",
+      "Lobules within a thick line that are drawn as one lymph node. For display only; "
+      "mechanically they are fat.",
       {needed(keys::points("line_mm", -kFatFar, kFatFar, 1, "its middle; one point: a ball")),
-       needed(keys::number("radius_mm", 1, 100, "half its thickness")),
-       needed(keys::text("look", "its surface in the picture"))}};
+       needed(keys::number("radius_mm", 1, 100, "half its thickness")), needed(keys::text("look", "its material"))}};
   return shape;
 }
 
@@ -41,21 +40,21 @@ const Shape& fat_shape() {
       "Fat and areolar tissue: lobules that septa tie to each other, and that hold on what they lie on. They are "
       "teased "
       "apart, cut, coagulated and boiled away.",
-      {needed(keys::name("name", "what exercises call it")),
+      {needed(keys::name("name", "its name in exercises")),
        keys::text("look", "its surface in the picture, default \"fat\""),
-       needed(keys::objects("fills", fill_shape, 1, "where it is, as far as nothing else is there")),
+       needed(keys::objects("fills", fill_shape, 1, "its volume, except where other bodies are")),
        keys::objects("nodules", nodule_shape, 0, "lymph nodes in it, default none"),
-       keys::texts("on", "strands, solids and pouches that it holds on, where they are near"),
+       keys::texts("on", "strands, solids and pouches that it is attached to, where they are near"),
        keys::number("reach_mm", 0.2, 20, "how near that is, default 3"),
        keys::number("spacing_mm", 1, 10, "of its lobules, default 2.5"),
        keys::number("young_Pa", 100, 1e5, "small-strain modulus, default 3000"),
-       keys::number("opens", 0.2, 5, "strain at which a septum is gone, default 1.2"),
+       keys::number("opens", 0.2, 5, "failure strain of a septum, default 1.2"),
        keys::number("serosa_N_m", 0, 1000,
                     "modulus times thickness of the serosa over its free faces, default 50; 0: none"),
        keys::number("serosa_opens", 0.2, 5, "strain at which that has torn, default 1"),
-       keys::number("toughness_J_m2", 0.1, 1000, "of what holds it on others, default 15"),
-       keys::number("holds_to_mm", 0.5, 20, "how far that opens until nothing holds, default 4"),
-       keys::number("water", 0.05, 0.95, "share of its mass that boils away before it is gone, default 0.15"),
+       keys::number("toughness_J_m2", 0.1, 1000, "fracture energy of its attachments, default 15"),
+       keys::number("holds_to_mm", 0.5, 20, "opening at which an attachment has separated, default 4"),
+       keys::number("water", 0.05, 0.95, "share of its mass that vaporises before it is removed, default 0.15"),
        keys::number("density_kg_m3", 500, 1500, "default 920")}};
   return shape;
 }
@@ -150,8 +149,8 @@ void compile_one(const FatSetting& s, sim::Model& model, std::vector<core::Fault
   body.roots = roots_of(s, filling, model);
   body.ties = ties_of(s, filling, body.roots, model);
   if (body.roots.bonds.empty() && body.ties.empty()) {
-    faults.push_back({s.at, fmt::format("expected something of \"on\" within {} mm of \"{}\", got nothing to hold on",
-                                        1000 * s.reach, s.name)});
+    faults.push_back(
+        {s.at, fmt::format("expected a body of \"on\" within {} mm of \"{}\", got none", 1000 * s.reach, s.name)});
     return;
   }
   body.fat = tissue::build(described(s, filling, model), sim::kTick);

@@ -21,12 +21,11 @@ const Shape& rigid_shape() {
       "rigid object",
       "A body that does not bend: a ring, a thick line of points, or a pebble. It falls, lies on walls and tissue, and "
       "is held by jaws.",
-      {needed(keys::name("name", "what exercises call it")),
-       keys::text("look", "its surface in the picture, default \"plastic\""),
+      {needed(keys::name("name", "its name in exercises")), keys::text("look", "its material, default \"plastic\""),
        keys::number("outer_mm", 2, 200, "outer diameter of a ring; a thick line has line_mm instead"),
        keys::points("line_mm", -kFar, kFar, 1, "middles of a thick line, in its own frame"),
        keys::vec3("pebble_mm", 0.5, 50, "diameters of a pebble along its axes, the widest first"),
-       keys::number("thick_mm", 0.5, 50, "diameter of what a ring or a line is made of"),
+       keys::number("thick_mm", 0.5, 50, "thickness of a ring or a line"),
        needed(keys::number("mass_g", 0.05, 1000, "")),
        keys::number("friction", 0, 2, "Coulomb's coefficient on walls, instruments and others, default 0.3"),
        keys::vec3("at_mm", -kFar, kFar, "its middle, at the start; needed but for a stone in a pouch"),
@@ -127,7 +126,7 @@ void put_in(const RigidSetting& s, const sim::Model& model, RigidModel& m, std::
 }  // namespace
 
 Key RigidScene::row() {
-  Key row = keys::objects(kKey, rigid_shape, 0, "objects that do not bend, default none");
+  Key row = keys::objects(kKey, rigid_shape, 0, "rigid objects, default none");
   row.max_count = 64;
   return row;
 }
@@ -160,8 +159,8 @@ RigidSetting RigidScene::read(const JsonObject& o) {
     o.fault("outer_mm", "expected a ring with a hole, at least 2.5 times as wide as it is thick, got a narrower one");
   if (o.names("in") && !o.names("pebble_mm")) o.fault("in", "expected a pebble in a pouch, got another shape");
   if (o.names("in") == o.names("at_mm"))
-    o.fault(o.at(), "expected at_mm for what lies free, and for this alone, got " +
-                        std::string(o.names("in") ? "it for what lies in a pouch" : "none"));
+    o.fault(o.at(), "expected at_mm for a free object only, got " +
+                        std::string(o.names("in") ? "it for an object in a pouch" : "none"));
   if (!(length(s.axis) > 1e-6)) o.fault("axis", "expected a direction, got none");
   return s;
 }

@@ -20,8 +20,8 @@ const Shape& sling_shape() {
       "The thread is a loop at the mouth of an instrument of the kind \"endoloop\", with a knot that is pushed along "
       "it.",
       {keys::number("loop_mm", 20, 90, "diameter of the open loop, default 60"),
-       keys::number("slides_N", 0, 20, "what closing the loop takes at its knot, default 1"),
-       keys::number("slips_N", 0, 60, "pull at which the knot gives way again, default 11")}};
+       keys::number("slides_N", 0, 20, "force that closes the loop at its knot, default 1"),
+       keys::number("slips_N", 0, 60, "pull at which the knot slips, default 11")}};
   return shape;
 }
 
@@ -49,7 +49,7 @@ SlingSetting read_sling(const JsonObject& suture, const SutureSetting& s) {
   if (s.size.empty()) suture.fault("sling", "expected a size beside sling, got none");
   if (!s.needle.empty()) suture.fault("sling", "expected a thread without a needle, got one");
   for (const char* key : {"length_mm", "line_mm", "held_by", "at_mm"})
-    if (suture.has(key)) suture.fault(key, "expected nothing beside sling, whose instrument says where it is, got it");
+    if (suture.has(key)) suture.fault(key, "expected no pose beside sling, whose instrument defines it, got one");
   if (!(out.slips > out.slides)) o.fault("slips_N", "expected more than slides_N, got no more");
   return out;
 }

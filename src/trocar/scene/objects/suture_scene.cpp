@@ -24,20 +24,20 @@ const Shape& suture_shape() {
   static const Shape shape{
       "suture",
       "A needle with a thread swaged on, or either alone. It lies, is held by jaws and goes through tissue.",
-      {needed(keys::name("name", "what exercises call it")),
+      {needed(keys::name("name", "its name in exercises")),
        keys::text("look",
-                  "its thread in the picture, default by its make: \"thread_violet\", \"thread_black\", "
+                  "material of its thread, default by its make: \"thread_violet\", \"thread_black\", "
                   "\"thread_white\""),
        keys::text("size", "of the thread: \"3-0\"; default: there is a needle alone"),
        keys::text("make", "of the thread: \"PDS\", \"silk\" or \"polyester\"; needed where there is a size"),
        keys::number("length_mm", 20, 900, "of the thread, default 150"),
        keys::text("needle", "its kind: " + suture::names_of_needles() + "; default: there is a thread alone"),
        keys::text("held_by", "the trocar of the hand whose jaws hold the needle at the start; default: it lies"),
-       keys::flag("backhand", "held so that it is driven the other way round, default false"),
-       keys::number("grasped", 0.2, 0.95, "where a hand holds it, as a share of its length from the tip; default 0.65"),
+       keys::flag("backhand", "true: held for the opposite driving direction, default false"),
+       keys::number("grasped", 0.2, 0.95, "grasp position, as a share of its length from the tip; default 0.65"),
        keys::vec3("at_mm", -kSutureFar, kSutureFar, "of a needle that lies: its middle"),
        keys::vec3("axis", -1, 1, "about which a turn drives the needle, tip first; default (0, 0, 1)"),
-       keys::vec3("points", -1, 1, "the way that the middle of the needle is driven, default (1, 0, 0)"),
+       keys::vec3("points", -1, 1, "driving direction of the needle's middle, default (1, 0, 0)"),
        keys::points("line_mm", -kSutureFar, kSutureFar, 2,
                     "the thread at the start, from the needle on; beyond it the thread goes straight on"),
        sling_key()}};
@@ -85,11 +85,10 @@ SutureSetting SutureScene::read(const JsonObject& o) {
   s.text = o.value();
   if (s.size.empty() && s.needle.empty()) o.fault(o.at(), "expected a size, a needle or both, got neither");
   if (!s.size.empty() && !suture::find_thread(s.size, s.make))
-    o.fault("size",
-            fmt::format("expected a thread that there is ({}), got \"{} {}\"", sizes_and_makes(), s.size, s.make));
+    o.fault("size", fmt::format("expected an available thread ({}), got \"{} {}\"", sizes_and_makes(), s.size, s.make));
   if (!s.needle.empty() && !suture::needle_kind(s.needle))
     o.fault("needle",
-            fmt::format("expected a needle that there is ({}), got \"{}\"", suture::names_of_needles(), s.needle));
+            fmt::format("expected an available needle ({}), got \"{}\"", suture::names_of_needles(), s.needle));
   if (s.needle.empty() && !s.hand.empty()) o.fault("held_by", "expected it of a needle, got a thread alone");
   if (!s.needle.empty() && o.names("at_mm") == o.names("held_by"))
     o.fault(o.at(), "expected at_mm of a needle that lies or held_by of one that is held, got " +

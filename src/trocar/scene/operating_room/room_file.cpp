@@ -86,8 +86,8 @@ class RoomReading {
   static void within(const JsonObject& o, const char* key, double value, double low, double high) {
     constexpr double kSlack = 1e-9;
     if (value < low - kSlack || value > high + kSlack)
-      o.fault(key, fmt::format("expected what the table can, {:.4g} to {:.4g}, got {:.4g}", low / kDeg, high / kDeg,
-                               value / kDeg));
+      o.fault(key, fmt::format("expected an angle in the table's range, {:.4g} to {:.4g}, got {:.4g}", low / kDeg,
+                               high / kDeg, value / kDeg));
   }
   template <class Item>
   std::string named(const JsonObject& o, const std::vector<Item>& others, const char* what) {
@@ -175,7 +175,7 @@ class RoomReading {
       o.fault("out", "expected a direction beside that of \"base\", got the same line");
     for (const RoomArm& other : room.arms)
       if (!a.port.empty() && other.port == a.port)
-        o.fault("port", fmt::format("expected a port of its own, got that of \"{}\"", other.name));
+        o.fault("port", fmt::format("expected an unused port, got that of \"{}\"", other.name));
     room.arms.push_back(std::move(a));
   }
   void target(const JsonObject& o) {

@@ -169,11 +169,11 @@ class Reader {
         if (block.first_tick != ticks) return "expected the inputs from tick " + std::to_string(ticks);
         if (block.count == 0 || block.count > kTicksPerBlock || ticks + block.count > kMaxTicks)
           return "more ticks than a recording may hold";
-        return append_inputs(block.payload, block.count, recording.inputs) ? "" : "the inputs are not well coded";
+        return append_inputs(block.payload, block.count, recording.inputs) ? "" : "the inputs are badly encoded";
       case kHashes:
         return add_hashes(block, recording);
       case kKeyframe:
-        if (block.first_tick > ticks) return "a keyframe of a tick that is not there";
+        if (block.first_tick > ticks) return "a keyframe of a missing tick";
         recording.keyframes.push_back({block.first_tick, std::move(block.payload)});
         return {};
       case kEnd:
@@ -187,13 +187,13 @@ class Reader {
   }
 
   static std::string add_hashes(const Block& block, Recording& recording) {
-    if (block.count != block.payload.size() / 16 || block.payload.size() % 16) return "the hashes are not well coded";
+    if (block.count != block.payload.size() / 16 || block.payload.size() % 16) return "the hashes are badly encoded";
     ByteReader from(block.payload);
     for (std::uint64_t i = 0; i < block.count; ++i) {
       HashMark mark;
       mark.tick = from.get<std::uint64_t>();
       mark.hash = from.get<std::uint64_t>();
-      if (mark.tick > recording.inputs.size()) return "a hash of a tick that is not there";
+      if (mark.tick > recording.inputs.size()) return "a hash of a missing tick";
       recording.hashes.push_back(mark);
     }
     return {};

@@ -14,7 +14,8 @@ std::string told_difference(const Model& model, const Recording& recording, cons
   for (const Keyframe& key : recording.keyframes) {
     if (key.tick != state.tick) continue;
     const std::string shown = shown_difference(model, key.bytes, state);
-    return shown.empty() ? "nothing that is drawn differs there" : "what is drawn differs first in " + shown;
+    return shown.empty() ? "the displayed state does not differ there"
+                         : "the displayed state differs first in " + shown;
   }
   return {};
 }

@@ -91,7 +91,7 @@ class Going {
       r.port_gap = std::max(r.port_gap, gap);
       if (gap > o.keep_port)
         fault(MotionFaultKind::port, int(a), m.arms()[a].described->port, gap, m.arms()[a].port,
-              fmt::format("its shaft passes its port by {:.2f} mm", 1e3 * gap));
+              fmt::format("its shaft misses its port by {:.2f} mm", 1e3 * gap));
       if (!first) speeds(before, pose, int(a), at, s);
     }
     collisions(pose, s);
@@ -156,7 +156,7 @@ class Going {
       if (n.distance < m.room().margin)
         fault(MotionFaultKind::collision, n.arm, n.second.substr(0, n.second.find(':')), n.distance, n.where(),
               n.distance < 0
-                  ? fmt::format("\"{}\" and \"{}\" are {:.1f} mm in each other", n.first, n.second, -1e3 * n.distance)
+                  ? fmt::format("\"{}\" and \"{}\" overlap by {:.1f} mm", n.first, n.second, -1e3 * n.distance)
                   : fmt::format("\"{}\" and \"{}\" are {:.1f} mm apart, less than the margin of {:.1f}", n.first,
                                 n.second, 1e3 * n.distance, 1e3 * m.room().margin));
     }

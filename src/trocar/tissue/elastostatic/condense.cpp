@@ -23,7 +23,7 @@ void check_numbers(const Stiffness& k, std::span<const double> loads) {
     throw std::invalid_argument("loads: three numbers for every node each");
   for (std::size_t i = 0; i < loads.size(); ++i)
     if (!std::isfinite(loads[i]))
-      throw std::invalid_argument("force on node " + std::to_string(i / 3 % k.points.size()) + " is no number");
+      throw std::invalid_argument("force on node " + std::to_string(i / 3 % k.points.size()) + " is not a number");
 }
 
 /// Where -K^-1 and the loads' rows stand, as the root leaves them.

@@ -485,7 +485,7 @@ void settle(double tick, NetworkDescription& net, MembraneModel& m) {
   for (std::size_t i = 0; i < net.mass.size(); ++i) weight = std::max(weight, net.mass[i] * length(net.gravity));
   weight = std::max(weight, std::fabs(m.enclosure.pressure) * area_of_node(net.positions, m));
   for (int t = 0; t < kSettleTicks; ++t) {
-    if (!advance(m, {}, {}, {}, s, w).fine()) refuse_membrane("a sheet that hangs still");
+    if (!advance(m, {}, {}, {}, s, w).fine()) refuse_membrane("a sheet that is in equilibrium");
     const double now = kinetic(m, s);
     const bool slower = now < before;
     before = slower ? 0 : now;

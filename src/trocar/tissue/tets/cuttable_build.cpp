@@ -118,7 +118,7 @@ CuttableModel build(const CuttableDescription& d, double tick) {
   if (held && dot(d.gravity, d.gravity) > 0) {
     const PrestressReport report = prestress(t.network, m.anchors);
     if (!report.converged || report.failed_springs > 0)
-      refuse_cuttable("a body that what holds it can hold against gravity");
+      refuse_cuttable("a body that its supports can hold against gravity");
     m.residual = report.residual;
   }
   share_out(d, t, m);

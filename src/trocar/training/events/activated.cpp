@@ -29,12 +29,13 @@ Value under_liquid(const Moment& moment, const Happening& h) {
 
 }  // namespace
 
-const EventKind kActivated{"activated",
-                           {},
-                           {{"under_liquid", "the pool stood over its tip", under_liquid, 0, 1, true}},
-                           "A pedal was pressed.",
-                           needs_energy,
-                           &noticing<Activated>,
-                           true};
+const EventKind kActivated{
+    "activated",
+    {},
+    {{"under_liquid", "the tip was under the surface of pooled fluid", under_liquid, 0, 1, true}},
+    "A pedal was pressed.",
+    needs_energy,
+    &noticing<Activated>,
+    true};
 
 }  // namespace trocar::training

@@ -44,13 +44,13 @@ const EventKind kMovedBlind{"moved_blind",
                              {"lasting_s", ArgumentKind::number, "for longer than this", true, 0, 60},
                              {"speed_mm_s", ArgumentKind::number, "faster than this", true, 0, 1000}},
                             {},
-                            "An instrument moves where the camera does not look; once until it is seen.",
+                            "An instrument moves out of the camera's view; reported once until it is seen again.",
                             anywhere,
                             &noticing<Blind<false>>};
 const EventKind kInsertedBlind{"inserted_blind",
                                {{"depth_mm", ArgumentKind::number, "so deep", true, 0, 290}},
                                {},
-                               "A new instrument goes in with neither its tip nor its shaft in view.",
+                               "A new instrument is inserted with neither its tip nor its shaft in view.",
                                anywhere,
                                &noticing<Blind<true>>};
 

@@ -95,38 +95,39 @@ std::vector<Attribute> clip_attributes() {
        [](const Moment& m, const Happening& h) -> Value { return clip_of(m, h).theta; }, 0, 90},
       {"cover", "share of the cross-section between the legs",
        [](const Moment& m, const Happening& h) -> Value { return clip_of(m, h).cover; }, 0, 1},
-      {"to_mark_mm", "along the strand to the nearest stripe around it; unknown without any", to_mark, 0, kLongest},
-      {"to_clip_mm", "along the strand or the thread to the nearest clip that was there before; unknown without any",
+      {"to_mark_mm", "distance along the strand to the nearest stripe around it; unknown without a stripe", to_mark, 0,
+       kLongest},
+      {"to_clip_mm", "distance along the strand or the thread to the nearest earlier clip; unknown without one",
        clip_to_clip, 0, kLongest},
-      {"closing_s", "how long the jaws took from half open",
+      {"closing_s", "time that the jaws took to close from half open",
        [](const Moment& m, const Happening& h) { return h.foreseen ? kUnknown : Value(clip_of(m, h).closing_time); }, 0,
        3600},
-      {"tips_visible", "of the two jaw tips, when it closed",
+      {"tips_visible", "number of the two jaw tips in view when it closed",
        [](const Moment& m, const Happening& h) -> Value { return double(clip_of(m, h).tips_visible); }, 0, 2, false,
        true},
-      {"under_liquid", "the pool stood over the jaws",
+      {"under_liquid", "the jaws were under the surface of pooled fluid",
        [](const Moment& m, const Happening& h) -> Value {
          return m.model.wet.there && drowned(m.model, m.state, h.tip);
        },
        0, 1, true},
-      {"on_bleeder", "it closes the vessel that bleeds by itself",
+      {"on_bleeder", "the clip closes the bleeding vessel",
        [](const Moment& m, const Happening& h) { return h.foreseen ? kUnknown : Value(on_bleeder(m, h) != nullptr); },
        0, 1, true},
-      {"bleeder_cover", "share of that vessel between the legs; unknown elsewhere",
+      {"bleeder_cover", "share of the bleeding vessel between the legs; unknown elsewhere",
        [](const Moment& m, const Happening& h) {
          const auto* c = on_bleeder(m, h);
          return c ? Value(c->cover) : kUnknown;
        },
        0, 1},
-      {"upstream", "on the heart's side of the bleeding place; unknown elsewhere",
+      {"upstream", "the clip is on the heart's side of the bleeding point; unknown elsewhere",
        [](const Moment& m, const Happening& h) {
          const auto* c = on_bleeder(m, h);
          return c ? Value(on_hearts_side(m.model.vessels.bleeder, c->s)) : kUnknown;
        },
        0, 1, true},
-      {"on_thread", "it closed on thread, where there was no strand and no vessel between its legs",
+      {"on_thread", "it closed on thread, with no strand and no vessel between its legs",
        [](const Moment& m, const Happening& h) { return Value(clip_of(m, h).on_thread()); }, 0, 1, true},
-      {"stretches", "of thread between its legs; 0 on tissue",
+      {"stretches", "length of thread between its legs; 0 on tissue",
        [](const Moment& m, const Happening& h) {
          const suture::ThreadClip* c = on_thread(m, h);
          return Value(c ? double(c->count) : 0.0);

@@ -23,7 +23,7 @@ class Collided final : public Noticer {
 }  // namespace
 
 const EventKind kCollided{"collided", {{"speed_mm_s", ArgumentKind::number, "faster than this", true, 0, 1000}},
-                          {},         "Two instruments strike each other; once a meeting.",
+                          {},         "Two instruments strike each other; reported once per contact.",
                           anywhere,   &noticing<Collided>,
                           false,      EventKind::Hold::now};
 

@@ -97,25 +97,25 @@ std::vector<Attribute> cut_attributes() {
       {"s_mm", "where on the strand, from its beginning; unknown on other bodies",
        [](const Moment& m, const Happening& h) { return cut_of(m, h).strand < 0 ? kUnknown : Value(cut_of(m, h).s); },
        0, kLongest},
-      {"fraction", "of the strand's cross-section that was cut; unknown on other bodies",
+      {"fraction", "share of the strand's cross-section that was cut; unknown on other bodies",
        [](const Moment& m, const Happening& h) {
          return cut_of(m, h).strand < 0 ? kUnknown : Value(cut_of(m, h).fraction);
        },
        0, 1},
       {"depth_mm", "how deep the blades went into the fold behind the strand, or into the fold", depth, 0, kLongest},
-      {"tips_visible", "of the two jaw tips, when it was cut",
+      {"tips_visible", "number of the two jaw tips in view during the cut",
        [](const Moment& m, const Happening& h) -> Value { return double(cut_of(m, h).tips_visible); }, 0, 2, false,
        true},
-      {"under_liquid", "the pool stood over the jaws",
+      {"under_liquid", "the jaws were under the surface of pooled fluid",
        [](const Moment& m, const Happening& h) -> Value {
          return m.model.wet.there && drowned(m.model, m.state, h.tip);
        },
        0, 1, true},
       {"between_clips", "clips sit on the strand on both sides of the cut", between_clips, 0, 1, true},
-      {"to_clip_mm", "from the strand's nearest clip; unknown without any", cut_to_clip, 0, kLongest},
+      {"to_clip_mm", "distance to the strand's nearest clip; unknown without one", cut_to_clip, 0, kLongest},
       {"between_loops", "loops with their tails cut close the strand on both sides of the cut", between_loops, 0, 1,
        true},
-      {"to_loop_mm", "from the nearest of such loops; unknown without any", cut_to_loop, 0, kLongest},
+      {"to_loop_mm", "distance to the nearest of these loops; unknown without one", cut_to_loop, 0, kLongest},
   };
 }
 

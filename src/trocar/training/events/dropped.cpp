@@ -84,9 +84,9 @@ std::string_view needs_objects(const sim::Model& model) {
 
 const EventKind kDropped{
     "dropped",
-    {{"by_mm", ArgumentKind::number, "it has fallen farther than this when it lies", true, 0, 500}},
-    {{"in_view", "the endoscope pointed at where it came to lie", in_view, 0, 1, true}},
-    "An object that a hand held has fallen and lies; nobody caught it.",
+    {{"by_mm", ArgumentKind::number, "the object has fallen more than this when it comes to rest", true, 0, 500}},
+    {{"in_view", "the endoscope shows where it came to rest", in_view, 0, 1, true}},
+    "An object that a hand held has fallen and come to rest.",
     needs_objects,
     &noticing<Dropped>,
     true};

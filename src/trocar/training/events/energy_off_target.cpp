@@ -31,10 +31,10 @@ Value critical(const Moment&, const Happening& h) { return h.number == kCritical
 
 const EventKind kEnergyOffTarget{
     "energy_off_target",
-    {{"targets", ArgumentKind::bodies, "bodies that may be treated beside what bleeds", false},
-     {"never", ArgumentKind::bodies, "bodies where it is critical", false}},
-    {{"critical", "it is one of those where current never may go", critical, 0, 1, true}},
-    "Current goes through tissue that was not to be treated; once an activation.",
+    {{"targets", ArgumentKind::bodies, "bodies that may be treated besides the bleeding vessel", false},
+     {"never", ArgumentKind::bodies, "bodies on which current is a critical error", false}},
+    {{"critical", "the body is one on which current is never allowed", critical, 0, 1, true}},
+    "Current flows through tissue that must not be treated; reported once per activation.",
     needs_energy,
     &noticing<OffTarget>};
 

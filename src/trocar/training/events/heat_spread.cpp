@@ -32,12 +32,13 @@ class HeatSpread final : public Noticer {
 
 }  // namespace
 
-const EventKind kHeatSpread{"heat_spread",
-                            {{"hook_mm", ArgumentKind::number, "from a monopolar electrode's edge", true, 0, 100},
-                             {"bipolar_mm", ArgumentKind::number, "from bipolar jaws", true, 0, 100}},
-                            {},
-                            "Tissue has died at more than this distance from the treated place; once a body.",
-                            needs_energy,
-                            &noticing<HeatSpread>};
+const EventKind kHeatSpread{
+    "heat_spread",
+    {{"hook_mm", ArgumentKind::number, "distance from the edge of a monopolar electrode", true, 0, 100},
+     {"bipolar_mm", ArgumentKind::number, "from bipolar jaws", true, 0, 100}},
+    {},
+    "Thermal necrosis has spread beyond this distance from the electrode; reported once per body.",
+    needs_energy,
+    &noticing<HeatSpread>};
 
 }  // namespace trocar::training

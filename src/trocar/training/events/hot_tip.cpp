@@ -23,11 +23,12 @@ class HotTip final : public Noticer {
 
 }  // namespace
 
-const EventKind kHotTip{"hot_tip_touched",
-                        {{"targets", ArgumentKind::bodies, "bodies that may be touched beside what bleeds", false}},
-                        {},
-                        "A tip that is still hot touches tissue that was not to be treated; once a touch.",
-                        needs_energy,
-                        &noticing<HotTip>};
+const EventKind kHotTip{
+    "hot_tip_touched",
+    {{"targets", ArgumentKind::bodies, "bodies that may be touched besides the bleeding vessel", false}},
+    {},
+    "A tip that is still hot touches tissue that must not be treated; reported once per contact.",
+    needs_energy,
+    &noticing<HotTip>};
 
 }  // namespace trocar::training

@@ -25,7 +25,7 @@ class IdleActivation final : public Noticer {
 const EventKind kIdleActivation{"idle_activation",
                                 {{"lasting_s", ArgumentKind::number, "for longer than this", true, 0, 60}},
                                 {},
-                                "A pedal is pressed while the electrode touches nothing; once an activation.",
+                                "A pedal is pressed while the electrode touches nothing; reported once per activation.",
                                 needs_energy,
                                 &noticing<IdleActivation>};
 

@@ -29,13 +29,13 @@ const sim::NeedleHand& needle_at(const Moment& moment, const Happening& h) {
 const EventKind kInjected{
     "injected",
     {},
-    {{"depth_mm", "of the point below the nearest skin",
+    {{"depth_mm", "depth of the needle's point below the nearest surface of the organ",
       [](const Moment& m, const Happening& h) -> Value { return needle_at(m, h).depth; }, -30, 60},
-     {"drawn_s", "how long the plunger had been drawn at that place before",
+     {"drawn_s", "time of aspiration at that point before the injection",
       [](const Moment& m, const Happening& h) -> Value { return needle_at(m, h).drawn_for; }, 0, 3600},
-     {"in_vessel", "the point is in a vessel",
+     {"in_vessel", "the needle's point is in a vessel",
       [](const Moment& m, const Happening& h) -> Value { return needle_at(m, h).vessel >= 0; }, 0, 1, true}},
-    "A plunger began to press with its needle's point in an organ.",
+    "An injection into an organ began: the plunger is pressed with the needle's point inside.",
     needs_syringe,
     &noticing<Injected>,
     true};

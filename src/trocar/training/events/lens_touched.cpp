@@ -50,12 +50,13 @@ class LensTouched final : public Noticer {
 
 }  // namespace
 
-const EventKind kLensTouched{"lens_touched",
-                             {{"within_mm", ArgumentKind::number, "so near is a touch", true, 0, 100}},
-                             {},
-                             "The endoscope's lens comes this near to tissue or a wall; once until it has moved away.",
-                             anywhere,
-                             &noticing<LensTouched>,
-                             true};
+const EventKind kLensTouched{
+    "lens_touched",
+    {{"within_mm", ArgumentKind::number, "a smaller distance counts as a contact", true, 0, 100}},
+    {},
+    "The endoscope's lens comes this close to tissue or a wall; reported once until it has moved away.",
+    anywhere,
+    &noticing<LensTouched>,
+    true};
 
 }  // namespace trocar::training

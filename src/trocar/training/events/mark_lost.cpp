@@ -38,15 +38,17 @@ class MarkLost final : public Noticer {
 
 }  // namespace
 
-const EventKind kMarkLost{"mark_lost",
-                          {{"of", ArgumentKind::mark, "what is looked for"},
-                           {"found", ArgumentKind::number,
-                            "it counts as found so near to the picture's middle, as a share of its radius", true, 0, 1},
-                           {"held_s", ArgumentKind::number, "when it has been there for so long", true, 0, 60},
-                           {"lasting_s", ArgumentKind::number, "lost when it is out of view for so long", true, 0, 60}},
-                          {},
-                          "A mark that had been found is not in view any more; once until it is found again.",
-                          anywhere,
-                          &noticing<MarkLost>};
+const EventKind kMarkLost{
+    "mark_lost",
+    {{"of", ArgumentKind::mark, "the mark to look for"},
+     {"found", ArgumentKind::number,
+      "it counts as found within this distance of the picture's centre, as a share of the picture's radius", true, 0,
+      1},
+     {"held_s", ArgumentKind::number, "and after this time there", true, 0, 60},
+     {"lasting_s", ArgumentKind::number, "it counts as lost after this time out of view", true, 0, 60}},
+    {},
+    "A mark that had been found is no longer in view; reported once until it is found again.",
+    anywhere,
+    &noticing<MarkLost>};
 
 }  // namespace trocar::training

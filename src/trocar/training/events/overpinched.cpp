@@ -26,11 +26,11 @@ class Overpinched final : public Noticer {
 }  // namespace
 
 const EventKind kOverpinched{"overpinched",
-                             {{"bowel", ArgumentKind::bodies, "bodies that bear little pinch"},
-                              {"force_N", ArgumentKind::number, "a harder pinch is too hard", true, 0, 200},
-                              {"impulse_N_s", ArgumentKind::number, "pinch times time, at most"}},
+                             {{"bowel", ArgumentKind::bodies, "delicate bodies"},
+                              {"force_N", ArgumentKind::number, "largest pinch force", true, 0, 200},
+                              {"impulse_N_s", ArgumentKind::number, "largest product of pinch force and time"}},
                              {},
-                             "A hand pinches one of these bodies too hard or for too long; once a hold.",
+                             "A hand pinches one of these bodies too hard or for too long; reported once per grasp.",
                              anywhere,
                              &noticing<Overpinched>,
                              false,

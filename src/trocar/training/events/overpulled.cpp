@@ -27,12 +27,12 @@ class Overpulled final : public Noticer {
 }  // namespace
 
 const EventKind kOverpulled{"overpulled",
-                            {{"delicate", ArgumentKind::bodies, "bodies that bear less", false},
-                             {"delicate_N", ArgumentKind::number, "a harder pull on them is too hard", true, 0, 100},
-                             {"other_N", ArgumentKind::number, "a harder pull on any other body is", true, 0, 100},
-                             {"lasting_s", ArgumentKind::number, "from when on it counts", true, 0.001, 10}},
+                            {{"delicate", ArgumentKind::bodies, "delicate bodies", false},
+                             {"delicate_N", ArgumentKind::number, "largest pull on these bodies", true, 0, 100},
+                             {"other_N", ArgumentKind::number, "largest pull on any other body", true, 0, 100},
+                             {"lasting_s", ArgumentKind::number, "time from which a pull counts", true, 0.001, 10}},
                             {},
-                            "A hand pulls harder than tissue bears; once until it pulls less.",
+                            "A hand pulls harder than the limit; reported once until it pulls less.",
                             anywhere,
                             &noticing<Overpulled>,
                             false,

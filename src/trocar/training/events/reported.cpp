@@ -94,10 +94,9 @@ std::span<const EventKind> reported_events() {
   return all;
 }
 
-const EventKind kTorn{
-    "torn",   {},
-    {},       "Tissue tore where it was pulled or pressed; told once a body for as long as it goes on.",
-    anywhere, &noticing<Torn>,
-    false,    EventKind::Hold::now};
+const EventKind kTorn{"torn",   {},
+                      {},       "Tissue tore under a pull or a pressure; reported once per body while the tear grows.",
+                      anywhere, &noticing<Torn>,
+                      false,    EventKind::Hold::now};
 
 }  // namespace trocar::training

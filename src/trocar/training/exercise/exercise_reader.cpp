@@ -78,15 +78,16 @@ class ExerciseReader {
     if (!o.has(scene::kLike)) return true;
     for (const char* key : {"title", "scene"})
       if (!o.names(key))
-        o.fault(o.at(), fmt::format("expected the key \"{}\" also in an exercise that is like another, got none", key));
+        o.fault(o.at(), fmt::format("expected the key \"{}\" also in an exercise that has \"like\", got none", key));
     return below(o, (path.parent_path() / o.text(scene::kLike)).lexically_normal());
   }
   bool below(const JsonObject& o, const fs::path& path) {
     const auto same = [&path](const Layer& l) { return l.path.lexically_normal() == path; };
     if (std::any_of(m_layers.begin(), m_layers.end(), same) || m_layers.size() >= kMostLayers)
-      o.fault(scene::kLike, fmt::format("expected at most {} exercises that are like each other, and no circle, got "
-                                        "one more: {}",
-                                        kMostLayers, path.generic_string()));
+      o.fault(scene::kLike,
+              fmt::format("expected a chain of at most {} exercises through \"like\", without a cycle, got "
+                          "one more: {}",
+                          kMostLayers, path.generic_string()));
     else if (!m_memory && !m_library.holds(path))
       o.fault(scene::kLike, m_library.refusal(o.text(scene::kLike)));
     else
@@ -107,7 +108,7 @@ class ExerciseReader {
     if (!format || format->value.kind != JsonValue::Kind::number || format->value.number >= 3) return false;
     fault(document.file, format->value,
           fmt::format(
-              "expected format 3, got {:g}: format 2 is not read any more: see docs/guides/authoring_exercises.md",
+              "expected format 3, got {:g}: format 2 is no longer supported, see docs/guides/authoring_exercises.md",
               format->value.number));
     return true;
   }
@@ -202,9 +203,9 @@ class ExerciseReader {
     };
     if (v.kind == JsonValue::Kind::array && v.items.size() == 2 && whole(0, kMostChoice) && whole(1, kMostWay))
       return {int(v.items[0].number), int(v.items[1].number)};
-    fault(
-        file, v,
-        fmt::format("expected [moment of choice, way], two whole numbers up to {}, got {}", kMostWay, scene::shown(v)));
+    fault(file, v,
+          fmt::format("expected [decision point, perturbation], two whole numbers up to {}, got {}", kMostWay,
+                      scene::shown(v)));
     return {};
   }
 
@@ -248,7 +249,8 @@ class ExerciseReader {
     for (const scene::JsonDocument& d : m_files) note_references(d.root, used);
     for (const Limit& l : m_exercise.limits)
       if (!used[l.name])
-        scene::tell(m_faults, {l.at, fmt::format("expected a limit that something uses (\"${}\"), got none", l.name)});
+        scene::tell(m_faults,
+                    {l.at, fmt::format("expected a limit that is used (\"${}\"), got one without a use", l.name)});
   }
   static void note_references(const JsonValue& v, std::map<std::string, bool>& used) {
     if (v.kind == JsonValue::Kind::string && v.text.size() > 1 && v.text[0] == '$')

@@ -22,7 +22,7 @@ Json score_json(const Exercise& e, const Score& s) {
   j["failed_by_error"] = s.failed;
   j["pass_mark"] = e.pass_mark;
   j["note"] = s.scored ? "motion component left out: no reference group yet"
-                       : "familiarisation: steps and errors are reported, nothing is scored";
+                       : "familiarisation: steps and errors are reported without a score";
   return j;
 }
 

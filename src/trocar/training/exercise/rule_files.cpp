@@ -16,11 +16,11 @@ namespace keys = scene::keys;
 const scene::Shape& limit_shape() {
   static const scene::Shape shape{
       "limit",
-      "A number that decides, and where it comes from.",
+      "A limit and its source.",
       {needed(keys::any("value", "a number or [from, to], in the unit that the name ends in")),
-       keys::any("in", "what it is in another anatomy of the scene, by the variant's name: numbers or ranges likewise"),
+       keys::any("in", "its value in other anatomies of the scene, by the variant's name: numbers or ranges likewise"),
        needed(keys::text("source", "a publication, or \"our estimate\"")),
-       keys::choice("stricter", {"low", "high"}, "of common rules: the way in which an exercise may move it"),
+       keys::choice("stricter", {"low", "high"}, "in common rules: the direction that makes it stricter"),
        keys::text("loosened", "why this exercise allows more than the common rules")}};
   return shape;
 }
@@ -126,8 +126,9 @@ void RuleFiles::limit(const scene::JsonMember& member, const std::string& path, 
   if (!own || std::size_t(known - m_exercise.limits.begin()) >= m_common_limits)
     return o.fault(o.at(), fmt::format("expected each limit once, got \"{}\" again", l.name));
   if (!l.broken && looser(l, *known) && !o.has("loosened"))
-    o.fault("value", fmt::format("expected what is at least as strict as {}:{} ({}), or \"loosened\": why, got {}",
-                                 known->at.file, known->at.line, known->shown(), l.shown()));
+    o.fault("value",
+            fmt::format("expected a limit at least as strict as {}:{} ({}), or a reason in \"loosened\", got {}",
+                        known->at.file, known->at.line, known->shown(), l.shown()));
   *known = std::move(l);
 }
 
@@ -163,9 +164,9 @@ void RuleFiles::errors(const JsonObject& file, const std::string& path, bool own
     for (const char* key : {"name", "meaning", "source"})
       if (!o.names(key)) o.fault(o.at(), fmt::format("expected \"{}\" in the error {}, got none", key, p.code));
     if (!o.names("points") && !o.flag("fails"))
-      o.fault(o.at(), fmt::format("expected a price for {}: points, or fails: true, got none", p.code));
+      o.fault(o.at(), fmt::format("expected a penalty for {}: points, or fails: true, got none", p.code));
     if (!o.names("on") && !o.names("when"))
-      o.fault(o.at(), fmt::format("expected what {} is made by: on or when, got neither", p.code));
+      o.fault(o.at(), fmt::format("expected \"on\" or \"when\" for {}, got neither", p.code));
     p.name = o.text("name");
     p.points = o.number("points");
     p.fail = o.flag("fails");
@@ -186,9 +187,11 @@ void RuleFiles::errors(const JsonObject& file, const std::string& path, bool own
 void RuleFiles::make_stricter(Penalty& common, const JsonObject& o, const std::string& path) {
   for (const char* key : {"for_each", "on", "when", "for_s", "once_per", "detail"})
     if (o.names(key))
-      o.fault(key, fmt::format("expected what makes {} stricter (points, fails) or says it otherwise, got {}: it is "
-                               "made by what {} says",
-                               common.code, key, common.part.file));
+      o.fault(key,
+              fmt::format(
+                  "expected only keys that make {} stricter (points, fails) or change its text, got {}: the error is "
+                  "defined in {}",
+                  common.code, key, common.part.file));
   if (o.has("points") && o.number("points") < common.points)
     o.fault("points", fmt::format("expected at least {:g}, as in {}, got {:g}", common.points, common.part.file,
                                   o.number("points")));

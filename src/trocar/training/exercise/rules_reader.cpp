@@ -23,7 +23,8 @@ class RulesReader {
     circles();
     for (const Penalty& p : m_exercise.penalties) error(p);
     if (m_rules.m_errors.size() > std::size_t(kMaxErrors))
-      whole(fmt::format("expected at most {} errors (one an element), got {}", kMaxErrors, m_rules.m_errors.size()));
+      whole(fmt::format("expected at most {} errors (one for each element), got {}", kMaxErrors,
+                        m_rules.m_errors.size()));
     details();
   }
 
@@ -80,8 +81,8 @@ class RulesReader {
     const RuleReading r = reading(m_rules.m_names, set.file);
     const JsonValue* value = e.member(member);
     if (!value)
-      return r.fault(set.at,
-                     fmt::format("expected the member \"{}\" of \"{}\", as it is in held, got none", member, e.name));
+      return r.fault(
+          set.at, fmt::format("expected the member \"{}\" of \"{}\", which \"held\" needs, got none", member, e.name));
     for (const NameAt& n : r.names(*value)) {
       std::int32_t code = -1;
       std::vector<std::string> known;
@@ -110,7 +111,7 @@ class RulesReader {
       i = end;
     }
     if (m_placed.size() > std::size_t(kMaxSteps))
-      whole(fmt::format("expected at most {} steps (one an element), got {}", kMaxSteps, m_placed.size()));
+      whole(fmt::format("expected at most {} steps (one for each element), got {}", kMaxSteps, m_placed.size()));
     for (const Placed& p : m_placed) {
       const Names names = names_at(p.set, p.element);
       StepStatus s;
@@ -146,7 +147,7 @@ class RulesReader {
       r.fault(v, fmt::format("expected when or on for the step \"{}\", got neither: nothing can make it true",
                              p.text->name));
     if (when && on)
-      r.fault(v.find("on")->value, "expected when or on, got both: a condition of an act is its \"while\"");
+      r.fault(v.find("on")->value, "expected when or on, got both: the condition of an event is its \"while\"");
     m_rules.m_steps.push_back(std::move(rule));
   }
 
@@ -194,8 +195,7 @@ class RulesReader {
                          circle.size() == 1 ? "itself" : next);
     }
     const Part& part = m_placed[std::size_t(circle[0])].text->part;
-    reading(m_rules.m_names, part.file)
-        .fault(part.value, "expected steps of which each can be done, got a circle: " + way);
+    reading(m_rules.m_names, part.file).fault(part.value, "expected steps that can all be done, got a cycle: " + way);
   }
   std::string step_name(int step) const {
     const StepStatus& s = m_rules.m_board.step(step);

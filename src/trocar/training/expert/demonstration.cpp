@@ -33,8 +33,8 @@ struct Source {
 Demonstration read_demonstration(const Exercise& exercise, const sim::Model& model, std::uint64_t seed) {
   Faults faults;
   if (exercise.demonstration.value.kind == scene::JsonValue::Kind::null)
-    throw core::BadInput(
-        {{{exercise.file.string(), 0, 0}, "expected \"demonstration\": how the exercise is done, got none"}});
+    throw core::BadInput({{{exercise.file.string(), 0, 0},
+                           "expected the key \"demonstration\", got none: this exercise has no demonstration"}});
   Demonstration made;
   made.watches = std::make_unique<FactWatches>();
   if (asks_for_steps(exercise.demonstration.value))

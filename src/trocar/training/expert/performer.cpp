@@ -152,7 +152,7 @@ void Performer::ended(Progress how, const std::string& why) {
   if (how == Progress::failed) return failed(why);
   if (m_task + 1 < tasks().size()) return begin(m_task + 1);
   m_goal->reached = true;
-  if (!is_reached(*m_goal)) return failed("all was done, and it is not so");
+  if (!is_reached(*m_goal)) return failed("all skills ended, but the goal is not reached");
   think();
 }
 
@@ -171,7 +171,7 @@ void Performer::work(double passed) {
   if (m_since_choice >= kChoiceEvery) go_on_otherwise();
   if (m_in_task > task.plan->at_most) {
     const bool goes_on = task.plan->goes_on;
-    ended(goes_on ? Progress::done : Progress::failed, fmt::format("{}: it took too long", task.plan->kind->name));
+    ended(goes_on ? Progress::done : Progress::failed, fmt::format("{}: timed out", task.plan->kind->name));
     if (goes_on && m_pause > 0) {  // who has lost patience thinks no more
       m_pause = 0;
       choose();

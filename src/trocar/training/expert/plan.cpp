@@ -75,7 +75,7 @@ void check_tasks(const std::vector<PlanTask>& tasks, const sim::Model& model, Fa
   for (const PlanTask& task : tasks) {
     const std::string lack = task.kind->lacks(model, Given(*task.kind, task.arguments));
     if (!lack.empty())
-      scene::tell(faults, {task.at, fmt::format("expected a scene for the skill \"{}\", got one in which {}",
+      scene::tell(faults, {task.at, fmt::format("expected a scene that suits the skill \"{}\", got: {}",
                                                 task.kind->name, lack)});
     check_tasks(task.meanwhile, model, faults);
   }

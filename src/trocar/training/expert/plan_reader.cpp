@@ -103,7 +103,7 @@ class PlanReader {
     if (const JsonMember* list = v.find("do"))
       g.todo = some_tasks(list->value);
     else
-      r.fault(v, "expected \"do\": what to do for this goal, got none");
+      r.fault(v, "expected \"do\", the skills for this goal, got none");
     if (const JsonMember* list = v.find("if_failed")) g.if_failed = tasks(list->value);
     return g;
   }
@@ -156,7 +156,7 @@ class PlanReader {
     const std::string lack = t.kind->lacks(*r.model, Given(*t.kind, t.arguments));
     if (lack.empty()) return;
     scene::tell(*r.faults,
-                {t.at, fmt::format("expected a scene for the skill \"{}\", got one in which {}", t.kind->name, lack)});
+                {t.at, fmt::format("expected a scene that suits the skill \"{}\", got: {}", t.kind->name, lack)});
   }
 
   double number(const JsonValue& v, const char* key, double otherwise) const {

@@ -36,21 +36,25 @@ const Fact kBagHolds{"bag.holds_share",
                      {{"of", ArgumentKind::body, "a rigid object or a pouch"}},
                      0,
                      1,
-                     "The share of it that has come into the bag through its mouth. Of a rigid object all or nothing.",
+                     "The share of the object that has entered the bag through its mouth; 0 or 1 for a rigid object.",
                      needs_bag,
                      &stateless<held>,
                      false,
                      &refuses_body};
-const Fact kBagMouth{
-    "bag.mouth_share", {}, 0, 1, "How far its hoop is out of its sleeve: 1 when it is open.", needs_bag,
-    &stateless<mouth>};
-const Fact kBagShut{"bag.closed",     {},  0, 1, "It has been open, and its mouth is drawn shut.", needs_bag,
+const Fact kBagMouth{"bag.mouth_share",
+                     {},
+                     0,
+                     1,
+                     "Share of the bag's hoop that is out of its sleeve: 1 when the bag is open.",
+                     needs_bag,
+                     &stateless<mouth>};
+const Fact kBagShut{"bag.closed",     {},  0, 1, "The bag has been opened, and its mouth is closed.", needs_bag,
                     &stateless<shut>, true};
 const Fact kBagOut{"bag.out",
                    {},
                    0,
                    1,
-                   "Its neck has been drawn into the trocar, shut; what is in it counts as taken out.",
+                   "The closed bag's neck has been drawn into the trocar; its contents count as removed.",
                    needs_bag,
                    &stateless<out>,
                    true};

@@ -16,7 +16,7 @@ const Fact kBleederCalibre{"bleeder.calibre_mm",
                            {},
                            0,
                            100,
-                           "Lumen of the vessel that opens by itself, at that place, in the standard shape.",
+                           "Diameter of the bleeding vessel's lumen at the bleeding point, undeformed.",
                            needs_bleeder,
                            &stateless<calibre>};
 

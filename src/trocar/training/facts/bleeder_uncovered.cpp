@@ -33,8 +33,8 @@ const Fact kBleederUncovered{"bleeder.uncovered_s",
                              {},
                              0,
                              36000,
-                             "For how long, all in all, the place that opens by itself has been open without the pool "
-                             "standing over it.",
+                             "Total time that the bleeding point has been open without pooled blood "
+                             "covering it.",
                              needs_bleeder_in_pool,
                              &remembering<Uncovered>};
 

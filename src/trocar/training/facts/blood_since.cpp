@@ -20,7 +20,7 @@ class Bleeding final : public Observer {
 }  // namespace
 
 const Fact kBloodSince{
-    "blood.since_s",       {}, 0, 36000, "How long ago the first blood left a vessel. Unknown before.", needs_fluids,
+    "blood.since_s",       {}, 0, 36000, "Time since the first blood left a vessel. Unknown before.", needs_fluids,
     &remembering<Bleeding>};
 
 }  // namespace trocar::training

@@ -33,12 +33,12 @@ Value apart(const ClipPair& p) { return p.paired() ? Value(p.apart()) : kUnknown
 
 std::vector<Parameter> pair_parameters() {
   return {{"of", ArgumentKind::strand, "which tube"},
-          {"first_mm", ArgumentKind::range, "where the inner clip belongs, from the tube's beginning"},
-          {"second_mm", ArgumentKind::range, "where the outer one belongs"},
+          {"first_mm", ArgumentKind::range, "position of the inner clip, from the tube's start"},
+          {"second_mm", ArgumentKind::range, "position of the outer clip"},
           {"apart_mm", ArgumentKind::range, "between the two"},
           {"stretch_mm", ArgumentKind::range, "the stretch of the tube that may be clipped"},
-          {"angle_deg", ArgumentKind::number, "off the cross-section, at most", true, 0, 90},
-          {"cover", ArgumentKind::number, "share of the cross-section between the legs, at least", true, 0, 1},
+          {"angle_deg", ArgumentKind::number, "largest angle to the cross-section", true, 0, 90},
+          {"cover", ArgumentKind::number, "smallest share of the cross-section between the legs", true, 0, 1},
           {"closing_s", ArgumentKind::number, "shortest closing time", true, 0, 60}};
 }
 
@@ -48,7 +48,7 @@ const Fact kClipsFirstSet{"clips.first_set",
                           pair_parameters(),
                           0,
                           1,
-                          "A clip that is well set is where the first belongs, alone or with a second.",
+                          "A well-set clip is at the position of the inner clip, with or without an outer one.",
                           needs_applier,
                           &remembering<Pair<first_set>>,
                           true};
@@ -56,7 +56,7 @@ const Fact kClipsSecondSet{"clips.second_set",
                            pair_parameters(),
                            0,
                            1,
-                           "A clip that is well set is where the second belongs, alone or with a first.",
+                           "A well-set clip is at the position of the outer clip, with or without an inner one.",
                            needs_applier,
                            &remembering<Pair<second_set>>,
                            true};
@@ -64,7 +64,7 @@ const Fact kClipsMisplaced{"clips.misplaced",
                            pair_parameters(),
                            0,
                            1,
-                           "The tube's last clip is well set, but makes no pair and is in no place of one.",
+                           "The tube's last clip is well set, but it makes no pair and is at neither position of one.",
                            needs_applier,
                            &remembering<Pair<misplaced>>,
                            true};
@@ -72,7 +72,7 @@ const Fact kClipsApart{"clips.apart_mm",
                        pair_parameters(),
                        0,
                        1000,
-                       "Between the two clips of the pair. Unknown until there is one.",
+                       "Distance between the two clips of the pair. Unknown until there is a pair.",
                        needs_applier,
                        &remembering<Pair<apart>>};
 

@@ -7,6 +7,6 @@ Value seconds(const Moment& moment, const Arguments&) { return moment.now(); }
 
 }  // namespace
 
-const Fact kClock{"attempt.time_s", {}, 0, 36000, "Since the scene began.", anywhere, &stateless<seconds>};
+const Fact kClock{"attempt.time_s", {}, 0, 36000, "Time since the start.", anywhere, &stateless<seconds>};
 
 }  // namespace trocar::training

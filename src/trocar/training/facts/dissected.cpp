@@ -95,7 +95,7 @@ const Fact kBondsLeft{"bonds.left_share",
                       {{"of", ArgumentKind::word, "bonds of a pouch, by their name"}},
                       0,
                       1,
-                      "The share of the bonds' area that still holds: 1 before anything has been dissected, 0 when all "
+                      "The share of the bonds' area that is intact: 1 before any dissection, 0 when all "
                       "of it is free.",
                       needs_bonds,
                       &stateless<bonds_left>,
@@ -106,8 +106,8 @@ const Fact kBondsBreached{"bonds.breached_mm2",
                           {{"of", ArgumentKind::word, "bonds of a pouch, by their name"}},
                           0,
                           1e6,
-                          "How much of the organ they are rooted in has torn in place of bonds that are tougher than "
-                          "it. 0 where none are.",
+                          "Area torn out of the organ in place of bonds that are tougher than "
+                          "the organ. 0 where no bond is.",
                           needs_bonds,
                           &stateless<bonds_breached>,
                           false,
@@ -118,7 +118,7 @@ const Fact kFatLeft{
     {{"of", ArgumentKind::body, "which fat"}},
     0,
     1,
-    "The share of its volume that is still there: not boiled away, and not torn off all that it hung on.",
+    "The remaining share of its volume: not vaporised, and not torn off everything that it was attached to.",
     needs_fat,
     &remembering<Figure<volume_left>>,
     false,
@@ -128,28 +128,29 @@ const Fact kStrandBared{"strand.bared_mm",
                         {{"of", ArgumentKind::strand, "a duct or a vessel in fat"}},
                         0,
                         1000,
-                        "The longest stretch that lay in fat and along which none lies on it in at least seven of "
+                        "The longest stretch that lay in fat and is now free of it in at least seven of "
                         "eight sectors around.",
                         needs_fat,
                         &remembering<Bared>};
 
-const Fact kWindowOpen{"window.open_share",
-                       {{"a", ArgumentKind::mark, "a corner of the window"},
-                        {"b", ArgumentKind::mark, "another"},
-                        {"c", ArgumentKind::mark, "the third"}},
-                       0,
-                       1,
-                       "The share of 64 sights through the triangle between three marks, from 12 mm before it to 12 mm "
-                       "behind it, that no fat is in the way of.",
-                       needs_fat,
-                       &remembering<Figure<window_open>>};
+const Fact kWindowOpen{
+    "window.open_share",
+    {{"a", ArgumentKind::mark, "a corner of the window"},
+     {"b", ArgumentKind::mark, "another"},
+     {"c", ArgumentKind::mark, "the third"}},
+    0,
+    1,
+    "The share of 64 lines of sight through the triangle between three marks, from 12 mm in front of it to 12 mm "
+    "behind it, that no fat blocks.",
+    needs_fat,
+    &remembering<Figure<window_open>>};
 
 const Fact kFatBridges{"fat.bridges",
-                       {{"from", ArgumentKind::body, "a body that fat lies on"},
-                        {"but", ArgumentKind::bodies, "bodies that do not count", false}},
+                       {{"from", ArgumentKind::body, "a body that fat is attached to"},
+                        {"but", ArgumentKind::bodies, "bodies that are ignored", false}},
                        0,
                        1000,
-                       "The number of bodies that fat, lobule by lobule, still ties to this one.",
+                       "The number of other bodies that fat lobules still connect to this body.",
                        needs_fat,
                        &remembering<Figure<bridges>>};
 

@@ -11,7 +11,7 @@ const Fact kHandDepth{"hand.depth_mm",
                       {{"hand", ArgumentKind::hand, "whose instrument"}},
                       0,
                       400,
-                      "How deep the instrument is in, from its trocar.",
+                      "Insertion depth of the instrument from its port.",
                       anywhere,
                       &stateless<depth>};
 

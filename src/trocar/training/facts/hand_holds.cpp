@@ -34,20 +34,21 @@ Value holds_between(const Moment& moment, const Arguments& a) {
 
 const Fact kHandHolds{"hand.holds",
                       {{"hand", ArgumentKind::hand, "whose jaws"},
-                       {"any_of", ArgumentKind::bodies, "bodies; none named: anything", false}},
+                       {"any_of", ArgumentKind::bodies, "bodies; without it: any body", false}},
                       0,
                       1,
                       "The jaws hold one of these bodies.",
                       anywhere,
                       &stateless<holds>,
                       true};
-const Fact kHandHeldAt{"hand.held_at_mm",
-                       {{"hand", ArgumentKind::hand, "whose jaws"}, {"strand", ArgumentKind::strand, "what they hold"}},
-                       0,
-                       1000,
-                       "Where along the strand the jaws hold it, from its beginning. Unknown while they do not.",
-                       anywhere,
-                       &stateless<held_at>};
+const Fact kHandHeldAt{
+    "hand.held_at_mm",
+    {{"hand", ArgumentKind::hand, "whose jaws"}, {"strand", ArgumentKind::strand, "what they hold"}},
+    0,
+    1000,
+    "Position of the jaws along the grasped strand, from its start. Unknown while they do not hold it.",
+    anywhere,
+    &stateless<held_at>};
 const Fact kHandHoldsBetween{"hand.holds_between",
                              {{"hand", ArgumentKind::hand, "whose jaws"},
                               {"strand", ArgumentKind::strand, "what they hold"},

@@ -29,7 +29,7 @@ const Fact kHandPath{"hand.path_mm",
                      {{"hand", ArgumentKind::hand, "whose instrument"}},
                      0,
                      1e6,
-                     "The way of the instrument's tip so far.",
+                     "Path length of the instrument's tip so far.",
                      anywhere,
                      &remembering<Path>};
 

@@ -27,34 +27,34 @@ Value jaws_to_mark(const Moment& moment, const Arguments& a) {
 std::string marks_that_face(const sim::Model& model, const Arguments& a) {
   const sim::VisibilityTarget& target = model.targets[size_t(a[1].index)];
   if (can_face(model, target)) return "";
-  return fmt::format("expected an organ or a disc, got \"{}\", which faces every way", target.name);
+  return fmt::format("expected a mark on an organ or a disc, got \"{}\", which has no single normal", target.name);
 }
 
 }  // namespace
 
-const Fact kHandJawsToMark{"hand.jaws_to_mark_deg",
-                           {{"hand", ArgumentKind::hand, "whose instrument"},
-                            {"mark", ArgumentKind::mark, "a disc or an organ that they point at"}},
-                           0,
-                           180,
-                           "Between the axis of the instrument's jaws and straight into the surface at the mark: 0 "
-                           "where they point into it, 90 along it.",
-                           anywhere,
-                           &stateless<jaws_to_mark>,
-                           false,
-                           marks_that_face};
+const Fact kHandJawsToMark{
+    "hand.jaws_to_mark_deg",
+    {{"hand", ArgumentKind::hand, "whose instrument"}, {"mark", ArgumentKind::mark, "a mark on a disc or an organ"}},
+    0,
+    180,
+    "Angle between the axis of the instrument's jaws and the inward normal of the surface at the mark: 0 "
+    "when the jaws point into the surface, 90 along it.",
+    anywhere,
+    &stateless<jaws_to_mark>,
+    false,
+    marks_that_face};
 const Fact kHandTipToMark{"hand.tip_to_mark_mm",
                           {{"hand", ArgumentKind::hand, "whose instrument"}, {"mark", ArgumentKind::mark, "to which"}},
                           0,
                           1000,
-                          "From the instrument's tip to the mark's middle.",
+                          "Distance from the instrument's tip to the mark's centre.",
                           anywhere,
                           &stateless<to_mark>};
 const Fact kHandTipToHand{"hand.tip_to_hand_mm",
                           {{"hand", ArgumentKind::hand, "whose instrument"}, {"other", ArgumentKind::hand, "to whose"}},
                           0,
                           1000,
-                          "Between the tips of two instruments.",
+                          "Distance between the tips of two instruments.",
                           anywhere,
                           &stateless<to_hand>};
 

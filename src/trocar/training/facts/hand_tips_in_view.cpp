@@ -14,7 +14,7 @@ const Fact kHandTipsInView{"hand.tips_in_view",
                            {{"hand", ArgumentKind::hand, "whose instrument"}},
                            0,
                            2,
-                           "How many of the instrument's two jaw tips are in view.",
+                           "Number of the instrument's two jaw tips in view.",
                            anywhere,
                            &stateless<tips_in_view>};
 

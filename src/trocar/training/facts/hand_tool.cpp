@@ -33,7 +33,7 @@ std::string not_in_rack(const sim::Model& model, const Arguments& a) {
 std::string no_applier_in_rack(const sim::Model& model, const Arguments& a) {
   const sim::HandModel& hand = model.hands[size_t(a[0].index)];
   if (can_take(hand, &interactions::Abilities::set_clips)) return "";
-  return fmt::format("expected a hand with a clip applier, got \"{}\", whose rack holds none", hand.name);
+  return fmt::format("expected a hand with a clip applier, got \"{}\", which has none in its rack", hand.name);
 }
 
 }  // namespace
@@ -43,16 +43,16 @@ const Fact kHandHas{
     {{"hand", ArgumentKind::hand, "which"}, {"kind", ArgumentKind::word, "of instrument", true, 0, 0, kinds()}},
     0,
     1,
-    "The instrument in this trocar is of that kind.",
+    "The instrument in this port is of that kind.",
     anywhere,
     &stateless<has>,
     true,
     not_in_rack};
 const Fact kHandClipsLeft{"hand.clips_left",
-                          {{"hand", ArgumentKind::hand, "that has a clip applier"}},
+                          {{"hand", ArgumentKind::hand, "hand that has a clip applier"}},
                           0,
                           1000,
-                          "Clips in its magazine. Unknown while another instrument is in the trocar.",
+                          "Number of clips in the magazine. Unknown while another instrument is in the port.",
                           anywhere,
                           &stateless<clips_left>,
                           false,

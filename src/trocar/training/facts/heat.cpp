@@ -31,21 +31,23 @@ std::vector<Parameter> hand() { return {{"hand", ArgumentKind::hand, "whose elec
 
 }  // namespace
 
-const Fact kTissueTemperature{"tissue.temperature_C",
-                              hand(),
-                              0,
-                              400,
-                              "Of the tissue where the hand's electrode was last. Unknown before it was at any.",
-                              needs_energy,
-                              &stateless<temperature>};
-const Fact kTissueDeadBeyond{"tissue.dead_beyond_mm",
-                             hand(),
-                             0,
-                             1000,
-                             "How far from where the hand's electrode was last its body's tissue has died; dear: up to "
-                             "a millisecond. Unknown before it was at any.",
-                             needs_energy,
-                             &stateless<dead_beyond>};
+const Fact kTissueTemperature{
+    "tissue.temperature_C",
+    hand(),
+    0,
+    400,
+    "Temperature of the tissue that the hand's electrode touched last. Unknown before the first contact.",
+    needs_energy,
+    &stateless<temperature>};
+const Fact kTissueDeadBeyond{
+    "tissue.dead_beyond_mm",
+    hand(),
+    0,
+    1000,
+    "Extent of thermal necrosis from the last contact of the hand's electrode. Expensive: up to "
+    "1 ms. Unknown before the first contact.",
+    needs_energy,
+    &stateless<dead_beyond>};
 const Fact kHandActive{
     "hand.active",      hand(), 0, 1, "The pedal of this hand's instrument is pressed.", needs_energy,
     &stateless<active>, true};

@@ -38,7 +38,7 @@ Value facing(const Moment& moment, const Arguments& a) {
 std::string faces_every_way(const sim::Model& model, const Arguments& a) {
   const sim::VisibilityTarget& target = model.targets[size_t(a[0].index)];
   if (can_face(model, target)) return "";
-  return fmt::format("expected an organ or a disc, got \"{}\", which faces every way", target.name);
+  return fmt::format("expected a mark on an organ or a disc, got \"{}\", which has no single normal", target.name);
 }
 
 /// Against where it was when it was first looked at: as drawn.
@@ -61,36 +61,38 @@ class Moved final : public Observer {
 
 }  // namespace
 
-const Fact kMarkMoved{"mark.moved_mm",
-                      {{"of", ArgumentKind::mark, "what has been moved"},
-                       {"towards", ArgumentKind::word, "where to, of the patient", true, 0, 0, patient_directions()}},
-                      -1000,
-                      1000,
-                      "How far its middle is from where it began, that way; below 0 the other way.",
-                      anywhere,
-                      &remembering<Moved>};
+const Fact kMarkMoved{
+    "mark.moved_mm",
+    {{"of", ArgumentKind::mark, "the mark that moves"},
+     {"towards", ArgumentKind::word, "direction of the patient", true, 0, 0, patient_directions()}},
+    -1000,
+    1000,
+    "Displacement of the mark's centre since the start in that direction; negative in the opposite one.",
+    anywhere,
+    &remembering<Moved>};
 
-const Fact kMarkOffCentre{"mark.off_centre",
-                          {{"of", ArgumentKind::mark, "what is looked at"}},
-                          0,
-                          10,
-                          "How far it is from the picture's middle, as a share of the picture's radius. Unknown while "
-                          "it is not in view.",
-                          anywhere,
-                          &stateless<off_centre>};
+const Fact kMarkOffCentre{
+    "mark.off_centre",
+    {{"of", ArgumentKind::mark, "the mark"}},
+    0,
+    10,
+    "Distance of the mark from the picture's centre, as a share of the picture's radius. Unknown while "
+    "it is not in view.",
+    anywhere,
+    &stateless<off_centre>};
 const Fact kMarkDistance{"mark.distance_mm",
-                         {{"of", ArgumentKind::mark, "what is looked at"}},
+                         {{"of", ArgumentKind::mark, "the mark"}},
                          0,
                          1000,
-                         "From the lens to its middle. Unknown while it is not in view.",
+                         "Distance from the lens to the mark's centre. Unknown while it is not in view.",
                          anywhere,
                          &stateless<distance>};
 const Fact kMarkFacing{"mark.facing_deg",
-                       {{"of", ArgumentKind::mark, "a disc or an organ that is looked at"}},
+                       {{"of", ArgumentKind::mark, "a mark on a disc or an organ"}},
                        0,
                        180,
-                       "Between the line from it to the lens and the direction in which its surface faces. Unknown "
-                       "while it is not in view, and for what faces every way.",
+                       "Angle between the line to the lens and the surface normal at the mark. Unknown "
+                       "while it is not in view, and for marks without a single normal.",
                        anywhere,
                        &stateless<facing>,
                        false,

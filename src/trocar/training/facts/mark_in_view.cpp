@@ -12,18 +12,18 @@ Value share(const Moment& moment, const Arguments& a) {
 }  // namespace
 
 const Fact kMarkInView{"mark.in_view",
-                       {{"of", ArgumentKind::mark, "what is looked for"}},
+                       {{"of", ArgumentKind::mark, "the mark"}},
                        0,
                        1,
-                       "At least half of its samples are in the picture and nothing is before them.",
+                       "At least half of the mark's sample points are visible in the picture.",
                        anywhere,
                        &stateless<in_view>,
                        true};
 const Fact kMarkVisibleShare{"mark.visible_share",
-                             {{"of", ArgumentKind::mark, "what is looked for"}},
+                             {{"of", ArgumentKind::mark, "the mark"}},
                              0,
                              1,
-                             "The share of its samples that are in the picture with nothing before them.",
+                             "The share of the mark's sample points that are visible in the picture.",
                              anywhere,
                              &stateless<share>};
 

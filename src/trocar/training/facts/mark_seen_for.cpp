@@ -26,13 +26,14 @@ class SeenFor final : public Observer {
 
 }  // namespace
 
-const Fact kMarkSeenFor{"mark.seen_for_s",
-                        {{"of", ArgumentKind::mark, "what is looked for"},
-                         {"share", ArgumentKind::number, "of its samples, from which it is seen", true, 0, 1}},
-                        0,
-                        36000,
-                        "The longest time so far that it was seen without a break.",
-                        anywhere,
-                        &remembering<SeenFor>};
+const Fact kMarkSeenFor{
+    "mark.seen_for_s",
+    {{"of", ArgumentKind::mark, "the mark"},
+     {"share", ArgumentKind::number, "share of sample points from which the mark counts as seen", true, 0, 1}},
+    0,
+    36000,
+    "The longest uninterrupted time that the mark has been seen so far.",
+    anywhere,
+    &remembering<SeenFor>};
 
 }  // namespace trocar::training

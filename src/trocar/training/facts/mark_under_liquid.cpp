@@ -16,7 +16,7 @@ const Fact kMarkUnderLiquid{"mark.under_liquid",
                             {{"of", ArgumentKind::mark, "which"}},
                             0,
                             1,
-                            "The pool stands over its middle, deeper than one sees through.",
+                            "Pooled fluid covers the mark's centre, too deep to see through.",
                             needs_fluids,
                             &stateless<under>,
                             true};

@@ -19,6 +19,6 @@ Value pool(const Moment& moment, const Arguments&) {
 const Fact kBileSpilled{
     "bile.spilled_mL",  {}, 0, 1e4, "Volume that left open closed membranes, such as bile, so far.", needs_fluids,
     &stateless<spilled>};
-const Fact kPoolVolume{"pool.volume_mL", {}, 0, 1e4, "Volume in the pool.", needs_fluids, &stateless<pool>};
+const Fact kPoolVolume{"pool.volume_mL", {}, 0, 1e4, "Volume of pooled fluid.", needs_fluids, &stateless<pool>};
 
 }  // namespace trocar::training

@@ -22,8 +22,8 @@ const Fact kScopeHorizon{"scope.horizon_deg",
                          {},
                          -180,
                          180,
-                         "How far the picture is turned from upright; to the right above 0. Unknown while the scope "
-                         "looks straight up or down.",
+                         "Rotation of the picture from upright, positive to the right. Unknown while the scope "
+                         "points straight up or down.",
                          anywhere,
                          &stateless<horizon>};
 

@@ -48,20 +48,19 @@ std::vector<Parameter> stump_parameters() {
 std::string no_trace(const sim::Model& model, const Arguments& a) {
   const sim::StrandAnatomy& strand = model.strands[size_t(a[0].index)];
   if (!strand.landmarks.empty()) return "";
-  return "expected a strand with landmarks, whose stumps can be looked for, got \"" + strand.name +
-         "\", which has none";
+  return "expected a strand with landmarks, which stumps need, got \"" + strand.name + "\", which has none";
 }
 
 }  // namespace
 
 const Fact kStrandOccluded{
-    "strand.occluded", stump_parameters(),     0,   1, "No way leads through the tube from its beginning to its end.",
+    "strand.occluded", stump_parameters(),     0,   1, "The lumen is blocked between the tube's start and its end.",
     anywhere,          &remembering<Occluded>, true};
 const Fact kStrandStumpsClosed{"strand.stumps_closed",
                                stump_parameters(),
                                0,
                                1,
-                               "A clip that closes it sits on either side of every cut. Unknown before it is cut.",
+                               "A clip closes the strand on both sides of every cut. Unknown before a cut.",
                                anywhere,
                                &remembering<StumpsClosed>,
                                true};
@@ -69,7 +68,7 @@ const Fact kStrandStumpsInView{"strand.stumps_in_view",
                                stump_parameters(),
                                0,
                                1,
-                               "Both ends that the first cut made are in view. Unknown before it is cut.",
+                               "Both stumps of the first cut are in view. Unknown before a cut.",
                                anywhere,
                                &remembering<StumpsInView>,
                                true,

@@ -22,10 +22,11 @@ Value severed(const Moment& moment, const Arguments& a) {
 
 const Fact kStrandStraightness{"strand.straightness",
                                {{"of", ArgumentKind::strand, "which"},
-                                {"to", ArgumentKind::landmark, "landmark up to whose end; none: all of it", false}},
+                                {"to", ArgumentKind::landmark,
+                                 "landmark at whose end the measured part ends; without it: the whole strand", false}},
                                0,
                                1,
-                               "The chord over the length of the strand from its beginning, or of what is left of it "
+                               "Ratio of chord to length of the strand from its start, or of the part "
                                "before a cut; 1 is straight.",
                                anywhere,
                                &stateless<straightness>};
@@ -33,7 +34,7 @@ const Fact kStrandSevered{"strand.severed",
                           {{"of", ArgumentKind::strand, "which"}},
                           0,
                           1,
-                          "It has been cut or torn through somewhere.",
+                          "The strand is divided by a cut or a tear.",
                           anywhere,
                           &stateless<severed>,
                           true};

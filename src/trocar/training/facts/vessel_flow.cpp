@@ -40,20 +40,21 @@ std::string_view needs_vessels_and_energy(const sim::Model& model) {
 
 }  // namespace
 
-const Fact kVesselFlow{"vessel.flow_mL_min",
-                       {{"of", ArgumentKind::vessel, "which"}},
-                       -1e4,
-                       1e4,
-                       "What flows through its middle, the way it is drawn, in the mean of the last two seconds; back "
-                       "below 0.",
-                       needs_vessels,
-                       &remembering<VesselFlow>};
+const Fact kVesselFlow{
+    "vessel.flow_mL_min",
+    {{"of", ArgumentKind::vessel, "which"}},
+    -1e4,
+    1e4,
+    "Mean flow through the vessel's middle over the last two seconds, positive from its start to its end; negative "
+    "when reversed.",
+    needs_vessels,
+    &remembering<VesselFlow>};
 
 const Fact kVesselSealed{"vessel.sealed",
                          {{"of", ArgumentKind::vessel, "which"}},
                          0,
                          1,
-                         "Heat has closed it somewhere, so that it bears three times a systolic pressure.",
+                         "Heat has sealed the vessel somewhere, so that it withstands three times a systolic pressure.",
                          needs_vessels_and_energy,
                          &stateless<sealed>,
                          true};

@@ -34,7 +34,7 @@ Json metric_json(const Study& study, const MetricStudy& m) {
 
 std::string study_json(const Study& study) {
   Json j{{"persons", study.persons},
-         {"ranges", "low and high: the figure when each person in turn is left out"},
+         {"ranges", "low and high: the range of the figure when each person in turn is left out"},
          {"metrics", Json::array()},
          {"attempts", Json::array()}};
   for (const MetricStudy& m : study.metrics)

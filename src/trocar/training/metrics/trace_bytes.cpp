@@ -113,7 +113,7 @@ class BytesReader {
     const std::span<const std::uint8_t> content = m_bytes.first(m_bytes.size() - 8);
     m_at = content.size();
     const std::uint64_t told = integer(8);
-    if (told != core::hash_bytes(content.data(), content.size())) reject("damaged: the checksum does not fit");
+    if (told != core::hash_bytes(content.data(), content.size())) reject("damaged: wrong checksum");
     m_bytes = content;
     m_at = 4;
     const std::uint64_t format = integer(4);
@@ -149,7 +149,7 @@ class BytesReader {
   TraceMark mark(std::uint64_t hands) {
     TraceMark m;
     const std::uint64_t kind = integer(4), hand = integer(4);
-    if (kind >= TraceMark::kinds || hand >= hands) reject("expected a mark of a hand that is there");
+    if (kind >= TraceMark::kinds || hand >= hands) reject("expected a mark of a hand of the trace");
     m.kind = TraceMark::Kind(kind);
     m.hand = std::int32_t(hand);
     const std::uint64_t sample = integer(4);
@@ -169,7 +169,7 @@ class BytesReader {
       for (const auto& channel : kHandChannels) column(hand.samples, channel);
       for (const TraceSample& s : hand.samples)
         if (s.instrument < -1 || s.instrument >= std::int32_t(trace.instruments.size()))
-          reject("expected instruments that are there");
+          reject("expected instruments of the trace");
     }
     if (scope) {
       trace.scope.resize(samples);

@@ -160,7 +160,7 @@ class CsvReader {
       if (words[3] == plain(m_trace.hands[h].name)) m.hand = std::int32_t(h);
     std::int64_t sample = 0;
     if (m.kind == TraceMark::kinds || m.hand < 0 || !parse_steps(words[4], 0, kMaxTraceSamples, sample) || sample < 0)
-      return fault(1, "expected a mark of a hand that is there, at a sample");
+      return fault(1, "expected a mark of a hand of the trace, at a sample");
     m.sample = std::uint32_t(sample);
     m_trace.marks.push_back(m);
   }
@@ -204,7 +204,7 @@ class CsvReader {
       TraceSample s;
       for (const auto& c : kHandChannels) c.set(s, value_of(steps(c.decimals, c.most), c.scale));
       if (s.instrument < -1 || s.instrument >= std::int32_t(m_trace.instruments.size()))
-        fault(1, "expected the number of an instrument that is there");
+        fault(1, "expected the number of an instrument of the trace");
       hand.samples.push_back(s);
     }
     if (m_scope) {

@@ -51,8 +51,8 @@ class ArgumentReader {
   bool hidden_bleeder(ArgumentKind kind, const NameAt& n) const {
     if (kind != ArgumentKind::mark || n.name != "bleeder" || r.model->vessels.bleeder.vessel < 0) return false;
     scene::tell(*r.faults, {n.at,
-                            "expected a vessel that opens where something carries it, got one that nothing carries "
-                            "there: nobody can tell whether it is seen"});
+                            "expected a bleeder on a vessel that is attached to a body there, got an unattached one, "
+                            "whose visibility cannot be computed"});
     return true;
   }
 

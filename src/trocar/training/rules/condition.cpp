@@ -128,7 +128,8 @@ class ConditionReader {
         r.fault(is->value, scene::unknown_name("state of a step", is->value.text, {"done", "missed", "open"}));
     }
     if (const scene::JsonMember* since = v.find("since_s")) {
-      if (c.m_is == Condition::StepIs::open) r.fault(since->value, "expected a step that is done or missed, got open");
+      if (c.m_is == Condition::StepIs::open)
+        r.fault(since->value, "expected the state done or missed of a step, got open");
       if (const auto test = read_short_test(since->value, {"since_s", 0, 36000, false, false}, r)) {
         c.m_test = *test;
         c.m_since = true;

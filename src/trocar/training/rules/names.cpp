@@ -165,7 +165,7 @@ std::vector<NameAt> RuleReading::names(const JsonValue& value) const {
   constexpr int kDeepest = 8;
   std::vector<NameAt> out;
   if (depth > kDeepest) {
-    fault(value, "expected names, got a set that refers to itself");
+    fault(value, "expected names, got a set that contains itself");
     return out;
   }
   const std::optional<Meaning> m = meaning(value, *this);

@@ -26,9 +26,10 @@ std::optional<Test> possible(const Test& test, const JsonValue& at, const Tested
   const double least = bounded ? tested.low * unit.si : -kAnything;
   const double most = bounded ? tested.high * unit.si : kAnything;
   if (!empty(test, least, most)) return test;
-  r.fault(at, bounded ? fmt::format("expected what \"{}\" can be, {:g} to {:g}{}{}, got {}", tested.name, tested.low,
-                                    tested.high, unit.suffix.empty() ? "" : " ", unit.suffix, test.shown(unit, false))
-                      : fmt::format("expected what \"{}\" can be, got an empty range", tested.name));
+  r.fault(at, bounded ? fmt::format("expected a possible value of \"{}\", {:g} to {:g}{}{}, got {}", tested.name,
+                                    tested.low, tested.high, unit.suffix.empty() ? "" : " ", unit.suffix,
+                                    test.shown(unit, false))
+                      : fmt::format("expected possible values of \"{}\", got an empty range", tested.name));
   return std::nullopt;
 }
 
@@ -52,7 +53,7 @@ class TestReader {
     if (m_bad) return std::nullopt;
     if (!m_said) {
       complain(m_object,
-               fmt::format("expected what \"{}\" must be (min, max, above, below, in), got none", m_tested.name));
+               fmt::format("expected a bound for \"{}\" (min, max, above, below, in), got none", m_tested.name));
       return std::nullopt;
     }
     return possible(m_test, m_object, m_tested, r);
@@ -67,7 +68,8 @@ class TestReader {
   std::optional<Test> truth_of() {
     for (const std::string& key : test_keys())
       if (const scene::JsonMember* m = m_object.find(key); m && key != "is")
-        complain(m->value, fmt::format("expected is: true or false for the truth \"{}\", got {}", m_tested.name, key));
+        complain(m->value, fmt::format("expected is: true or false for \"{}\", which is true or false, got {}",
+                                       m_tested.name, key));
     const scene::JsonMember* is = m_object.find("is");
     if (is && is->value.kind != Kind::boolean)
       complain(is->value, "expected true or false, got " + scene::shown(is->value));

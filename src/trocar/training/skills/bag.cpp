@@ -100,7 +100,7 @@ class PutInBag final : public Skill {
     } else {
       op.arms().grip(m_hand, 0, 0.5);
       if (share_inside(op, m_body) >= m_least) return Progress::done;
-      if (m_in_phase > 1.5) return fail("it has not all come in");
+      if (m_in_phase > 1.5) return fail("part of it is still outside the bag");
     }
     return Progress::working;
   }
@@ -148,7 +148,7 @@ class PushIntoBag final : public Skill {
       if (op.arms().move(m_hand, below, pace::kCareful)) go(kUp);
     } else if (op.arms().move(m_hand, m_over, pace::kCareful)) {
       if (share_inside(op, m_body) >= m_least) return Progress::done;
-      if (++m_pushes >= kMostPushes) return fail("it has not all come in");
+      if (++m_pushes >= kMostPushes) return fail("part of it is still outside the bag");
       go(kOver);
     }
     return Progress::working;
@@ -213,17 +213,16 @@ class TakeOutBag final : public Skill {
 
 }  // namespace
 
-const SkillKind kOpenBag{
-    "open_bag",
-    "open the bag",
-    {hand_parameter("the hand with the bag"),
-     {"x_mm", ArgumentKind::number, "to the patient's left", true, -1000, 1000},
-     {"y_mm", ArgumentKind::number, "towards the head", true, -1000, 1000},
-     {"z_mm", ArgumentKind::number, "to the front", true, -1000, 1000}},
-    15,
-    "Brings the middle of the bag's mouth to a place, its mouth facing up, and pushes the hoop out.",
-    lacks_bag_in_hand,
-    &making<OpenBag>};
+const SkillKind kOpenBag{"open_bag",
+                         "open the bag",
+                         {hand_parameter("the hand with the bag"),
+                          {"x_mm", ArgumentKind::number, "to the patient's left", true, -1000, 1000},
+                          {"y_mm", ArgumentKind::number, "towards the head", true, -1000, 1000},
+                          {"z_mm", ArgumentKind::number, "to the front", true, -1000, 1000}},
+                         15,
+                         "Moves the bag's mouth to a position, facing up, and pushes the hoop out.",
+                         lacks_bag_in_hand,
+                         &making<OpenBag>};
 const SkillKind kPutInBag{
     "put_in_bag",
     "put it into the bag",

@@ -46,7 +46,7 @@ class ClipAt final : public Skill {
       Phase otherwise;
       const char* why;
     };
-    static constexpr Row kRows[] = {{15, kLeave, "it did not get there"},
+    static constexpr Row kRows[] = {{15, kLeave, "the instrument did not reach the target"},
                                     {8, kLeave, "the legs did not go around it"},
                                     {13, kLeave, nullptr},  // what was amiss last
                                     {8, kOpen, "the clip did not close"},
@@ -82,7 +82,7 @@ class ClipAt final : public Skill {
   }
 
   Progress reach(Operator& op) {
-    if (!op.still_presented(m_strand)) return fail("it is not held any more");
+    if (!op.still_presented(m_strand)) return fail("the tissue is no longer held");
     op.keep_postures(m_strand, m_place);
     op.make_room(m_hand);
     op.want(at(op));
@@ -159,7 +159,7 @@ class ClipAt final : public Skill {
 
   bool slipped(Operator& op) {
     if (op.still_presented(m_strand)) return false;
-    m_lost = "it is not held any more";
+    m_lost = "the tissue is no longer held";
     go(kLeave);
     return true;
   }
@@ -247,9 +247,9 @@ class ClipAt final : public Skill {
     const bool enclosed = m_cover <= 0 || (cover >= m_cover + kMore && std::fabs(local.x) < shape.half_gap);
     const double askew = portable::acos(std::min(1.0, square));
     const bool across = askew < m_angle_high - kSurer && (m_angle_low <= 0 || askew > m_angle_low + kSurer);
-    if (!enclosed) return "not all of it lay between the legs";
-    if (!across) return "it did not lie straight across the legs";
-    return sees_enough(op) ? nullptr : "the legs' tips were not in view as they should be";
+    if (!enclosed) return "the legs did not enclose all of it";
+    if (!across) return "it was not perpendicular to the legs";
+    return sees_enough(op) ? nullptr : "too few of the legs' tips were in view";
   }
 
   int m_hand, m_strand;

@@ -59,7 +59,7 @@ class ClipVessel final : public Skill {
     m_clips_before = op.state().clip_count;
     m_unseen = 0;
     if (op.arms().grip(m_hand, 0, 0.5) && aim(op, reach::kBefore, pace::kTravel)) go(kEnter);
-    if (m_in_phase > 15) give_up("it did not get there");
+    if (m_in_phase > 15) give_up("the instrument did not reach the target");
     return Progress::working;
   }
 
@@ -191,7 +191,7 @@ class ClipVessel final : public Skill {
 };
 
 std::string clip_vessel_lacks(const sim::Model& model, const Given& given) {
-  if (model.vessels.bleeder.vessel < 0) return "no vessel opens by itself";
+  if (model.vessels.bleeder.vessel < 0) return "the scene has no bleeder";
   return lacks_tool(model, given.hand(), &interactions::Abilities::set_clips);
 }
 
@@ -199,7 +199,7 @@ std::string clip_vessel_lacks(const sim::Model& model, const Given& given) {
 
 const SkillKind kClipVessel{
     "clip_vessel",
-    "set a clip beside the place that bleeds",
+    "set a clip beside the bleeding point",
     {hand_parameter("the hand with the clip applier"),
      word_parameter("side", "side of the place: where the blood comes from, or beyond", {"heart", "beyond"}),
      number_parameter("beside_mm", "distance from the place; default 6", 0, 100),

@@ -39,7 +39,7 @@ class Coagulate final : public Skill {
 };
 
 std::string lacks_current(const sim::Model& model, const Given& given) {
-  if (!model.energy.there) return "there is no current";
+  if (!model.energy.there) return "the scene has no current";
   if (std::string lack = lacks_tool(model, given.hand(), &interactions::Abilities::coagulate); !lack.empty())
     return lack;
   return Place::lacks(model, given);

@@ -58,7 +58,7 @@ class CoagulateVessel final : public Skill {
   Progress reach(Operator& op) {
     m_carrier = carrier_at(op, m_vessel, m_s);
     if (op.arms().grip(m_hand, 0, 0.5) && aim(op, reach::kBefore, pace::kTravel)) go(kEnter);
-    if (m_in_phase > 15) give_up("it did not get there");
+    if (m_in_phase > 15) give_up("the instrument did not reach the target");
     return Progress::working;
   }
 
@@ -67,12 +67,12 @@ class CoagulateVessel final : public Skill {
     if (!op.arms().grip(m_hand, m_closed, 0.8) || m_in_phase < kFelt) return Progress::working;
     if (op.tool_state(m_hand).holds == 0) {
       ++m_missed;
-      return come_again("the jaws have not taken it"), Progress::working;
+      return come_again("the jaws did not grasp it"), Progress::working;
     }
     const double beside = from_jaws(op);
     if (std::fabs(beside) <= 0.35 * op.tool(m_hand).jaw_width) return go(kPress), Progress::working;
     m_shift = std::clamp(m_shift + beside, -kMostShift, kMostShift);
-    come_again("the jaws have taken what lies beside the place");
+    come_again("the jaws grasped tissue beside the target");
     return Progress::working;
   }
 
@@ -137,8 +137,8 @@ class CoagulateVessel final : public Skill {
 };
 
 std::string coagulate_vessel_lacks(const sim::Model& model, const Given& given) {
-  if (!model.energy.there) return "there is no current";
-  if (!given("vessel").given && model.vessels.bleeder.vessel < 0) return "no vessel opens by itself";
+  if (!model.energy.there) return "the scene has no current";
+  if (!given("vessel").given && model.vessels.bleeder.vessel < 0) return "the scene has no bleeder";
   return lacks_tool(model, given.hand(), &interactions::Abilities::bipolar);
 }
 
@@ -146,7 +146,7 @@ std::string coagulate_vessel_lacks(const sim::Model& model, const Given& given) 
 
 const SkillKind kCoagulateVessel{
     "coagulate_vessel",
-    "coagulate the place that bleeds",
+    "coagulate the bleeding point",
     {hand_parameter("the hand with bipolar forceps"),
      number_parameter("for_s", "longest time with the pedal pressed; default 4", 0, 60),
      number_parameter("inside_share",

@@ -51,7 +51,7 @@ class CutAt final : public Skill {
     static constexpr double kPatience[] = {15, 8, 4, 4, 6};  // [s]
     if (m_in_phase > kPatience[m_phase]) {
       if (m_phase == kLeave) return ended(op);
-      if (m_phase == kReach || m_phase == kEnter) m_lost = "it did not get there";
+      if (m_phase == kReach || m_phase == kEnter) m_lost = "the instrument did not reach the target";
       go(m_phase == kClose ? kOpen : kLeave);
     }
     switch (m_phase) {
@@ -113,7 +113,7 @@ class CutAt final : public Skill {
   }
 
   Progress reach(Operator& op) {
-    if (!op.still_presented(m_strand)) return fail("it is not held any more");
+    if (!op.still_presented(m_strand)) return fail("the tissue is no longer held");
     m_place = place(op);
     op.keep_postures(m_strand, m_place);
     op.make_room(m_hand);

@@ -12,7 +12,7 @@ class Enter final : public Skill {
  private:
   Progress work(Operator& op) override {
     const Operator::Target& t = op.target(m_hand);
-    if (t.strand < 0) return fail("the hand was sent nowhere: approach first");
+    if (t.strand < 0) return fail("the hand has no target: use approach first");
     op.want(op.point(t.strand, t.s));
     op.want(op.arm(m_hand).tip);
     const bool there = op.aim_at(m_hand, t.strand, t.s, t.inside, 0, pace::kCareful);

@@ -16,11 +16,11 @@ class Grasp final : public Skill {
  private:
   Progress work(Operator& op) override {
     const Operator::Target& t = op.target(m_hand);
-    if (t.strand < 0) return fail("the hand was sent nowhere: approach first");
+    if (t.strand < 0) return fail("the hand has no target: use approach first");
     op.want(op.point(t.strand, t.s));
     if (!op.arms().grip(m_hand, m_closed, 0.8) || m_in_phase < 1.2) return Progress::working;
     const double at = held_arc(op.model(), op.state(), size_t(m_hand), t.strand);
-    if (at < 0 || at <= m_beyond) return fail("the jaws have not taken it");
+    if (at < 0 || at <= m_beyond) return fail("the jaws did not grasp it");
     return Progress::done;
   }
   int m_hand;

@@ -30,7 +30,7 @@ const SkillKind kLookAt{
         std::vector<Parameter>{number_parameter("for_s", "total time with the picture at rest; default 0", 0, 600),
                                number_parameter("from_mm", "distance of the lens; default 60", 10, 300)},
     30,
-    "Brings a place into the picture's middle and looks.",
+    "Centres a target in the picture.",
     Place::lacks,
     &making<LookAt>};
 

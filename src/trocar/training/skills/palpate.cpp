@@ -44,7 +44,7 @@ class Palpate final : public Skill {
     switch (m_phase) {
       case kReach:
         if (op.arms().move(m_hand, at - kOver * in, pace::kTravel)) go(kPress);
-        return m_in_phase > kLongest ? fail("does not get there") : Progress::working;
+        return m_in_phase > kLongest ? fail("the instrument did not reach the target") : Progress::working;
       case kPress:
         press(op, in, force);
         if (force > m_press) go(kFeel);
@@ -114,7 +114,7 @@ class Palpate final : public Skill {
 };
 
 std::string lacks_vessel(const sim::Model& model, const Given& given) {
-  if (!model.vessels.there()) return "there are no vessels";
+  if (!model.vessels.there()) return "the scene has no vessels";
   return given("vessel").index < 0 ? "there is no such vessel" : std::string();
 }
 

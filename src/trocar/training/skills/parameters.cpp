@@ -111,11 +111,11 @@ Vec3d Place::tangent(Operator& op) const {
 }
 
 std::string Place::lacks(const sim::Model& model, const Given& given) {
-  if (given.says("there", "bleeding") && model.vessels.bleeder.vessel < 0) return "no vessel opens by itself";
+  if (given.says("there", "bleeding") && model.vessels.bleeder.vessel < 0) return "the scene has no bleeder";
   if (given("nearest_of").given &&
       model.targets[size_t(given("nearest_of").index)].kind != sim::VisibilityTarget::organ)
-    return fmt::format("\"{}\" is no organ", model.targets[size_t(given("nearest_of").index)].name);
-  if (given.says("there", "pool") && !model.wet.there) return "there are no fluids";
+    return fmt::format("\"{}\" is not an organ", model.targets[size_t(given("nearest_of").index)].name);
+  if (given.says("there", "pool") && !model.wet.there) return "the scene has no fluids";
   const Argument& of = given("of");
   for (const char* landmark : {"after", "before"})
     if (of.given && given(landmark).given)

@@ -51,7 +51,7 @@ class PickUp final : public Skill {
     } else if (m_phase == kClose) {
       if (!op.arms().grip(m_hand, 1, 0.8) || m_in_phase < kFeels) return Progress::working;
       const interactions::ToolState& tool = op.tool_state(m_hand);
-      if (tool.holds == 0 || tool.hold[0].body != m_body) return fail("the jaws have not taken it");
+      if (tool.holds == 0 || tool.hold[0].body != m_body) return fail("the jaws did not grasp it");
       m_from = arm.tip;
       go(kLift);
     } else if (op.arms().move(m_hand, m_from - m_lift * along, pace::kCareful)) {
@@ -97,7 +97,7 @@ class Carry final : public Skill {
 };
 
 std::string lacks_object(const sim::Model& model, const Given& given) {
-  if (!given("body").body().is(BodyKind::rigid)) return "what is picked up has to be a rigid object";
+  if (!given("body").body().is(BodyKind::rigid)) return "the object to pick up is not rigid";
   return lacks_tool(model, given.hand(), &interactions::Abilities::grip);
 }
 
@@ -116,7 +116,7 @@ const SkillKind kPickUp{
     &making<PickUp>};
 const SkillKind kCarry{
     "carry",
-    "carry what is held",
+    "carry the grasped object",
     {hand_parameter("the hand that holds it"),
      {"x_mm", ArgumentKind::number, "to the patient's left", true, -1000, 1000},
      {"y_mm", ArgumentKind::number, "towards the head", true, -1000, 1000},

@@ -37,7 +37,8 @@ class ReachIn final : public Skill {
         const bool there = op.arms().move(m_hand, m_tip, pace::kTravel);
         const bool turned = turn(op), bent = op.arms().bend(m_hand, m_wrist);
         if (there && turned && bent) go(kIn);
-        return m_in_phase > kLongest ? fail("does not get before it") : Progress::working;
+        return m_in_phase > kLongest ? fail("the instrument did not reach the position in front of it")
+                                     : Progress::working;
       }
       case kIn:
         if (along(op, kAt)) go(kStay);
@@ -109,7 +110,7 @@ std::string lacks_wrist(const sim::Model& model, const Given& given) {
   const sim::HandModel& hand = model.hands[size_t(given.hand())];
   if (!hand.rack.front().bends.bends()) return "the instrument at the trocar \"" + hand.name + "\" does not bend";
   const int mark = given("mark").index;
-  return can_face(model, model.targets[size_t(mark)]) ? "" : "the mark faces every way";
+  return can_face(model, model.targets[size_t(mark)]) ? "" : "the mark has no single normal";
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class SuckDry final : public Skill {
 };
 
 std::string lacks_suction(const sim::Model& model, const Given& given) {
-  if (!model.wet.there) return "there are no fluids";
+  if (!model.wet.there) return "the scene has no fluids";
   return lacks_tool(model, given.hand(), &interactions::Abilities::irrigate);
 }
 
@@ -40,7 +40,7 @@ std::string lacks_suction(const sim::Model& model, const Given& given) {
 
 const SkillKind kSuckDry{
     "suck_dry",
-    "suck the pool empty",
+    "suck the pooled fluid",
     std::vector<Parameter>{hand_parameter("the hand with the suction-irrigator"),
                            number_parameter("left_mL", "volume that may remain; default 0.5", 0, 1000)} +
         place_parameters(),

@@ -17,7 +17,7 @@ class WaitForBlood final : public Skill {
 };
 
 std::string no_blood(const sim::Model& model, const Given&) {
-  return model.vessels.there() ? "" : "there are no vessels";
+  return model.vessels.there() ? "" : "the scene has no vessels";
 }
 
 }  // namespace

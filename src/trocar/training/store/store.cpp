@@ -15,7 +15,7 @@ namespace {
 constexpr unsigned kOwn = 0600;  // names are nobody else's business
 
 std::string whole_reason(const std::string& what, const fs::path& kept) {
-  return fmt::format("{}; the result is kept in {} and taken in when the store is opened next", what, kept.string());
+  return fmt::format("{}; the result is kept in {} and imported when the store is next opened", what, kept.string());
 }
 
 }  // namespace
@@ -104,11 +104,10 @@ Kept Store::end(Attempt& attempt, AttemptLock& lock) {
     kept.in_database = true;
   } else {
     kept = set_down(attempt);
-    notice(
-        kept.anywhere()
-            ? whole_reason(fmt::format("the session store did not take the result: {}", fault), kept.file)
-            : fmt::format("the result could not be kept anywhere ({}): it is in the recording {} if that has its end",
-                          fault, attempt.recording));
+    notice(kept.anywhere()
+               ? whole_reason(fmt::format("the session store could not save the result: {}", fault), kept.file)
+               : fmt::format("the result could not be saved ({}): a complete recording {} contains it", fault,
+                             attempt.recording));
   }
   lock = {};
   return kept;

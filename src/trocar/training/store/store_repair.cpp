@@ -20,12 +20,12 @@ void Store::repair(const std::string& what) {
     aside = m_folder / fmt::format("sessions.sqlite.damaged-{}", n);
   fs::rename(database(), aside, error);
   if (error) {
-    notice(fmt::format("{} is damaged ({}) and cannot be set aside: {}", database().string(), what, error.message()));
+    notice(fmt::format("{} is damaged ({}) and cannot be renamed: {}", database().string(), what, error.message()));
     return;
   }
   for (const char* tail : {"-wal", "-shm"}) fs::rename(database().string() + tail, aside.string() + tail, error);
-  notice(
-      fmt::format("the session store was damaged ({}): it is set aside as {} and built again", what, aside.string()));
+  notice(fmt::format("the session store was damaged ({}): it is kept as {}, and a new store is built", what,
+                     aside.string()));
   try {
     Database db(database(), Database::Access::write, m_patience);
     make_durable(db);
@@ -33,7 +33,7 @@ void Store::repair(const std::string& what) {
     salvage(db, aside);
     take_in_recordings(db);
   } catch (const DatabaseFault& fault) {
-    notice(fmt::format("the session store could not be built again: {}", fault.what()));
+    notice(fmt::format("a new session store could not be built: {}", fault.what()));
   }
 }
 

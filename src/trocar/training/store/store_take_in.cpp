@@ -29,7 +29,7 @@ void Store::take_in_recordings(Database& db) {
   Transaction all(db);
   for (Attempt& a : found) write_row(db, a);
   all.commit();
-  notice(fmt::format("{} attempts were taken in from their recordings", found.size()));
+  notice(fmt::format("{} attempts were imported from their recordings", found.size()));
 }
 
 void Store::take_in_files(Database& db) {
@@ -70,7 +70,7 @@ void Store::take_in_files(Database& db) {
     std::string trace = file.string();
     trace.replace(trace.size() - std::strlen(kWaiting), std::string::npos, kWaitingTrace);
     fs::remove(trace, ignored);
-    notice(fmt::format("an attempt's result that had waited in {} was taken in", file.string()));
+    notice(fmt::format("an attempt's result was imported from {}", file.string()));
   }
 }
 
@@ -95,11 +95,11 @@ void Store::settle_running(Database& db) {
     write_row(db, a);
     one.commit();
     if (a.state == AttemptState::interrupted)
-      notice(fmt::format("attempt {} was interrupted: the program ended without saying so; {}", a.number,
-                         a.ticks > 0 ? fmt::format("its recording reaches {:.1f} s", a.seconds)
-                                     : std::string("there is no recording of it")));
+      notice(fmt::format(
+          "attempt {} was interrupted: the program ended unexpectedly; {}", a.number,
+          a.ticks > 0 ? fmt::format("its recording reaches {:.1f} s", a.seconds) : std::string("it has no recording")));
     else
-      notice(fmt::format("attempt {} had ended: its result was taken from its recording", a.number));
+      notice(fmt::format("attempt {} had ended: its result was imported from its recording", a.number));
   }
 }
 

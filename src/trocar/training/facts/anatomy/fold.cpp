@@ -34,7 +34,7 @@ const Fact kFoldWhole{
      {"between_mm", ArgumentKind::range, "stretch of that strand, from its beginning", true, 0, 1000}},
     0,
     1000,
-    "Along how much of that stretch the fold still ties the strand to its root, uncut from border to "
+    "Length of that stretch along which the fold still ties the strand to its root, uncut from border to "
     "border.",
     anywhere,
     &remembering<FoldWhole>,

@@ -56,8 +56,8 @@ Value area(const Moment& moment, const Arguments& a) {
 }
 
 std::vector<Parameter> two_ducts() {
-  return {{"of", ArgumentKind::strand, "the cystic duct: from where it joins to the neck"},
-          {"on", ArgumentKind::strand, "the duct that it joins, drawn from the liver on"}};
+  return {{"of", ArgumentKind::strand, "the cystic duct: from the junction to the neck of the gallbladder"},
+          {"on", ArgumentKind::strand, "the duct that it joins, which begins at the liver"}};
 }
 
 }  // namespace

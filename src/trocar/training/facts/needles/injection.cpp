@@ -91,7 +91,7 @@ std::string takes_nothing_up(const sim::Model& model, const Arguments& a) {
   const BodyId body = a[0].body();
   const bool takes = body.is(BodyKind::organ) && body.index() < model.injection.organs.size() &&
                      model.injection.organs[body.index()].infusion.there();
-  return takes ? "" : "expected an organ that takes up what is injected, got another body";
+  return takes ? "" : "expected an organ that absorbs an injection, got another body";
 }
 
 const Parameter kWhoseNeedle{"hand", ArgumentKind::hand, "whose needle"};
@@ -99,18 +99,19 @@ const Parameter kInfusedOrgan{"of", ArgumentKind::body, "which organ"};
 
 }  // namespace
 
-const Fact kNeedleDepth{"needle.depth_mm",
-                        {kWhoseNeedle},
-                        -30,
-                        60,
-                        "How deep a needle's point is below the nearest skin. Unknown while it is in no organ.",
-                        needs_syringe,
-                        &stateless<point_depth>};
+const Fact kNeedleDepth{
+    "needle.depth_mm",
+    {kWhoseNeedle},
+    -30,
+    60,
+    "Depth of a needle's point below the nearest surface of the organ. Unknown while it is in no organ.",
+    needs_syringe,
+    &stateless<point_depth>};
 const Fact kNeedleIn{"needle.in",
                      {kWhoseNeedle, {"of", ArgumentKind::body, "which organ; any", false}},
                      0,
                      1,
-                     "Is the needle's point in an organ?",
+                     "The needle's point is in an organ.",
                      needs_syringe,
                      &stateless<point_in>,
                      true};
@@ -118,7 +119,7 @@ const Fact kNeedlePlunger{"needle.plunger_N",
                           {kWhoseNeedle},
                           -200,
                           200,
-                          "The force on the plunger: pressing above 0, drawing below.",
+                          "Force on the plunger: positive when pressing, negative when drawing.",
                           needs_syringe,
                           &stateless<plunger_force>};
 const Fact kNeedleLeft{"needle.left_mL", {kWhoseNeedle},          0, 100, "Volume left in the syringe.",
@@ -127,12 +128,13 @@ const Fact kNeedleDrawn{"needle.drawn_s",
                         {kWhoseNeedle},
                         0,
                         3600,
-                        "How long the plunger has been drawn where the point is now, within 3 mm. Unknown while it is "
+                        "Time of aspiration at the needle's present point, within 3 mm. Unknown while it is "
                         "in no organ.",
                         needs_syringe,
                         &stateless<plunger_drawn>};
-const Fact kNeedleBlood{"needle.blood_mL", {kWhoseNeedle},         0, 100, "Blood drawn since the point went in.",
-                        needs_syringe,     &stateless<blood_drawn>};
+const Fact kNeedleBlood{
+    "needle.blood_mL", {kWhoseNeedle},         0, 100, "Volume of blood drawn since the needle went in.",
+    needs_syringe,     &stateless<blood_drawn>};
 const Fact kInjectedVolume{"injected.volume_mL",
                            {kInfusedOrgan},
                            0,
@@ -149,17 +151,17 @@ const Fact kInjectedSpilled{"injected.spilled_mL",
                             {},
                             0,
                             1e3,
-                            "What needles have let into the open: spilled, or run back along their ways.",
+                            "Volume lost into the cavity: spilled, or leaked back along needle tracks.",
                             needs_syringe,
                             &stateless<spilled_by_needles>};
 const Fact kInjectedUnits{
-    "injected.drug_IU",        {}, 0, 1e5, "The drug that has left needles, wherever it went.", needs_syringe,
+    "injected.drug_IU",        {}, 0, 1e5, "Dose that has left the needles, wherever it went.", needs_syringe,
     &stateless<units_injected>};
 const Fact kInjectedBlanched{"injected.blanched_mm2",
                              {kInfusedOrgan},
                              0,
                              1e6,
-                             "The area of an organ's skin that has blanched, by half at least.",
+                             "The area of an organ's surface that has blanched by at least half.",
                              needs_syringe,
                              &remembering<BlanchedSkin>,
                              false,

@@ -58,16 +58,15 @@ std::string_view needs_arteries(const sim::Model& model) { return model.vessels.
 
 }  // namespace
 
-const Fact kHandPulse{
-    "hand.pulse_N",
-    {{"hand", ArgumentKind::hand, "whose instrument"},
-     {"of", ArgumentKind::vessel, "of which artery; without it the one that is felt most", false}},
-    0,
-    100,
-    "What a beat of the heart changes in the force with which an artery's wall pushes the instrument, "
-    "through the tissue between. 0 while it presses on nothing.",
-    needs_arteries,
-    &remembering<FeltPulse>};
+const Fact kHandPulse{"hand.pulse_N",
+                      {{"hand", ArgumentKind::hand, "whose instrument"},
+                       {"of", ArgumentKind::vessel, "the artery; without it the one that is felt most", false}},
+                      0,
+                      100,
+                      "Pulse amplitude of the force with which an artery's wall pushes the instrument "
+                      "through the tissue between. 0 while the instrument presses on nothing.",
+                      needs_arteries,
+                      &remembering<FeltPulse>};
 const Fact kPulseTappedOff{"pulse.tapped_off_per_min",
                            {},
                            -1000,

@@ -111,8 +111,8 @@ class HeldAlong final : public Observer {
 
 std::vector<Parameter> run_parameters() {
   return {{"stations", ArgumentKind::marks, "discs on its wall, in their order along it"},
-          {"spacing_mm", ArgumentKind::number, "from one to the next; the first is so far from the beginning"},
-          {"step_mm", ArgumentKind::number, "longest step from one hold to the next"}};
+          {"spacing_mm", ArgumentKind::number, "distance from one to the next, and from the start to the first"},
+          {"step_mm", ArgumentKind::number, "longest step from one grasp to the next"}};
 }
 std::string refuses_run(const sim::Model& model, const Arguments& a) { return no_stations(model, a[0].marks); }
 std::string refuses_held(const sim::Model& model, const Arguments& a) { return no_stations(model, a[1].marks); }
@@ -124,9 +124,9 @@ const Fact kRunReached{
     run_parameters(),
     0,
     100'000,
-    "How far a gut has been run, hand over hand, from its beginning: from a hold within 25 mm of the "
-    "first station on, each next hold taken while the last one still holds. Where both hands were "
-    "off, it continues from a hold within 35 mm of the last place.",
+    "Length of bowel that has been run hand over hand from its start: from a grasp within 25 mm of the "
+    "first station on, with each next grasp taken while the last one still holds. After both hands have "
+    "released, it continues from a grasp within 35 mm of the last position.",
     anywhere,
     &remembering<Reached>,
     false,
@@ -135,13 +135,13 @@ const Fact kRunLost{"run.lost",
                     run_parameters(),
                     0,
                     1e6,
-                    "How often both hands were off the gut after the run had begun.",
+                    "Number of times that both hands released the bowel after the run had begun.",
                     anywhere,
                     &remembering<Lost>,
                     false,
                     &refuses_run};
 const Fact kRunGrasps{
-    "run.grasps", run_parameters(),     0,     1e6,         "How often jaws have taken the gut, all hands together.",
+    "run.grasps", run_parameters(),     0,     1e6,         "Number of grasps of the bowel, all hands together.",
     anywhere,     &remembering<Grasps>, false, &refuses_run};
 const Fact kHandHeldAlong{"hand.held_along_mm",
                           {{"hand", ArgumentKind::hand, "whose jaws"},
@@ -149,7 +149,7 @@ const Fact kHandHeldAlong{"hand.held_along_mm",
                            {"spacing_mm", ArgumentKind::number, "from one to the next"}},
                           0,
                           100'000,
-                          "How far along a gut the jaws hold it. Unknown while they do not.",
+                          "Position of the jaws along the bowel. Unknown while they do not hold it.",
                           anywhere,
                           &remembering<HeldAlong>,
                           false,

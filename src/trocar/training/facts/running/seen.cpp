@@ -31,11 +31,11 @@ class SeenShare final : public Observer {
 }  // namespace
 
 const Fact kMarksSeen{"marks.seen_share",
-                      {{"of", ArgumentKind::marks, "what is to be seen"},
-                       {"for_s", ArgumentKind::number, "each in view for so long without a break", true, 0, 60}},
+                      {{"of", ArgumentKind::marks, "marks to be seen"},
+                       {"for_s", ArgumentKind::number, "uninterrupted time in view for each", true, 0, 60}},
                       0,
                       1,
-                      "The share of these marks that have been in view, each for so long, at one time or another.",
+                      "The share of these marks that have been in view for that time so far.",
                       anywhere,
                       &remembering<SeenShare>};
 

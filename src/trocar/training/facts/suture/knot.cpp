@@ -65,37 +65,39 @@ Value wrapped(const Moment& moment, const Arguments& a) {
 
 }  // namespace
 
-const Fact kKnotThrows{"knot.throws",
-                       {},
-                       0,
-                       8,
-                       "How many throws the thread is tied in, above tissue that it goes through.",
-                       needs_thread,
-                       &remembering<Throws>};
-const Fact kKnotTurns{"knot.turns",
-                      {{"throw", ArgumentKind::number, "which, 1: the one next to the tissue", true, 1, 8}},
-                      -8,
-                      8,
-                      "How often both sides turn round each other in that throw; below 0: left-handed. Unknown where "
-                      "there is none.",
-                      needs_thread,
-                      &remembering<Turns>};
+const Fact kKnotThrows{
+    "knot.throws",       {}, 0, 8, "Number of throws of the knot over the stitched tissue.", needs_thread,
+    &remembering<Throws>};
+const Fact kKnotTurns{
+    "knot.turns",
+    {{"throw", ArgumentKind::number, "number of the throw; 1 is next to the tissue", true, 1, 8}},
+    -8,
+    8,
+    "Number of turns of both sides around each other in that throw; negative: left-handed. Unknown where "
+    "there is none.",
+    needs_thread,
+    &remembering<Turns>};
 const Fact kKnotSquare{"knot.square",
                        {},
                        0,
                        1,
-                       "Each throw is the opposite of the one before it.",
+                       "Each throw has the opposite handedness of the one before it.",
                        needs_thread,
                        &remembering<Is<suture::KnotKind::square>>,
                        true};
-const Fact kKnotGranny{
-    "knot.granny", {}, 0, 1, "Two throws in a row are alike.", needs_thread, &remembering<Is<suture::KnotKind::granny>>,
-    true};
+const Fact kKnotGranny{"knot.granny",
+                       {},
+                       0,
+                       1,
+                       "Two successive throws have the same handedness.",
+                       needs_thread,
+                       &remembering<Is<suture::KnotKind::granny>>,
+                       true};
 const Fact kKnotSlip{"knot.slip",
                      {},
                      0,
                      1,
-                     "One side is straight and the other one goes round it.",
+                     "One side is straight and the other one winds around it.",
                      needs_thread,
                      &remembering<Is<suture::KnotKind::slip>>,
                      true};
@@ -103,14 +105,14 @@ const Fact kKnotAbove{"knot.above_tissue_mm",
                       {},
                       0,
                       1000,
-                      "From the first throw to the tissue that the thread goes through. Unknown without a throw.",
+                      "Distance from the first throw to the stitched tissue. Unknown without a throw.",
                       needs_thread,
                       &remembering<Above>};
 const Fact kKnotTail{"knot.tail_mm",
                      {},
                      0,
                      1000,
-                     "The shorter side's length beyond the last throw. Unknown without a throw.",
+                     "Length of the shorter end beyond the last throw. Unknown without a throw.",
                      needs_thread,
                      &remembering<Tail>};
 const Fact kThreadWraps{
@@ -118,8 +120,8 @@ const Fact kThreadWraps{
     {{"hand", ArgumentKind::hand, "whose instrument"}},
     -20,
     20,
-    "How often the thread winds round the last 3 cm of its shaft and its jaws; below 0: left-handed "
-    "about the way that it points.",
+    "Number of turns of the thread around the last 3 cm of the shaft and the jaws; negative: left-handed "
+    "about the pointing direction.",
     needs_thread,
     &stateless<wrapped>};
 

@@ -69,54 +69,60 @@ std::string refuses_mark(const sim::Model& model, const Arguments& a) {
 
 }  // namespace
 
-const Fact kLoopClosed{"loop.closed", strand_parameter(), 0,   1, "A loop lies around it that closes its lumen.",
+const Fact kLoopClosed{"loop.closed", strand_parameter(), 0,   1, "A ligature loop around it closes its lumen.",
                        needs_sling,   &stateless<closed>, true};
-const Fact kLoopSecured{
-    "loop.secured", strand_parameter(),  0,   1, "The same, and the loop's tail has been cut: it stays by its knot.",
-    needs_sling,    &stateless<secured>, true};
-const Fact kLoopAt{"loop.at_mm",
-                   strand_parameter(),
-                   0,
-                   1000,
-                   "Where a loop lies around it, from its beginning. Unknown while none does.",
-                   needs_sling,
-                   &stateless<at>};
-const Fact kLoopToMark{
-    "loop.to_mark_mm",
-    {{"of", ArgumentKind::mark, "a mark around a strand"}},
-    0,
-    1000,
-    "Along the strand from the mark's middle to the nearest loop. Unknown while none lies around it.",
-    needs_sling,
-    &stateless<to_mark>,
-    false,
-    &refuses_mark};
-const Fact kLoopOpenShare{"loop.open_share", strand_parameter(),    0, 1, "What a loop leaves of its lumen's width.",
-                          needs_sling,       &stateless<open_share>};
-const Fact kLoopStump{
-    "loop.stump_mm", strand_parameter(), 0, 1000, "From a loop around it to its next end. Unknown while there is none.",
-    needs_sling,     &stateless<stump>};
+const Fact kLoopSecured{"loop.secured",
+                        strand_parameter(),
+                        0,
+                        1,
+                        "A ligature loop around it closes its lumen, and the loop's tail has been cut.",
+                        needs_sling,
+                        &stateless<secured>,
+                        true};
+const Fact kLoopAt{
+    "loop.at_mm", strand_parameter(), 0, 1000, "Position of a loop around it, from its start. Unknown without a loop.",
+    needs_sling,  &stateless<at>};
+const Fact kLoopToMark{"loop.to_mark_mm",
+                       {{"of", ArgumentKind::mark, "a mark around a strand"}},
+                       0,
+                       1000,
+                       "Distance along the strand from the mark's centre to the nearest loop. Unknown without a loop.",
+                       needs_sling,
+                       &stateless<to_mark>,
+                       false,
+                       &refuses_mark};
+const Fact kLoopOpenShare{
+    "loop.open_share", strand_parameter(),    0, 1, "Share of the lumen's width that a loop leaves open.",
+    needs_sling,       &stateless<open_share>};
+const Fact kLoopStump{"loop.stump_mm",
+                      strand_parameter(),
+                      0,
+                      1000,
+                      "Distance from a loop around it to the nearest end. Unknown without a loop.",
+                      needs_sling,
+                      &stateless<stump>};
 const Fact kLoopPull{
-    "loop.pull_N", strand_parameter(), 0, 1000, "How hard a loop around it pulls at it, towards the tube.",
+    "loop.pull_N", strand_parameter(), 0, 1000, "Pull of a loop on the strand, towards the tube of the instrument.",
     needs_sling,   &stateless<pull>};
 const Fact kLoopTension{"loop.tension_N", strand_parameter(), 0, 1000, "Tension of a loop around it.",
                         needs_sling,      &stateless<tension>};
-const Fact kLoopsCount{"loops.count",
-                       {{"of", ArgumentKind::strand, "which tube"},
-                        {"within_mm", ArgumentKind::range, "a stretch of it; none: all of it", false, 0, 1000}},
-                       0,
-                       sim::kMostLoops,
-                       "How many loops lie around it that close its lumen and whose tails have been cut.",
-                       needs_sling,
-                       &stateless<count>};
-const Fact kLoopsAt{
-    "loops.at_mm",
+const Fact kLoopsCount{
+    "loops.count",
     {{"of", ArgumentKind::strand, "which tube"},
-     {"nth", ArgumentKind::number, "1: of those loops the first from its beginning", true, 1, sim::kMostLoops}},
+     {"within_mm", ArgumentKind::range, "a part of it; without it: the whole strand", false, 0, 1000}},
     0,
-    1000,
-    "Where that loop lies, from the tube's beginning. Unknown while there are fewer.",
+    sim::kMostLoops,
+    "Number of loops around it that close its lumen and have a cut tail.",
     needs_sling,
-    &stateless<nth_at>};
+    &stateless<count>};
+const Fact kLoopsAt{"loops.at_mm",
+                    {{"of", ArgumentKind::strand, "which tube"},
+                     {"nth", ArgumentKind::number, "number of the loop; 1 is the first from the strand's start", true,
+                      1, sim::kMostLoops}},
+                    0,
+                    1000,
+                    "Position of that loop from the strand's start. Unknown while there are fewer loops.",
+                    needs_sling,
+                    &stateless<nth_at>};
 
 }  // namespace trocar::training

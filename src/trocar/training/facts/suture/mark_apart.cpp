@@ -16,12 +16,13 @@ Value apart(const Moment& moment, const Arguments& a) {
 
 }  // namespace
 
-const Fact kMarksApart{"mark.apart_mm",
-                       {{"of", ArgumentKind::mark, "a mark"}, {"from", ArgumentKind::mark, "another one"}},
-                       0,
-                       2000,
-                       "From the one's middle to the other's as they are now: a slit's gap by marks beside it.",
-                       anywhere,
-                       &stateless<apart>};
+const Fact kMarksApart{
+    "mark.apart_mm",
+    {{"of", ArgumentKind::mark, "a mark"}, {"from", ArgumentKind::mark, "another one"}},
+    0,
+    2000,
+    "Present distance between the centres of two marks, for example the gap of a slit between marks beside it.",
+    anywhere,
+    &stateless<apart>};
 
 }  // namespace trocar::training

@@ -53,49 +53,44 @@ const Fact kSutureEntry{
     {{"of", ArgumentKind::mark, "a mark on an organ or a fold"}},
     0,
     1000,
-    "From where the needle went into that body to the mark, as the body was drawn; of several bites "
-    "the nearest. Unknown before there is one.",
+    "Distance from the needle's entry into that body to the mark, on the undeformed body; of several bites "
+    "the nearest. Unknown before the first bite.",
     needs_needle,
     &stateless<entry_to_mark>};
 const Fact kSutureExit{"suture.exit_to_mark_mm",
                        {{"of", ArgumentKind::mark, "a mark on an organ or a fold"}},
                        0,
                        1000,
-                       "The same of where it came out.",
+                       "Distance from the needle's exit to the mark, likewise.",
                        needs_needle,
                        &stateless<exit_to_mark>};
 const Fact kSuturePassages{"suture.passages",
                            {{"through", ArgumentKind::body, "which body"}},
                            0,
                            32,
-                           "How many ways through it needle or thread is in, from entry to exit.",
+                           "Number of complete passages of needle or thread through it, from entry to exit.",
                            needs_suture,
                            &stateless<passages>};
 const Fact kSutureDrawn{"suture.drawn_through_mm",
                         {},
                         0,
                         1000,
-                        "Length of thread from the needle to the nearest tissue that it goes through; 0 where it goes "
+                        "Length of thread from the needle to the nearest stitched tissue; 0 where the thread goes "
                         "through none.",
                         needs_thread,
                         &stateless<drawn_through>};
-const Fact kSuturePeak{"suture.peak_N",
-                       {},
-                       0,
-                       1000,
-                       "The most that needle and thread have done so far to tissue at one place.",
-                       needs_suture,
-                       &stateless<peak>};
-const Fact kSutureTension{"suture.tension_N", {}, 0, 1000, "The thread's greatest tension now.", needs_thread,
+const Fact kSuturePeak{
+    "suture.peak_N", {}, 0, 1000, "Largest load of needle and thread on tissue at one point so far.", needs_suture,
+    &stateless<peak>};
+const Fact kSutureTension{"suture.tension_N", {}, 0, 1000, "Present largest tension of the thread.", needs_thread,
                           &stateless<strain>};
-const Fact kSutureTorn{"suture.torn_out", {}, 0, 32, "How many stitches were torn out of tissue so far.", needs_suture,
+const Fact kSutureTorn{"suture.torn_out", {}, 0, 32, "Number of stitches torn out of tissue so far.", needs_suture,
                        &stateless<torn>};
 const Fact kSutureBroken{
-    "suture.broken",    {},  0, 1, "The thread was pulled apart, or crushed between instruments.", needs_thread,
+    "suture.broken",    {},  0, 1, "The thread was broken by a pull, or crushed between instruments.", needs_thread,
     &stateless<broken>, true};
 const Fact kSutureClips{
-    "suture.clips",   {}, 0, suture::kMostThreadClips, "How many clips sit on the thread.", needs_thread,
-    &stateless<clips>};
+    "suture.clips", {}, 0, suture::kMostThreadClips, "Number of clips on the thread.", needs_thread, &stateless<clips>};
 const Fact kSutureClipToTissue{"suture.clip_to_tissue_mm",
                                {},
                                0,
@@ -104,14 +99,19 @@ const Fact kSutureClipToTissue{"suture.clip_to_tissue_mm",
                                "comes out; of several clips the nearest. Unknown without a clip, or a stitch.",
                                needs_thread,
                                &stateless<clip_to_tissue>};
-const Fact kSutureHarmed{
-    "suture.harmed",    {},  0, 1, "A stitch was pulled at with more than its tissue bears unharmed.", needs_suture,
-    &stateless<harmed>, true};
+const Fact kSutureHarmed{"suture.harmed",
+                         {},
+                         0,
+                         1,
+                         "A stitch was pulled harder than its tissue withstands without damage.",
+                         needs_suture,
+                         &stateless<harmed>,
+                         true};
 const Fact kSutureNeedleHeld{"suture.needle_held",
                              {{"hand", ArgumentKind::hand, "whose jaws"}},
                              0,
                              1,
-                             "They hold the needle.",
+                             "The jaws hold the needle.",
                              needs_needle,
                              &stateless<holds_needle>,
                              true};
@@ -119,17 +119,12 @@ const Fact kSutureThreadHeld{"suture.thread_held",
                              {{"hand", ArgumentKind::hand, "whose jaws"}},
                              0,
                              1,
-                             "They hold the thread.",
+                             "The jaws hold the thread.",
                              needs_thread,
                              &stateless<holds_thread>,
                              true};
-const Fact kSutureNeedleInView{"suture.needle_in_picture",
-                               {},
-                               0,
-                               1,
-                               "The needle's tip or its middle is where the endoscope points.",
-                               needs_needle,
-                               &stateless<in_view>,
-                               true};
+const Fact kSutureNeedleInView{
+    "suture.needle_in_picture", {},  0, 1, "The needle's tip or its middle is in the endoscope's view.", needs_needle,
+    &stateless<in_view>,        true};
 
 }  // namespace trocar::training

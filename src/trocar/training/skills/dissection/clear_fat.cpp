@@ -186,8 +186,8 @@ class ClearFat final : public Skill {
 };
 
 std::string lacks_fat(const sim::Model& model, const Given& given) {
-  if (!given("fat").body().is(BodyKind::fat)) return "that is no fat";
-  if (!model.energy.there) return "there is no current";
+  if (!given("fat").body().is(BodyKind::fat)) return "the body is not fat";
+  if (!model.energy.there) return "the scene has no current";
   return lacks_tool(model, given.hand(), &interactions::Abilities::coagulate);
 }
 

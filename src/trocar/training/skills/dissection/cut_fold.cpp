@@ -78,7 +78,7 @@ class CutFold final : public Skill {
     constexpr int kInVain = 8;
     constexpr double kLooks = 0.2, kUnseen = 3.5;  // [s] at what has been divided; to wait for the camera
     if (m_column < 0) return m_in_phase > kLooks ? Progress::done : Progress::working;
-    if (m_vain >= kInVain) return fail("the blades do not take it");
+    if (m_vain >= kInVain) return fail("the fold does not lie between the blades");
     if (m_column >= 0) op.want(middle(op));
     op.want(op.arm(m_hand).tip);
     switch (m_phase) {
@@ -173,7 +173,7 @@ class CutFold final : public Skill {
 };
 
 std::string lacks_fold(const sim::Model& model, const Given& given) {
-  if (!FoldColumns::there(model, given("of").body())) return "no fold that hangs on a strand";
+  if (!FoldColumns::there(model, given("of").body())) return "the body is not a fold that hangs on a strand";
   return lacks_tool(model, given.hand(), &interactions::Abilities::cut);
 }
 

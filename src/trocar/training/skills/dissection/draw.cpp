@@ -40,7 +40,7 @@ class Draw final : public Skill {
 }  // namespace
 
 const SkillKind kDraw{"draw",
-                      "draw what is held",
+                      "pull the grasped tissue",
                       {hand_parameter("the hand that holds it"),
                        word_parameter("towards", "direction in the patient; default feet", patient_directions()),
                        number_parameter("by_mm", "distance; default 20", 0, 200),

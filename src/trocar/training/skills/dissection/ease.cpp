@@ -36,7 +36,7 @@ class Ease final : public Skill {
 }  // namespace
 
 const SkillKind kEase{"ease",
-                      "give way to what pulls",
+                      "yield to the pull",
                       {hand_parameter("the hand that holds it"),
                        number_parameter("pull_N", "until the pull is below this; default 0.3", 0, 50),
                        number_parameter("by_mm", "largest distance; default 30", 0, 200)},

@@ -139,7 +139,7 @@ class PartBonds final : public Skill {
 
 std::string lacks_bonds(const sim::Model& model, const Given& given) {
   if (model.bonds_index(given("bonds").word) < 0) return fmt::format("there are no bonds \"{}\"", given("bonds").word);
-  if (!model.energy.there) return "there is no current";
+  if (!model.energy.there) return "the scene has no current";
   return lacks_tool(model, given.hand(), &interactions::Abilities::coagulate);
 }
 
@@ -147,11 +147,11 @@ std::string lacks_bonds(const sim::Model& model, const Given& given) {
 
 const SkillKind kPartBonds{
     "part_bonds",
-    "part what still holds",
+    "divide the remaining bonds",
     {hand_parameter("the hand with a hook"),
      {"bonds", ArgumentKind::word, "name of the bonds"},
      number_parameter("left_share", "ends when at most this share of their area holds; default 0", 0, 1),
-     word_parameter("also", "whether raw surfaces are dried, too", {"raw"})},
+     word_parameter("also", "whether raw surfaces are coagulated as well", {"raw"})},
     240,
     "Brings an electrode to the most open bond, presses the blue pedal until it parts, and moves to the next; then "
     "withdraws.",

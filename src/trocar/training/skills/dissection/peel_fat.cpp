@@ -105,7 +105,7 @@ class PeelFat final : public Skill {
         break;
       default:
         if (op.arms().grip(m_hand, 0, 0.6) || late)
-          return m_drawn > 0 ? Progress::done : fail("the jaws have not taken it");
+          return m_drawn > 0 ? Progress::done : fail("the jaws did not grasp it");
     }
     return Progress::working;
   }
@@ -125,7 +125,7 @@ class PeelFat final : public Skill {
 };
 
 std::string lacks_peeling(const sim::Model& model, const Given& given) {
-  if (!given("fat").body().is(BodyKind::fat)) return "what is to be peeled is no fat";
+  if (!given("fat").body().is(BodyKind::fat)) return "the body to peel is not fat";
   return lacks_tool(model, given.hand(), &interactions::Abilities::grip);
 }
 

@@ -184,7 +184,7 @@ class StripFat final : public Skill {
 };
 
 std::string lacks_strip(const sim::Model& model, const Given& given) {
-  if (!given("fat").body().is(BodyKind::fat)) return "that is no fat";
+  if (!given("fat").body().is(BodyKind::fat)) return "the body is not fat";
   return lacks_tool(model, given.hand(), &interactions::Abilities::grip);
 }
 

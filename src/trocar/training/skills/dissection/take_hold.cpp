@@ -47,7 +47,7 @@ class TakeHold final : public Skill {
   }
   Progress work(Operator& op) override {
     constexpr double kPressed = 0.8, kLongest = 4, kFeels = 1.2;  // [N] [s] [s]
-    if (m_wall >= 0 && m_node < 0) return fail("no place of it lies bare");
+    if (m_wall >= 0 && m_node < 0) return fail("no part of it is exposed");
     Arms::Arm& arm = op.arm(m_hand);
     const Vec3d at = goal(op), along = normalised(at - arm.port);
     op.want(arm.tip);
@@ -61,7 +61,7 @@ class TakeHold final : public Skill {
     } else if (op.arms().grip(m_hand, m_closed, 0.8) && m_in_phase > kFeels) {
       if (is_taken(op)) return Progress::done;
       if (m_node >= 0) m_missed.push_back(m_node);
-      return fail("the jaws have not taken it");
+      return fail("the jaws did not grasp it");
     }
     return Progress::working;
   }
@@ -84,7 +84,7 @@ std::string lacks_wall_or_place(const sim::Model& model, const Given& given) {
 
 const SkillKind kTakeHold{
     "take_hold",
-    "take hold of it",
+    "grasp it",
     std::vector<Parameter>{
         hand_parameter(),
         {"wall", ArgumentKind::word, "a closed membrane: its most exposed part within 18 mm of the place", false},

@@ -58,7 +58,7 @@ class Pierce final : public Skill {
       case kReach:
         op.arms().grip(m_hand, 1, 0.5);  // drawn in on the way
         if (op.arms().move(m_hand, at - (length + kBefore) * in, pace::kTravel)) go(kOut);
-        return m_in_phase > kLongest ? fail("does not get before it") : Progress::working;
+        return m_in_phase > kLongest ? fail("did not reach the position in front of it") : Progress::working;
       case kOut:
         if (op.arms().grip(m_hand, 0, 0.5)) go(kIn);
         return Progress::working;
@@ -66,7 +66,7 @@ class Pierce final : public Skill {
         arm.tip += kPush * sim::kTick * in;
         arm.moving = true;
         if (needle.in()) go(kSettle);
-        return m_in_phase > kLongest ? fail("does not get in") : Progress::working;
+        return m_in_phase > kLongest ? fail("the needle did not enter") : Progress::working;
       default: {
         if (!needle.in()) {
           go(kIn);
@@ -80,7 +80,7 @@ class Pierce final : public Skill {
           arm.moving = true;
         }
         if (m_still > kRest) return Progress::done;
-        return m_in_phase > kLongest ? fail("does not come to the depth") : Progress::working;
+        return m_in_phase > kLongest ? fail("the needle did not reach the depth") : Progress::working;
       }
     }
   }
@@ -166,7 +166,7 @@ std::string lacks_pierced_organ(const sim::Model& model, const Given& given) {
   const BodyId body = given("of").body();
   if (!body.is(BodyKind::organ) || body.index() >= model.injection.organs.size() ||
       !(model.injection.organs[body.index()].puncture > 0))
-    return "that is no organ that a needle gets into";
+    return "the body is not an organ that a needle can enter";
   return lacks_needle(model, given);
 }
 
@@ -174,7 +174,7 @@ std::string lacks_pierced_organ(const sim::Model& model, const Given& given) {
 
 const SkillKind kPierce{
     "pierce",
-    "go in with the needle",
+    "insert the needle",
     {hand_parameter("the hand with the needle"),
      {"of", ArgumentKind::body, "the organ"},
      number_parameter("x_mm", "place on its skin in the standard shape: the nearest to this point", -500, 500),

@@ -221,7 +221,7 @@ class RunAlong final : public Skill {
   }
   Progress try_elsewhere() {
     constexpr int kMost = 9;
-    if (++m_attempt >= kMost) return fail("the jaws have not taken the gut");
+    if (++m_attempt >= kMost) return fail("the jaws did not grasp the bowel");
     m_way_in = -1;
     go(kReach);
     return Progress::working;

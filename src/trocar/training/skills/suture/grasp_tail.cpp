@@ -75,7 +75,7 @@ class GraspTail final : public Skill {
       if (!op.arms().grip(m_hand, 1, 0.6) || m_in_phase < kFeels + 0.6) return Progress::working;
       Vec3d off;
       if (has_tail(op, at) && !pinches_other(op, at, off)) return Progress::done;
-      if (++m_again > kMostAgain) return fail("the jaws have not taken the tail alone");
+      if (++m_again > kMostAgain) return fail("the jaws did not grasp the tail alone");
       m_shift += kShift * off;
       m_beside += m_again % 2 == 0 ? -0.003 : 0.005;
       go(kReach);
@@ -135,7 +135,7 @@ const SkillKind kGraspTail{
      number_parameter("apart_mm", "distance that the other hand draws back before; default 0", 0, 100),
      number_parameter("open_to", "closing of the handle before; default 0.5", 0, 1)},
     20,
-    "Puts open jaws around the thread near its free end and closes them.",
+    "Encloses the thread near its free end with open jaws and closes them.",
     &tying::lacks_thread,
     &making<GraspTail>};
 

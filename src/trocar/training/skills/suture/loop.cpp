@@ -157,7 +157,7 @@ class CloseLoop final : public Skill {
     const bool closed = loop && loop->closes() && op.arm(m_hand).handle > m_to - 0.01;
     m_ended = closed ? m_ended + sim::kTick : 0;
     if (m_ended > kSettles) return Progress::done;
-    return m_in_phase > kLongest ? fail("the loop does not close it") : Progress::working;
+    return m_in_phase > kLongest ? fail("the loop does not close the lumen") : Progress::working;
   }
 
   int m_hand, m_strand;
@@ -240,7 +240,7 @@ class CutTail final : public Skill {
       if (!back && m_in_phase < 4) return Progress::working;
       return tail(op) ? fail("the tail was not cut") : Progress::done;
     }
-    return m_in_phase > kLongest + 5 ? fail("it did not get there") : Progress::working;
+    return m_in_phase > kLongest + 5 ? fail("the instrument did not reach the target") : Progress::working;
   }
 
   int m_hand;
@@ -277,7 +277,7 @@ const SkillKind kCloseLoop{
      number_parameter("close_to", "closing of the handle; default 0.4", 0.1, 1),
      word_parameter("lead_back", "whether the knot is held against sliding; default no", {"yes", "no"})},
     25,
-    "Draws the loop closed, the knot at the place, until it closes the lumen.",
+    "Closes the loop, with the knot at the target, until it closes the lumen.",
     lacks_sling,
     &making<CloseLoop>};
 const SkillKind kLeaveLoop{"leave_loop",
@@ -285,7 +285,7 @@ const SkillKind kLeaveLoop{"leave_loop",
                            {hand_parameter("the hand with the loop"),
                             number_parameter("back_mm", "distance that the tube draws back; default 30", 5, 100)},
                            15,
-                           "Opens the handle and draws the tube back, thread coming out behind it.",
+                           "Opens the handle and withdraws the tube, which leaves the thread behind.",
                            lacks_sling,
                            &making<LeaveLoop>};
 const SkillKind kCutTail{
@@ -295,7 +295,7 @@ const SkillKind kCutTail{
      number_parameter("at_mm", "length of thread beyond the knot; default 10", 1, 100),
      number_parameter("inside_share", "distance from the hinge, as a share of the blades; default 0.7", 0, 1)},
     30,
-    "Puts open scissors around the thread between the knot and the tube, and closes them.",
+    "Encloses the thread between the knot and the tube with open scissors, and closes them.",
     lacks_scissors,
     &making<CutTail>};
 

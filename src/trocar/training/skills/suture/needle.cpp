@@ -43,7 +43,7 @@ class DriveNeedle final : public Skill {
     m_bites = suture_of(op.state()).bite_count;
   }
   Progress work(Operator& op) override {
-    if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 1) return fail("the jaws have lost the needle");
+    if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 1) return fail("the jaws lost the needle");
     const suture::NeedleModel& m = suture_of(op.model()).needle;
     op.want(m_way.in);
     op.want(m_way.centre);
@@ -65,7 +65,7 @@ class DriveNeedle final : public Skill {
       if (m_angle >= m_last) go(kRest);
     } else {
       lead_needle(op, m_hand, wanted, pace::kTravel, 0);
-      if (m_in_phase > kHang) return through(op) ? Progress::done : fail("the needle has not come through");
+      if (m_in_phase > kHang) return through(op) ? Progress::done : fail("the needle did not emerge");
     }
     return Progress::working;
   }
@@ -113,7 +113,7 @@ class TakeNeedle final : public Skill {
       give_way(op, at);
       if (!op.arms().grip(m_hand, 1, 1.0) || m_in_phase < kFeels + 1.0) return Progress::working;
       return held_of_suture(op.model(), op.state(), std::size_t(m_hand)) == 1 ? Progress::done
-                                                                              : fail("the jaws have not taken it");
+                                                                              : fail("the jaws did not grasp it");
     }
     return Progress::working;
   }
@@ -189,7 +189,7 @@ class DrawThrough final : public Skill {
     return least < 1e8 ? least : 0;
   }
   Progress work(Operator& op) override {
-    if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 1) return fail("the jaws have lost the needle");
+    if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 1) return fail("the jaws lost the needle");
     const suture::NeedleModel& m = suture_of(op.model()).needle;
     op.want(m_centre);
     op.want(op.arm(m_hand).tip);
@@ -208,11 +208,11 @@ class DrawThrough final : public Skill {
       m_lifted += step;
       lead_needle(op, m_hand, m_pose, pace::kTravel);
       if (needle_is_out(op)) go(kAway);
-      return m_lifted > kFarthest ? fail("the needle does not come out") : Progress::working;
+      return m_lifted > kFarthest ? fail("the needle did not emerge") : Progress::working;
     }
     if (drawn(op) >= m_thread) return Progress::done;
     if (suture_of(op.state()).strain > m_pull) return Progress::working;  // the thread is given time
-    if (op.arms().move(m_hand, m_at, pace::kCareful)) return fail("so much thread does not come that way");
+    if (op.arms().move(m_hand, m_at, pace::kCareful)) return fail("the thread did not follow far enough");
     return Progress::working;
   }
 
@@ -249,7 +249,7 @@ const SkillKind kTakeNeedle{
     {hand_parameter(), number_parameter("at_mm", "place on it, from its tip; default 3", 0, 100),
      number_parameter("open_to", "closing of the handle before; default 0.35", 0, 1)},
     20,
-    "Puts open jaws around the needle at a place of its length and closes them.",
+    "Encloses the needle with open jaws and closes them.",
     lacks_needle,
     &making<TakeNeedle>};
 const SkillKind kDrawThrough{

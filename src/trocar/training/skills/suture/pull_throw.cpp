@@ -43,7 +43,7 @@ class PullThrow final : public Skill {
   }
   Progress work(Operator& op) override {
     tying::watch(op);
-    if (!both_hold(op)) return fail("the jaws have lost the thread");
+    if (!both_hold(op)) return fail("the jaws lost the thread");
     op.want(op.arm(m_hand).tip);
     op.want(op.arm(m_with).tip);
     Vec3d stitch;
@@ -119,7 +119,7 @@ class PullThrow final : public Skill {
     if (there && m_ties) m_reach_now += step_at(m_tail);
     if (wound(op) > kStillOn) return m_off_for = 0, go(kOff), Progress::working;
     if (m_tail >= kStraight || (there && !m_ties)) go(kDraw);
-    return m_reach_now > kFarthest ? fail("the tail does not come straight") : Progress::working;
+    return m_reach_now > kFarthest ? fail("the tail did not straighten") : Progress::working;
   }
 
   /// What is wound is drawn tight round the jaws instead of over the tail: they are pressed, and the tail is not
@@ -136,7 +136,7 @@ class PullThrow final : public Skill {
     if (m_gone == 0) m_gone = std::max(0.0, dot(above - tying::held_thread(op, m_with), m_dir));
     m_gone += step_at(m_other), tying::lead(op, m_with, above - m_gone * m_dir, pace_at(m_other));
     if (m_other >= kStraight || m_tail >= kFirmly) go(kKeep);
-    return m_gone > kFarthest ? fail("it does not come tight") : Progress::working;
+    return m_gone > kFarthest ? fail("the throw did not tighten") : Progress::working;
   }
 
   /// Evenly: who pulls more waits, or the throw turns over and what is tied is drawn off the tissue.

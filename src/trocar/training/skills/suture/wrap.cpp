@@ -58,7 +58,7 @@ class Wrap final : public Skill {
   }
   Progress work(Operator& op) override {
     tying::watch(op);
-    if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) == 0) return fail("the jaws have lost the thread");
+    if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) == 0) return fail("the jaws lost the thread");
     op.want(op.arm(m_around).tip);
     op.want(op.arm(m_hand).tip);
     const Vec3d q = tying::held_thread(op, m_hand);
