@@ -198,7 +198,7 @@ TEST(TrackedSource, AToolThatIsHiddenStopsTimeUntilItIsSeenAgain) {
   tracker.say(pose);
   ASSERT_TRUE(before_long([&] { return source.ready(); }));
   ASSERT_TRUE(before_long([&] { return !source.ready(); })) << "nothing comes any more";
-  EXPECT_NE(source.waits_for().find("not seen"), std::string::npos) << source.waits_for();
+  EXPECT_NE(source.waits_for().find("not visible"), std::string::npos) << source.waits_for();
   tracker.say(pose);
   EXPECT_TRUE(before_long([&] { return source.ready(); }));
 }

@@ -260,7 +260,8 @@ struct TeamHost::Desk {
       const std::uint64_t lag = made - std::min(made, seat.shown.ticks);
       seat.catching_up = seat.catching_up ? lag > kCaughtUp : lag > kMostLag;
       if (!seat.shown.here)
-        why = fmt::format("the {} is disconnected{}", seat.shown.role, made == 0 ? " yet" : " any more");
+        why = fmt::format(fmt::runtime(made == 0 ? "the {} has not connected yet" : "the {} is disconnected"),
+                          seat.shown.role);
       else if (seat.catching_up && why.empty())
         why = fmt::format("the {} is {:.1f} s behind", seat.shown.role, double(lag) * sim::kTick);
     }

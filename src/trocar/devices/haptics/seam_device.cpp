@@ -62,7 +62,7 @@ void SeamDevice::open() {
       const int port = m_port;
       close();
       throw core::EnvironmentLacks(
-          fmt::format("seam:{}: no device has sent data on 127.0.0.1:{} for {:g} s: start its driver program "
+          fmt::format("seam:{}: no device has sent data on 127.0.0.1:{} for {:g} s: start the program that drives it "
                       "(docs/guides/haptics.md), then try again",
                       port, port, m_patience));
     }
