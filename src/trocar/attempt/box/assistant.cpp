@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/box/assistant.hpp>
+#include <trocar/core/text.hpp>
 
 namespace trocar::attempt {
 
@@ -19,17 +20,17 @@ constexpr std::size_t kLeastBlocks = 8;  // of a held axis: at 50 Hz 160 ms
 const char* who(BoxActor actor) {
   switch (actor) {
     case BoxActor::left:
-      return "left instrument";
+      return tr("left instrument");
     case BoxActor::right:
-      return "right instrument";
+      return tr("right instrument");
     case BoxActor::third:
-      return "third instrument";
+      return tr("third instrument");
     case BoxActor::fourth:
-      return "fourth instrument";
+      return tr("fourth instrument");
     case BoxActor::scope:
       break;
   }
-  return "endoscope";
+  return tr("endoscope");
 }
 
 bool is_post(BoxActor actor, BoxAxis axis) { return actor == BoxActor::scope && axis == BoxAxis::handle; }
@@ -37,28 +38,27 @@ bool is_post(BoxActor actor, BoxAxis axis) { return actor == BoxActor::scope && 
 std::string sweep_text(BoxActor actor, BoxAxis axis) {
   switch (axis) {
     case BoxAxis::yaw:
-      return fmt::format("Swing the {} from side to side over its full range. Move nothing else.", who(actor));
+      return tr("Swing the {} from side to side over its full range. Move nothing else.", who(actor));
     case BoxAxis::pitch:
-      return fmt::format("Swing the {} towards the patient's head and feet over its full range. Move nothing else.",
-                         who(actor));
+      return tr("Swing the {} towards the patient's head and feet over its full range. Move nothing else.", who(actor));
     case BoxAxis::roll:
-      return fmt::format("Turn the {} about its own shaft over its full range. Move nothing else.", who(actor));
+      return tr("Turn the {} about its own shaft over its full range. Move nothing else.", who(actor));
     case BoxAxis::depth:
-      return fmt::format("Pull the {} out and push it in over its full range. Move nothing else.", who(actor));
+      return tr("Pull the {} out and push it in over its full range. Move nothing else.", who(actor));
     case BoxAxis::handle:
       break;
   }
-  return is_post(actor, axis) ? "Turn the endoscope's light post by a full turn. Move nothing else."
-                              : fmt::format("Open and close the handle of the {}. Move nothing else.", who(actor));
+  return is_post(actor, axis) ? tr("Turn the endoscope's light post by a full turn. Move nothing else.")
+                              : tr("Open and close the handle of the {}. Move nothing else.", who(actor));
 }
 
 /// Where it shall be held; angles as kinematics/fulcrum.hpp has them.
 std::string hold_text(BoxActor actor, BoxAxis axis, double value) {
   const double degrees = std::round(10 * value / kRadian) / 10;
   const auto leant = [&](const char* positive, const char* negative) {
-    if (degrees == 0) return fmt::format("Hold the {} upright: its shaft straight down.", who(actor));
-    return fmt::format("Lean the {} so that its tip points {:g} degrees towards the patient's {}, and hold it still.",
-                       who(actor), std::abs(degrees), degrees > 0 ? positive : negative);
+    if (degrees == 0) return tr("Hold the {} upright: its shaft straight down.", who(actor));
+    return tr("Lean the {} so that its tip points {:g} degrees towards the patient's {}, and hold it still.",
+              who(actor), std::abs(degrees), degrees > 0 ? positive : negative);
   };
   switch (axis) {
     case BoxAxis::yaw:
@@ -66,34 +66,32 @@ std::string hold_text(BoxActor actor, BoxAxis axis, double value) {
     case BoxAxis::pitch:
       return leant("head", "feet");
     case BoxAxis::depth:
-      return fmt::format("Put the tip of the {} {:g} mm deep, measured from the trocar, and hold it still.", who(actor),
-                         std::round(1e4 * value) / 10);
+      return tr("Put the tip of the {} {:g} mm deep, measured from the trocar, and hold it still.", who(actor),
+                std::round(1e4 * value) / 10);
     case BoxAxis::roll:
       break;
     case BoxAxis::handle:
       if (is_post(actor, axis)) break;
-      return fmt::format("{} the handle of the {}, and hold it.",
-                         value <= 0   ? "Open"
-                         : value >= 1 ? "Close"
-                                      : fmt::format("Close by {:.0f} % ", 100 * value),
-                         who(actor));
+      if (value <= 0) return tr("Open the handle of the {}, and hold it.", who(actor));
+      if (value >= 1) return tr("Close the handle of the {}, and hold it.", who(actor));
+      return tr("Close the handle of the {} by {:.0f} %, and hold it.", who(actor), 100 * value);
   }
-  const std::string what = is_post(actor, axis) ? "the endoscope's light post" : fmt::format("the {}", who(actor));
-  if (degrees == 0) return fmt::format("Turn {} to its middle, and hold it still.", what);
-  return fmt::format("Turn {} {:g} degrees {} from its middle, as seen from its handle, and hold it still.", what,
-                     std::abs(degrees), degrees > 0 ? "to the left" : "to the right");
+  const std::string what = is_post(actor, axis) ? "the endoscope's light post" : tr("the {}", who(actor));
+  if (degrees == 0) return tr("Turn {} to its middle, and hold it still.", what);
+  return tr("Turn {} {:g} degrees {} from its middle, as seen from its handle, and hold it still.", what,
+            std::abs(degrees), degrees > 0 ? "to the left" : "to the right");
 }
 
 const char* axis_word(BoxActor actor, BoxAxis axis) {
   switch (axis) {
     case BoxAxis::yaw:
-      return "from side to side";
+      return tr("from side to side");
     case BoxAxis::pitch:
-      return "to head and feet";
+      return tr("to head and feet");
     case BoxAxis::roll:
-      return "turning";
+      return tr("turning");
     case BoxAxis::depth:
-      return "in and out";
+      return tr("in and out");
     case BoxAxis::handle:
       break;
   }
@@ -158,11 +156,10 @@ void BoxAssistant::ask_press(BoxActor actor, int pedal, int button) {
   BoxQuestion q;
   q.kind = BoxQuestion::Kind::press;
   q.actor = actor, q.pedal = pedal, q.button = button;
-  q.heading = pedal >= 0 ? "Foot switches" : fmt::format("{}: switches", who(actor));
+  q.heading = pedal >= 0 ? "Foot switches" : tr("{}: switches", who(actor));
   if (pedal < 0) q.heading[0] = char(q.heading[0] - 'a' + 'A');
-  q.text = fmt::format("Press and release {}.",
-                       pedal >= 0 ? std::string(kPedals[std::size_t(pedal)])
-                                  : fmt::format("{} of the {}", kButtons[std::size_t(button)], who(actor)));
+  q.text = tr("Press and release {}.", pedal >= 0 ? std::string(kPedals[std::size_t(pedal)])
+                                                  : tr("{} of the {}", kButtons[std::size_t(button)], who(actor)));
   m_questions.push_back(q);
 }
 
@@ -263,8 +260,8 @@ double BoxAssistant::moved() const {
 }
 
 std::string BoxAssistant::why_not() const {
-  if (done()) return "the calibration is complete";
-  if (m_recent.empty()) return "the box sends no data";
+  if (done()) return tr("the calibration is complete");
+  if (m_recent.empty()) return tr("the box sends no data");
   switch (question().kind) {
     case BoxQuestion::Kind::sweep:
       return why_not_swept();
@@ -278,22 +275,21 @@ std::string BoxAssistant::why_not() const {
 
 std::string BoxAssistant::why_not_swept() const {
   const int most = most_moved(-1);
-  if (most < 0) return "every channel has an axis already";
-  if (range(most) < kLeastSweep)
-    return fmt::format("no free channel has moved by {:g} of its 4096 codes yet", kLeastSweep);
+  if (most < 0) return tr("every channel has an axis already");
+  if (range(most) < kLeastSweep) return tr("no free channel has moved by {:g} of its 4096 codes yet", kLeastSweep);
   if (const int second = most_moved(most); second >= 0 && range(second) > range(most) / 2)
-    return fmt::format("channels {} and {} both moved: move only this axis, or choose a channel", most, second);
+    return tr("channels {} and {} both moved: move only this axis, or choose a channel", most, second);
   return {};
 }
 
 std::string BoxAssistant::why_not_held() const {
-  if (m_recent.size() < kLeastBlocks) return "hold it";
+  if (m_recent.size() < kLeastBlocks) return tr("hold it");
   const int channel = axis().channel;
   if (const double by = unrest(channel); by > kMostUnrest)
-    return fmt::format("the axis is moving: by {:.0f} codes in half a second, {:g} are allowed", by, kMostUnrest);
+    return tr("the axis is moving: by {:.0f} codes in half a second, {:g} are allowed", by, kMostUnrest);
   const double code = held_code(channel);
   for (const double other : axis().table.codes)
-    if (std::abs(code - other) < kLeastApart) return "its reading equals that of the previous position";
+    if (std::abs(code - other) < kLeastApart) return tr("its reading equals that of the previous position");
   devices::AxisTable table = axis().table;
   const auto row = std::lower_bound(table.codes.begin(), table.codes.end(), code) - table.codes.begin();
   table.codes.insert(table.codes.begin() + row, code);
@@ -308,7 +304,7 @@ std::string BoxAssistant::why_not_pressed() const {
   for (int bit = 0; bit < devices::kBoxDigitalBits; ++bit)
     if ((m_pressed >> bit & 1) != 0 && !bit_taken(bit)) ++pressed, whole += int(m_came_back >> bit & 1);
   if (pressed == 0) return m_pressed != 0 ? "this contact is already assigned" : "nothing was pressed";
-  if (pressed > 1) return "several contacts closed: press only this one";
+  if (pressed > 1) return tr("several contacts closed: press only this one");
   return whole == 1 ? "" : "let it go";
 }
 
@@ -356,9 +352,9 @@ void BoxAssistant::add_row(double value) {
 }
 
 std::string BoxAssistant::choose(int channel) {
-  if (done() || question().kind != BoxQuestion::Kind::sweep) return "no channel is being assigned";
-  if (channel < 0 || channel >= devices::kBoxChannels) return "there is no such channel";
-  if (channel_taken(channel)) return fmt::format("channel {} has an axis already", channel);
+  if (done() || question().kind != BoxQuestion::Kind::sweep) return tr("no channel is being assigned");
+  if (channel < 0 || channel >= devices::kBoxChannels) return tr("there is no such channel");
+  if (channel_taken(channel)) return tr("channel {} has an axis already", channel);
   remember();
   axis().channel = channel;
   ++m_at;
