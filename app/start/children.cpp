@@ -44,7 +44,9 @@ void Children::start(const ChildRequest& request) {
     m_news = tr("{}: already open in another window.", request.title);
   } else {
     try {
-      m_running.emplace(request.title, ChildProgram(request.arguments, "", request.variables));
+      std::vector<std::string> variables = request.variables;
+      variables.emplace_back("TROCAR_WINDOW_LOG=");  // this window's own log
+      m_running.emplace(request.title, ChildProgram(request.arguments, "", variables));
       m_news = tr("{} is starting ...", request.title);
       m_refused = false;
     } catch (const core::EnvironmentLacks& lacks) {

@@ -44,10 +44,10 @@ void draw_head(const StartContent& c, StartMemory& memory, StartAnswer& answer) 
 void draw_foot(StartMemory& memory, StartAnswer& answer, float height) {
   struct Way {
     const char* title;
-    StartPage page;
+    std::optional<StartPage> page;  // nothing: the modeller, which needs none
   };
   const Way ways[] = {{tr("Recordings"), StartPage::recordings},
-                      {tr("Model an organ"), StartPage::person},
+                      {tr("Model an organ"), {}},
                       {tr("Operating room"), StartPage::rooms},
                       {tr("Instruments"), StartPage::instruments},
                       {tr("Instrument box"), StartPage::box},
@@ -57,13 +57,13 @@ void draw_foot(StartMemory& memory, StartAnswer& answer, float height) {
   const float width = (ImGui::GetContentRegionAvail().x - gap * float(std::size(ways) - 1)) / float(std::size(ways));
   for (const Way& way : ways) {
     if (&way != ways) ImGui::SameLine();
-    const bool here = way.page == memory.page;
+    const bool here = way.page && *way.page == memory.page;
     if (!ui::button(way.title, {.width = width / ui::scale(), .height = height / ui::scale(), .primary = here}))
       continue;
-    if (way.page == StartPage::person)  // the modeller needs no page
-      answer.program = {tr("The modeller"), {"model"}, {}};
+    if (way.page)
+      memory.open(*way.page);
     else
-      memory.open(way.page);
+      answer.program = {tr("The modeller"), {"model"}, {}};
   }
 }
 

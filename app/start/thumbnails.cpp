@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr int kMostAtOnce = 4;  // files that are read between two pictures of the window
+
 unsigned texture_of(const render::Image& image) {
   unsigned texture = 0;
   glGenTextures(1, &texture);
@@ -73,6 +75,7 @@ void Thumbnails::load(Picture& picture) {
 }
 
 unsigned Thumbnails::of(const attempt::ExerciseEntry& exercise) {
+  if (m_pictures.count(exercise.name) == 0 && ++m_looked_up > kMostAtOnce) return 0;
   Picture& picture = picture_of(exercise);
   if (picture.texture == 0 && !picture.asked && !picture.failed) {
     picture.asked = true;
@@ -82,6 +85,7 @@ unsigned Thumbnails::of(const attempt::ExerciseEntry& exercise) {
 }
 
 void Thumbnails::work(bool may) {
+  m_looked_up = 0;
   if (m_maker) {
     if (m_maker->running()) return;
     Picture& made = m_pictures[m_being_made];

@@ -50,6 +50,7 @@ class Thumbnails {
   std::map<std::string, Picture> m_pictures;  ///< by the exercise's name
   std::deque<std::string> m_wanted;
   std::string m_being_made;
+  int m_looked_up = 0;  ///< since the window's last picture
   std::optional<ChildProgram> m_maker;
 };
 
