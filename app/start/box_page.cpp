@@ -36,7 +36,7 @@ void draw_simulated(const StartContent& c, const attempt::ExerciseEntry& exercis
   const char* title = tr("The simulated box");
   const bool runs = c.children.running(title);
   if (ui::button(tr("Start a simulated box"), {.width = 240, .height = 34, .enabled = !runs}))
-    answer.program = {title, {"box", "simulate", simulated_port(), "--exercise", exercise.name, "--wave"}, {}};
+    answer.program = {title, {"box", "simulate", simulated_port(), "--exercise", exercise.name, "--wave"}, {}, true};
   first_focus(memory);
   ImGui::SameLine();
   if (ui::button(tr("Stop it"), {.width = 110, .height = 34, .enabled = runs})) answer.stop = title;

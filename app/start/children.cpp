@@ -39,6 +39,10 @@ std::string last_lines(const std::string& text, std::size_t most) {
   return out;
 }
 
+Children::~Children() {
+  for (const std::string& title : m_end_with_this) stop(title);
+}
+
 void Children::start(const ChildRequest& request) {
   if (running(request.title)) {
     m_news = tr("{}: already open in another window.", request.title);
@@ -47,6 +51,7 @@ void Children::start(const ChildRequest& request) {
       std::vector<std::string> variables = request.variables;
       variables.emplace_back("TROCAR_WINDOW_LOG=");  // this window's own log
       m_running.emplace(request.title, ChildProgram(request.arguments, "", variables));
+      if (request.ends_with_this) m_end_with_this.push_back(request.title);
       m_news = tr("{} is starting ...", request.title);
       m_refused = false;
     } catch (const core::EnvironmentLacks& lacks) {

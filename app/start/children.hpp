@@ -13,10 +13,16 @@ struct ChildRequest {
   std::string title;                   ///< for people: "The modeller"
   std::vector<std::string> arguments;  ///< empty: nothing is asked for
   std::vector<std::string> variables;  ///< "NAME=value"
+  bool ends_with_this = false;         ///< it has no window by which it could be closed
 };
 
 class Children {
  public:
+  Children() = default;
+  ~Children();  ///< those that have a window stay open
+  Children(const Children&) = delete;
+  Children& operator=(const Children&) = delete;
+
   /// One of each title: while it runs another is not started.
   void start(const ChildRequest& request);
   /// Looks after them. Once per picture.  @param now [s]
@@ -34,6 +40,7 @@ class Children {
   void ended(const std::string& title, ChildProgram& child);
 
   std::map<std::string, ChildProgram> m_running;
+  std::vector<std::string> m_end_with_this;  ///< titles
   std::map<std::string, std::string> m_outputs;
   std::string m_news;
   bool m_refused = false, m_fresh = false;

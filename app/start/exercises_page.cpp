@@ -10,7 +10,7 @@
 namespace trocar::app {
 namespace {
 
-constexpr float kTileWidth = 204, kSideWidth = 184;
+constexpr float kTileWidth = 196, kSideWidth = 184;
 
 void choose_exercise(StartMemory& memory, int exercise) {
   memory.selected = exercise;
