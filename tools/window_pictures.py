@@ -61,7 +61,7 @@ def operation_pictures(program, folder, images):
                        env=dict(os.environ, TROCAR_DATA=str(Path(folder) / "data")), check=False,
                        stdout=subprocess.DEVNULL)
     with Window(program, folder, ["train", "--size", SIZE], images) as w:
-        w.eyes.on("start", 120)
+        w.eyes.on("person", 120)
         w.type_into("Name", PERSON)
         w.shot("window_person")
         w.hands.press("Add")

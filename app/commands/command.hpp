@@ -44,5 +44,6 @@ void add_mechanism(CLI::App& program, Chosen& chosen);
 void add_room(CLI::App& program, Chosen& chosen);
 void add_box(CLI::App& program, Chosen& chosen);
 void add_tracker(CLI::App& program, Chosen& chosen);
+void add_thumbnail(CLI::App& program, Chosen& chosen);  ///< for the start screen
 
 }  // namespace trocar::app

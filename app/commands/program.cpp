@@ -79,6 +79,7 @@ int run_program(int argc, const char* const* argv) {
   add_compare(program, chosen);
   add_box(program, chosen);
   add_tracker(program, chosen);
+  add_thumbnail(program, chosen);
   const std::string first = argv[1];
   if (!first.empty() && first[0] != '-') {
     Chosen check;

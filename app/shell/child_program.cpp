@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <thread>
 #include <utility>
@@ -37,20 +38,35 @@ std::string tail_of(int file) {
   return text;
 }
 
-int spawn_child(pid_t& child, const std::string& program, const std::vector<std::string>& arguments, int output,
-                int errors) {
+std::vector<char*> pointers(std::vector<std::string>& words) {
+  std::vector<char*> list;
+  for (std::string& w : words) list.push_back(w.data());
+  list.push_back(nullptr);
+  return list;
+}
+
+/// This program's environment; what is added stands for what has the same name.
+std::vector<std::string> environment_with(const std::vector<std::string>& variables) {
+  std::vector<std::string> all = variables;
+  for (char** v = environ; *v; ++v) {
+    const std::string name = std::string(*v, std::strcspn(*v, "=")) + "=";
+    const auto same = [&name](const std::string& added) { return added.compare(0, name.size(), name) == 0; };
+    if (std::none_of(variables.begin(), variables.end(), same)) all.emplace_back(*v);
+  }
+  return all;
+}
+
+int spawn_child(pid_t& child, const std::string& program, std::vector<std::string> words,
+                std::vector<std::string> variables, int output, int errors) {
   const std::string path = program.empty() ? "/proc/self/exe" : program;
-  std::vector<std::string> words = arguments;
   words.insert(words.begin(), program.empty() ? "trocar" : program);
-  std::vector<char*> argv;
-  for (std::string& w : words) argv.push_back(w.data());
-  argv.push_back(nullptr);
   posix_spawn_file_actions_t streams;
   posix_spawn_file_actions_init(&streams);
   posix_spawn_file_actions_addopen(&streams, 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&streams, output, 1);
   posix_spawn_file_actions_adddup2(&streams, errors, 2);
-  const int failed = posix_spawnp(&child, path.c_str(), &streams, nullptr, argv.data(), environ);
+  const int failed =
+      posix_spawnp(&child, path.c_str(), &streams, nullptr, pointers(words).data(), pointers(variables).data());
   posix_spawn_file_actions_destroy(&streams);
   return failed;
 }
@@ -59,10 +75,12 @@ int exit_of(int waited) { return WIFSIGNALED(waited) ? 128 + WTERMSIG(waited) : 
 
 }  // namespace
 
-ChildProgram::ChildProgram(const std::vector<std::string>& arguments, const std::string& program)
+ChildProgram::ChildProgram(const std::vector<std::string>& arguments, const std::string& program,
+                           const std::vector<std::string>& variables)
     : m_errors(file_in_memory("errors")), m_output(file_in_memory("output")) {
-  const int failed =
-      m_errors < 0 || m_output < 0 ? errno : spawn_child(m_child, program, arguments, m_output, m_errors);
+  const int failed = m_errors < 0 || m_output < 0
+                         ? errno
+                         : spawn_child(m_child, program, arguments, environment_with(variables), m_output, m_errors);
   if (!failed) return;
   m_child = -1;
   leave();
@@ -112,6 +130,10 @@ bool ChildProgram::running() {
 std::optional<int> ChildProgram::exit_status() {
   running();
   return m_status;
+}
+
+void ChildProgram::ask_to_end() {
+  if (running()) kill(m_child, SIGINT);
 }
 
 bool ChildProgram::failed() { return exit_status().value_or(0) != 0; }

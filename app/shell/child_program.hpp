@@ -18,8 +18,10 @@ namespace trocar::app {
 class ChildProgram {
  public:
   /// @param arguments  without the program's name  @param program  empty: this program again
+  /// @param variables  "NAME=value", added to its environment
   /// @throws core::EnvironmentLacks when it cannot be started
-  explicit ChildProgram(const std::vector<std::string>& arguments, const std::string& program = "");
+  explicit ChildProgram(const std::vector<std::string>& arguments, const std::string& program = "",
+                        const std::vector<std::string>& variables = {});
   ~ChildProgram();
   ChildProgram(ChildProgram&& other) noexcept;
   ChildProgram& operator=(ChildProgram&& other) noexcept;
@@ -27,6 +29,7 @@ class ChildProgram {
   bool running();                    ///< asks the system: once per picture is enough
   std::optional<int> exit_status();  ///< nothing while it runs; 128 + N when signal N ended it
   bool failed();                     ///< it has ended, and with another exit status than 0
+  void ask_to_end();                 ///< as Ctrl-C at a terminal does
   std::string errors() const;        ///< its standard error so far, the last 16 kB at most
   std::string output() const;        ///< its standard output so far, the same
 

@@ -45,6 +45,13 @@ void colour_buttons(const ButtonLook& look) {
   ImGui::PushStyleColor(ImGuiCol_ButtonActive, lighter(0.18f));
 }
 
+/// By how much a label must shrink to fit into `width` [px]; what follows "##" is not shown.
+float fitting(const std::string& label, float width) {
+  constexpr float kSmallest = 0.55f;
+  const float wide = ImGui::CalcTextSize(label.c_str(), nullptr, true).x;
+  return wide <= width ? 1 : std::max(kSmallest, width / wide);
+}
+
 }  // namespace
 
 void load_fonts(float scale) {
@@ -143,6 +150,10 @@ void mark(Mark m) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::Dummy({size, size});
   ImGui::SameLine(0, 5 * g_scale);
+  draw_mark(m, at, size);
+}
+
+void draw_mark(Mark m, ImVec2 at, float size) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 colour = ImGui::GetColorU32(colour_of(m));
   const auto p = [&](float x, float y) { return ImVec2{at.x + x * size, at.y + y * size}; };
@@ -177,7 +188,10 @@ bool button(const std::string& label, const ButtonLook& look) {
   colour_buttons(look);
   ImGui::BeginDisabled(!look.enabled);
   const float height = look.height > 0 ? look.height * g_scale : 0;
+  const float shrunk = look.width > 0 ? fitting(label, look.width * g_scale - 2 * ImGui::GetStyle().FramePadding.x) : 1;
+  if (shrunk < 1) ImGui::SetWindowFontScale(shrunk);
   const bool pressed = ImGui::Button(label.c_str(), {look.width * g_scale, height});
+  if (shrunk < 1) ImGui::SetWindowFontScale(1);
   ImGui::EndDisabled();
   ImGui::PopStyleColor(3);
   if (look.enabled) note_widget(label);

@@ -33,6 +33,7 @@ std::string shortened(const std::string& s, float width);
 enum class Mark { done, now, open, error, warning, note };
 /// A mark as high as the text, then stays on the line.
 void mark(Mark m);
+void draw_mark(Mark m, ImVec2 at, float size);  ///< the mark alone [px]
 ImVec4 colour_of(Mark m);
 
 /// The middle button takes the first focus, so that Enter or the gamepad's A goes on.

@@ -1,6 +1,7 @@
 #include "shell/window.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iterator>
 #include <thread>
@@ -174,6 +175,34 @@ void Window::set_text_size(double size) {
   m_scale_changed = true;
 }
 
+float fit_of(int width, int height, float display_scale) {
+  constexpr float kWidth = 1280, kHeight = 720, kLeast = 0.8f, kMost = 4, kSteps = 20;
+  const float fit = std::min(float(width) / kWidth, float(height) / kHeight) / std::max(0.5f, display_scale);
+  return std::round(kSteps * std::clamp(fit, kLeast, kMost)) / kSteps;
+}
+
+void Window::fit_texts() {
+  const float fit = fit_of(m_width, m_height, m_scale);
+  if (fit == m_fit) return;
+  m_fit = fit;
+  m_scale_changed = true;
+}
+
+bool Window::full_screen() const { return glfwGetWindowMonitor(m_window) != nullptr; }
+
+void Window::toggle_full_screen() {
+  if (full_screen()) {
+    glfwSetWindowMonitor(m_window, nullptr, m_plain.x, m_plain.y, m_plain.width, m_plain.height, GLFW_DONT_CARE);
+    return;
+  }
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  if (!mode) return;
+  glfwGetWindowPos(m_window, &m_plain.x, &m_plain.y);
+  glfwGetWindowSize(m_window, &m_plain.width, &m_plain.height);
+  glfwSetWindowMonitor(m_window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
 bool Window::wants_to_close() const { return glfwWindowShouldClose(m_window); }
 void Window::stay_open() { glfwSetWindowShouldClose(m_window, GLFW_FALSE); }
 void Window::close() { glfwSetWindowShouldClose(m_window, GLFW_TRUE); }
@@ -183,6 +212,7 @@ bool Window::focused() const { return glfwGetWindowAttrib(m_window, GLFW_FOCUSED
 pictures::PictureSize Window::size_to_keep() const {
   int width = 0, height = 0;
   glfwGetWindowSize(m_window, &width, &height);
+  if (full_screen()) width = m_plain.width, height = m_plain.height;
   return {int(float(width) / m_scale), int(float(height) / m_scale)};
 }
 
@@ -198,6 +228,8 @@ void Window::begin_picture() {
   wait_for_turn();
   glfwPollEvents();
   m_gamepads.poll();
+  glfwGetFramebufferSize(m_window, &m_width, &m_height);
+  fit_texts();
   if (m_scale_changed) {
     ImGui_ImplOpenGL3_NewFrame();
     ui::load_fonts(scale());
@@ -205,7 +237,6 @@ void Window::begin_picture() {
     ImGui_ImplOpenGL3_CreateFontsTexture();
     m_scale_changed = false;
   }
-  glfwGetFramebufferSize(m_window, &m_width, &m_height);
   collect_sample();
   collect_keys();
   ImGui_ImplOpenGL3_NewFrame();
@@ -322,6 +353,7 @@ void Window::on_key(GLFWwindow* window, int key, int, int action, int mods) {
   if (key == GLFW_KEY_F1) w.m_next_keys.help = !w.m_next_keys.help;
   if (key == GLFW_KEY_P || key == GLFW_KEY_PAUSE) w.m_next_keys.pause = !w.m_next_keys.pause;
   if (key == GLFW_KEY_ESCAPE) w.m_next_keys.back = !w.m_next_keys.back;
+  if (key == GLFW_KEY_F11) w.toggle_full_screen();
   if (key == GLFW_KEY_F12) w.m_next_keys.picture = true;
   if (key == GLFW_KEY_F2) w.m_next_keys.layout = true;
   if (key == GLFW_KEY_F3) w.m_next_keys.second = true;

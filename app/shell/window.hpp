@@ -36,6 +36,10 @@ struct TypedKey {
   int mods = 0;  ///< GLFW's
 };
 
+/// By how much texts grow with a window of that size [px]: 1 at 1280x720, 1.5 at 1920x1080; never below 0.8.
+/// @param display_scale  the display's own, which is left out
+float fit_of(int width, int height, float display_scale);
+
 class Window {
  public:
   /// Fitted to the monitor. @param quad_buffers  wanted; see has_quad_buffers()  @throws core::EnvironmentLacks
@@ -53,6 +57,8 @@ class Window {
   /// At most so many pictures a second, whatever the display: they cost what the simulation may need.
   void set_picture_rate(double most) { m_least_time = 1 / most; }
   void set_text_size(double size);
+  bool full_screen() const;
+  void toggle_full_screen();  ///< as F11 does
 
   /// Takes in the events; afterwards ImGui's frame is open.
   void begin_picture();
@@ -79,10 +85,10 @@ class Window {
   /// to button; in the instrument's hands they do not.
   void capture_pointer(bool on);
 
-  int width() const { return m_width; }                  ///< [px]
-  int height() const { return m_height; }                ///< [px]
-  float scale() const { return m_scale * m_text_size; }  ///< of texts and panels; 1 on an ordinary display
-  pictures::PictureSize size_to_keep() const;            ///< for the next time, as at scale 1
+  int width() const { return m_width; }                          ///< [px]
+  int height() const { return m_height; }                        ///< [px]
+  float scale() const { return m_scale * m_fit * m_text_size; }  ///< of texts and panels; 1 at 1280x720
+  pictures::PictureSize size_to_keep() const;                    ///< for the next time, as at scale 1
 
   /// The picture that is being made, between draw_panels() and show().
   render::Image read_back() const;
@@ -104,6 +110,7 @@ class Window {
   void collect_keys();
   void steer_menus();
   void wait_for_turn();
+  void fit_texts();  ///< to the window's size
 
   Glfw m_glfw;
   Gamepads m_gamepads;
@@ -119,7 +126,10 @@ class Window {
   unsigned m_buttons_pressed = 0;                 ///< down at any time since the last picture
   std::vector<int> m_keys_pressed, m_keys_shown;  ///< the same; those that this picture's menus were told
   int m_width = 0, m_height = 0;
-  float m_scale = 1, m_text_size = 1;
+  float m_scale = 1, m_fit = 1, m_text_size = 1;
+  struct {
+    int x = 0, y = 0, width = 1280, height = 720;
+  } m_plain;  ///< the window's place before it was full screen
 };
 
 }  // namespace trocar::app

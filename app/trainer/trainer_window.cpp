@@ -11,8 +11,8 @@
 
 #include "shell/mirror.hpp"
 #include "shell/ui.hpp"
+#include "start/settings_panel.hpp"
 #include "trainer/guidance.hpp"
-#include "trainer/start_screen.hpp"
 
 namespace trocar::app {
 
@@ -35,7 +35,7 @@ TrainerWindow::TrainerWindow(const WindowOptions& o)
       governor({}, render::first_level(context->draws_on_processors())),
       log(EventLog::path_of(o.log)) {
   for (const core::Fault& f : setting_faults) core::log::warn("{}", core::to_string(f));
-  if (!o.trainee.empty()) settings.trainee = training::clean_name(o.trainee);
+  if (!o.trainee.empty()) choose_person(settings, training::clean_name(o.trainee));
   apply_settings();
   core::log::info("drawing with {}", context->description());
   if (!o.room.empty()) room = std::make_unique<RoomBeside>(window, *backend, o.room);

@@ -10,11 +10,13 @@
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/training/store/attempt.hpp>
 
 #include "shell/ui.hpp"
+#include "start/start_screen.hpp"
+#include "start/thumbnails.hpp"
 #include "trainer/attempt_window.hpp"
-#include "trainer/start_screen.hpp"
 
 namespace trocar::app {
 
@@ -24,44 +26,68 @@ namespace {
 
 constexpr double kMenuRate = 30;  // [pictures/s]
 constexpr int kPreviewWidth = 800, kPreviewHeight = 600, kPreviewPictures = 12;
+constexpr double kQuietTime = 3;  // [s] on the start screen before pictures are made in the background
 
-/// A picture of the scene as the endoscope sees it first, for the start screen.
+/// A picture of the scene as the endoscope sees it first, for the start screen. Its exposure settles over some pictures
+/// of the window, so that none of them takes long.
 class Preview {
  public:
   ~Preview() {
     if (m_texture != 0) glDeleteTextures(1, &m_texture);
   }
-  /// Draws it once per lesson.
+  /// Once per picture. 0: it is not ready.
   unsigned of(TrainerWindow& stage, const attempt::Lesson& lesson) {
-    if (m_lesson == &lesson) return m_texture;
-    m_lesson = &lesson;
-    const sim::State state = sim::initial_state(lesson.model);
-    view::ViewOptions options;
-    options.eye_index = 1;
-    render::Frame frame = stage.view_of(lesson).frame(state, options);
-    for (int i = 0; i < kPreviewPictures; ++i) {  // its exposure settles
-      frame.tick = std::uint64_t(200 * i);
-      render::draw_frame(*stage.backend, frame, render::Target::off_screen(kPreviewWidth, kPreviewHeight));
-    }
-    upload(stage.backend->read_pixels());
+    if (m_lesson != &lesson) begin(stage, lesson);
+    if (m_drawn == kPreviewPictures) return m_texture;
+    m_frame.tick = std::uint64_t(200 * m_drawn);
+    render::draw_frame(*stage.backend, m_frame, render::Target::off_screen(kPreviewWidth, kPreviewHeight));
+    if (++m_drawn < kPreviewPictures) return 0;
+    m_image = stage.backend->read_pixels();
+    upload(m_image);
     return m_texture;
   }
   void forget() { m_lesson = nullptr; }
+  const render::Image& image() const { return m_image; }  ///< empty while it is not ready
 
  private:
+  void begin(TrainerWindow& stage, const attempt::Lesson& lesson) {
+    m_lesson = &lesson;
+    m_drawn = 0;
+    m_image = {};
+    const sim::State state = sim::initial_state(lesson.model);
+    view::ViewOptions options;
+    options.eye_index = 1;
+    m_frame = stage.view_of(lesson).frame(state, options);
+  }
   void upload(const render::Image& image) {
     if (m_texture == 0) glGenTextures(1, &m_texture);
     glBindTexture(GL_TEXTURE_2D, m_texture);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, image.width, image.height, 0, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glBindTexture(GL_TEXTURE_2D, 0);
   }
 
   const attempt::Lesson* m_lesson = nullptr;
+  render::Frame m_frame;
+  render::Image m_image;
+  int m_drawn = 0;
   unsigned m_texture = 0;
 };
+
+/// Half as wide and high: what a tile needs.
+render::Image halved(const render::Image& whole) {
+  render::Image half;
+  half.width = whole.width / 2;
+  half.height = whole.height / 2;
+  for (int y = 0; y < half.height; ++y)
+    for (int x = 0; x < half.width; ++x)
+      for (int k = 0; k < 3; ++k)
+        half.rgb.push_back(std::uint8_t((whole.at(2 * x, 2 * y)[k] + whole.at(2 * x + 1, 2 * y)[k] +
+                                         whole.at(2 * x, 2 * y + 1)[k] + whole.at(2 * x + 1, 2 * y + 1)[k]) /
+                                        4));
+  return half;
+}
 
 /// The program of screens.
 class Trainer {
@@ -72,22 +98,22 @@ class Trainer {
         m_stage(options),
         m_shelf(std::move(lesson)),
         m_exercises(attempt::list_trainings(attempt::scenes_folder())) {
-    const std::string trainee = m_stage.settings.trainee;
-    trainee.copy(m_memory.trainee, training::kLongestName);
     for (std::size_t i = 0; i < m_exercises.size(); ++i)
-      if (m_exercises[i].name == options.exercise) m_selected = int(i);
-    m_seed = options.seed;
+      if (m_exercises[i].name == options.exercise) m_memory.selected = int(i);
+    m_memory.seed = options.seed;
+    if (!options.trainee.empty()) m_memory.open(StartPage::exercises);
   }
 
   Json run() {
     if (m_direct) {
       const attempt::Lesson& lesson = *m_shelf.poll();
-      if (train(lesson, first_plan()) == Choice::quit) return m_result;
+      if (train(lesson, first_plan(lesson)) == Choice::quit) return m_result;
     }
     for (;;) {
       const StartChoice choice = start_screen();
       if (choice == StartChoice::quit) return m_result;
-      if (train(*m_shelf.poll(), plan_for(choice)) == Choice::quit) return m_result;
+      const attempt::Lesson& lesson = *m_shelf.poll();
+      if (train(lesson, plan_for(choice, lesson)) == Choice::quit) return m_result;
     }
   }
 
@@ -99,20 +125,23 @@ class Trainer {
   }
 
  private:
-  attempt::AttemptPlan first_plan() const {
+  attempt::AttemptPlan first_plan(const attempt::Lesson& lesson) const {
     attempt::AttemptPlan plan;
     plan.trainee = m_options.trainee;
     plan.input = m_options.input;
-    plan.mode = m_options.familiarisation ? AttemptMode::familiarisation : attempt::mode_of_input(m_options.input);
+    plan.mode = m_options.familiarisation ? AttemptMode::familiarisation
+                : lesson.exercise         ? attempt::mode_of_input(m_options.input)
+                                          : AttemptMode::free_practice;
     plan.recording = m_options.record;
     return plan;
   }
-  attempt::AttemptPlan plan_for(StartChoice choice) const {
+  attempt::AttemptPlan plan_for(StartChoice choice, const attempt::Lesson& lesson) const {
     attempt::AttemptPlan plan;
     plan.trainee = m_stage.settings.trainee;
     plan.mode = choice == StartChoice::familiarise   ? AttemptMode::familiarisation
                 : choice == StartChoice::demonstrate ? AttemptMode::demonstration
-                                                     : AttemptMode::assessed;
+                : lesson.exercise                    ? AttemptMode::assessed
+                                                     : AttemptMode::free_practice;
     plan.input = choice == StartChoice::demonstrate           ? "demo"
                  : touched(m_stage.window.gamepads().state()) ? "gamepad"
                                                               : "mouse";
@@ -132,116 +161,173 @@ class Trainer {
 
   StartChoice start_screen();
   ExerciseFacts facts_of(const attempt::Lesson* lesson);
+  const attempt::Lesson* prepare();
+  void show_pictures(const attempt::Lesson* lesson);
+  StartContent content(bool ready);
+  std::vector<std::string> known_people() const;
+  std::vector<std::string> notices() const;
+  StartAnswer draw();
   void take_answer(const StartAnswer& answer);
+  void choose(const std::string& person);
 
   const WindowOptions m_options;
   bool m_direct;
   TrainerWindow m_stage;
   attempt::LessonShelf m_shelf;
   std::vector<attempt::ExerciseEntry> m_exercises;
-  int m_selected = 0;
-  std::uint64_t m_seed = 0;  ///< of the anatomy
   StartMemory m_memory;
   Past m_past;
+  Children m_children;
+  Thumbnails m_thumbnails;
   Preview m_preview;
+  ExerciseFacts m_facts;
+  const attempt::Lesson* m_shown = nullptr;  ///< whose facts these are
   Json m_result;
 };
 
-/// A step's title without its side, in the middle of a sentence.
-std::string title_of(const training::Exercise& e, const std::string& task) {
-  const training::StepText* step = e.step(task);
-  std::string title = step && step->title.find('{') == std::string::npos ? step->title : task;
-  if (!title.empty() && title[0] >= 'A' && title[0] <= 'Z') title[0] = char(title[0] - 'A' + 'a');
-  return title;
+/// One line for each step, in the order of the exercise; a step that is done for many elements of a set is named once.
+std::vector<std::string> step_lines(const training::Steps& steps) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto same = [&](const training::StepStatus& s) { return s.task == steps[i].task; };
+    const auto first = std::find_if(steps.begin(), steps.end(), same);
+    constexpr std::ptrdiff_t kFew = 2;  // both sides are named
+    const std::ptrdiff_t times = std::count_if(steps.begin(), steps.end(), same);
+    if (times <= kFew)
+      lines.push_back(steps[i].name);
+    else if (first == steps.begin() + std::ptrdiff_t(i))
+      lines.push_back(tr("{} (and {} more)", steps[i].name, times - 1));
+  }
+  return lines;
 }
 
 ExerciseFacts Trainer::facts_of(const attempt::Lesson* lesson) {
   ExerciseFacts facts;
   facts.aspect = float(kPreviewWidth) / float(kPreviewHeight);
-  if (!lesson) return facts;
-  facts.picture = m_preview.of(m_stage, *lesson);
-  if (!lesson->exercise) {
-    facts.summary = "Free practice: no task, no clock, no score. Everything is kept as a recording.";
-    return facts;
-  }
-  const training::Exercise& e = *lesson->exercise;
-  facts.facts.push_back(fmt::format("about {:.0f} minutes", std::max(1.0, e.expert_time / 60)));
-  facts.facts.push_back(fmt::format("passed from {:.0f} of 100", e.pass_mark));
-  const std::unique_ptr<training::Monitor> monitor = lesson->monitor();
-  const std::string* side = nullptr;
-  for (const training::StepStatus& s : monitor->steps()) {  // a line for what belongs to both, one for each side
-    if (side && *side == s.side)
-      facts.steps.back() += ", " + title_of(e, s.task);
-    else
-      facts.steps.push_back(s.name);
-    side = &s.side;
-  }
-  facts.summary = e.summary;
+  if (lesson && lesson->exercise) facts.steps = step_lines(lesson->monitor()->steps());
   return facts;
 }
 
-void Trainer::take_answer(const StartAnswer& answer) {
-  if (answer.selected >= 0) m_selected = answer.selected;
-  m_seed = answer.seed.value_or(m_seed);
-  if (answer.trainee_changed) {
-    m_stage.settings.trainee = training::clean_name(m_memory.trainee);
-    m_past = read_past(m_stage.options.store, m_stage.settings.trainee);
+/// The lesson of the selected exercise; null while it is being prepared.
+const attempt::Lesson* Trainer::prepare() {
+  if (m_memory.selected < 0) return nullptr;
+  const std::string& name = m_exercises[size_t(m_memory.selected)].name;
+  if (name != m_shelf.wanted() || m_memory.seed != m_shelf.seed()) {
+    m_stage.drop_view();  // before the lesson that it shows is gone
+    m_preview.forget();
+    m_shelf.want(name, m_memory.seed);
   }
-  std::int64_t report_of = answer.report_of;
-  if (answer.choice == StartChoice::report && !m_past.attempts.empty()) report_of = m_past.attempts.front().number;
-  if (report_of != 0) m_stage.reports.open(m_stage.options.store, std::to_string(report_of));
+  const attempt::Lesson* lesson = m_shelf.poll();
+  if (!lesson || lesson != m_shown) m_facts = facts_of(lesson);
+  m_shown = lesson;
+  return lesson;
+}
+
+/// The picture of the prepared scene; where it is the standard patient's, it is the tile's, too.
+void Trainer::show_pictures(const attempt::Lesson* lesson) {
+  if (lesson && m_memory.page == StartPage::details) {
+    const bool fresh = m_facts.picture == 0;
+    m_facts.picture = m_preview.of(m_stage, *lesson);
+    if (fresh && m_facts.picture != 0 && lesson->seed == 0)
+      m_thumbnails.keep(m_exercises[size_t(m_memory.selected)], halved(m_preview.image()));
+  }
+}
+
+/// Who has practised here, or was added: whoever did last, first.
+std::vector<std::string> Trainer::known_people() const {
+  std::vector<std::string> people;
+  const auto add = [&people](const std::string& name) {
+    if (!name.empty() && std::find(people.begin(), people.end(), name) == people.end()) people.push_back(name);
+  };
+  add(m_stage.settings.trainee);
+  for (const std::string& name : m_past.people) add(name);
+  for (const KnownPerson& person : m_stage.settings.others) add(person.name);
+  return people;
+}
+
+std::vector<std::string> Trainer::notices() const {
+  std::vector<std::string> all = m_past.notices;
+  for (const core::Fault& f : m_stage.setting_faults) all.push_back(tr("{} (ignored)", core::to_string(f)));
+  return all;
+}
+
+void Trainer::choose(const std::string& person) {
+  choose_person(m_stage.settings, person);
+  m_stage.apply_settings();
+  m_stage.keep_settings();
+  m_past = read_past(m_stage.options.store, person);
+  m_memory.selected = -1;
+  m_memory.name[0] = 0;
+  m_memory.open(StartPage::exercises);
+}
+
+void Trainer::take_answer(const StartAnswer& answer) {
+  if (answer.person) choose(*answer.person);
+  if (answer.report_of != 0) m_stage.reports.open(m_stage.options.store, std::to_string(answer.report_of));
+  if (answer.news_read) m_children.forget_news();
+  if (!answer.stop.empty()) m_children.stop(answer.stop);
+  if (!answer.program.arguments.empty()) {
+    m_children.start(answer.program);
+    m_stage.log.event("program", {{"arguments", answer.program.arguments}, {"started", !m_children.refused()}});
+  }
   if (answer.choice == StartChoice::settings) m_stage.open(TrainerWindow::Overlay::settings);
   if (answer.choice == StartChoice::help) m_stage.open(TrainerWindow::Overlay::help);
+}
+
+StartContent Trainer::content(bool ready) {
+  return {m_exercises,
+          m_facts,
+          ready,
+          m_shelf.failure(),
+          m_past,
+          m_stage.settings.trainee,
+          known_people(),
+          m_stage.window.gamepads().names(),
+          notices(),
+          m_stage.sound.audible(),
+          m_stage.reports.say(),
+          m_children,
+          [this](int i) { return m_thumbnails.of(m_exercises[size_t(i)]); }};
+}
+
+/// One picture of the start screen.
+StartAnswer Trainer::draw() {
+  m_stage.begin_picture(false);
+  const attempt::Lesson* lesson = prepare();
+  show_pictures(lesson);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, m_stage.window.width(), m_stage.window.height());
+  glClearColor(0.09f, 0.10f, 0.12f, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  StartAnswer answer;
+  const StartPage page = m_memory.page;
+  if (m_stage.overlay() == TrainerWindow::Overlay::none)
+    answer = draw_start(content(lesson != nullptr), m_memory, m_stage.window.keys().back);
+  take_answer(answer);
+  m_stage.end_picture(name_of(page), attempt::data_folder() / "start");
+  if (!lesson) answer.choice = answer.choice == StartChoice::quit ? StartChoice::quit : StartChoice::none;
+  return answer;
 }
 
 /// Until an exercise is to begin, or the window is closed.
 StartChoice Trainer::start_screen() {
   m_stage.window.set_title("Trocar");
   ui::set_middle(0);
-  m_memory.was_ready = false;
   m_stage.window.set_picture_rate(kMenuRate);
   m_past = read_past(m_stage.options.store, m_stage.settings.trainee);
-  std::vector<std::string> notices = m_past.notices;
-  for (const core::Fault& f : m_stage.setting_faults) notices.push_back(core::to_string(f) + " (left out)");
-  ExerciseFacts facts;
-  const attempt::Lesson* shown = nullptr;
+  if (m_memory.page == StartPage::details) m_memory.open(StartPage::exercises);
+  m_shown = nullptr;
+  double time = 0;
   while (!m_stage.wants_to_close()) {
-    if (!m_exercises.empty() &&
-        (m_exercises[size_t(m_selected)].name != m_shelf.wanted() || m_seed != m_shelf.seed())) {
-      m_stage.drop_view();  // before the lesson that it shows is gone
-      m_preview.forget();
-      m_shelf.want(m_exercises[size_t(m_selected)].name, m_seed);
-    }
-    m_stage.begin_picture(false);
-    const attempt::Lesson* lesson = m_shelf.poll();
-    if (!lesson || lesson != shown) facts = facts_of(lesson);
-    shown = lesson;
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glViewport(0, 0, m_stage.window.width(), m_stage.window.height());
-    glClearColor(0.09f, 0.10f, 0.12f, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
-    const StartContent content{m_exercises,
-                               m_selected,
-                               m_seed,
-                               facts,
-                               lesson != nullptr,
-                               m_shelf.failure(),
-                               m_past,
-                               m_stage.window.gamepads().names(),
-                               notices,
-                               m_stage.sound.audible(),
-                               m_stage.reports.say()};
-    StartAnswer answer;
-    if (m_stage.overlay() == TrainerWindow::Overlay::none) answer = draw_start(content, m_memory);
-    take_answer(answer);
-    m_stage.end_picture("start", attempt::data_folder() / "start");
-    if (answer.choice == StartChoice::quit) return StartChoice::quit;
-    const bool begin = answer.choice == StartChoice::start || answer.choice == StartChoice::familiarise ||
-                       answer.choice == StartChoice::demonstrate;
-    if (begin && lesson) {
-      m_stage.settings.trainee = training::clean_name(m_memory.trainee);
+    const StartChoice choice = draw().choice;
+    time += m_stage.window.picture_time();
+    m_children.poll(time);
+    const bool loads = m_memory.page == StartPage::details && !m_shown;
+    m_thumbnails.work(time > kQuietTime && !loads);
+    if (choice == StartChoice::quit) return StartChoice::quit;
+    if (choice == StartChoice::start || choice == StartChoice::familiarise || choice == StartChoice::demonstrate) {
       m_stage.keep_settings();
-      return answer.choice;
+      return choice;
     }
   }
   return StartChoice::quit;

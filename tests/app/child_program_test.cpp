@@ -26,6 +26,18 @@ TEST(ChildProgram, CollectsBothTextsAndTheExitStatus) {
   EXPECT_EQ(child.errors(), "two words\n");
 }
 
+TEST(ChildProgram, SeesAddedVariablesBesideThoseOfThisProgram) {
+  ChildProgram child({"-c", "echo $ADDED ${PATH:+path}"}, "/bin/sh", {"ADDED=one"});
+  EXPECT_EQ(status_at_end(child), 0);
+  EXPECT_EQ(child.output(), "one path\n");
+}
+
+TEST(ChildProgram, EndsWhenItIsAskedTo) {
+  ChildProgram child({"-c", "sleep 20"}, "/bin/sh");
+  child.ask_to_end();
+  EXPECT_EQ(status_at_end(child), 130);
+}
+
 TEST(ChildProgram, ReportsTheSignalThatEndedIt) {
   ChildProgram child({"-c", "kill -9 $$"}, "/bin/sh");
   EXPECT_EQ(status_at_end(child), 137);

@@ -412,6 +412,16 @@ class Pad:
         self.tap("x")
 
 
+def open_exercise(eyes, hands, name, group):
+    """From the tiles of the start screen to the page of an exercise, by its group where its tile is out of sight."""
+    eyes.on("exercises", 60)
+    eyes.wait("the groups", lambda: f"group {group}" in eyes.screen["widgets"], 30)
+    if name not in eyes.screen["widgets"]:
+        hands.press(f"group {group}")
+    hands.press(name)
+    eyes.on("details")
+
+
 class Trainee:
     """What a trainee does with instruments, whatever moves them: look, compare, correct."""
 

@@ -12,7 +12,7 @@ import json
 import math
 import sys
 
-from trainee import Failed, Over, Trainee, add, cross, dot, in_a_room, unit
+from trainee import Failed, Over, Trainee, add, cross, dot, in_a_room, open_exercise, unit
 
 SIDES = [  # tube, who grasps, who cuts, towards which side the tube is lifted
     ("tube_left", "left_lateral", "right_lateral", 1),
@@ -253,7 +253,7 @@ class Surgeon(Trainee):
 
 
 def operate(eyes, hands):
-    eyes.on("start", 60)
+    open_exercise(eyes, hands, "gynaecology/sterilisation", "gynaecology")
     hands.press("Start", 120)
     eyes.on("hint")
     hands.enter()

@@ -15,8 +15,9 @@ import sys
 import time
 import zlib
 
-from trainee import Failed, Pad, Trainee, add, in_a_room, xdo
+from trainee import Failed, Pad, Trainee, add, in_a_room, open_exercise, xdo
 
+EXERCISE = "gynaecology/sterilisation", "gynaecology"
 PATIENCE = 300            # [s] for everything at the end
 
 
@@ -75,7 +76,7 @@ def landmark(eyes):
 
 def begin(eyes, hands, kind):
     """From the start screen into the exercise; the first time three things are told before it begins."""
-    eyes.on("start", 60)
+    open_exercise(eyes, hands, *EXERCISE)
     hands.press(kind, 120)
     eyes.on("hint")
     tick = eyes.pose["tick"] if eyes.pose else 0
@@ -174,7 +175,7 @@ def operate(eyes, hands, folder):
     hands.press("Start screen")
 
     # An attempt with a score, ended early: result and report.
-    eyes.on("start", 60)
+    open_exercise(eyes, hands, *EXERCISE)
     hands.press("Start")
     eyes.on("exercise")
     tick = eyes.pose["tick"]

@@ -84,6 +84,15 @@ TEST_F(AttemptLogTest, WhereTheDataFolderCannotBeWrittenNothingIsLostAndTheNextO
   EXPECT_EQ(failed, 0) << "1: the recording is not in the user's own temporary folder; 2: the result was not taken in";
 }
 
+TEST_F(AttemptLogTest, OfABareSceneIsFreePracticeAndNotAFailedAttempt) {
+  training::Store store(data());
+  static_cast<void>(attempt(store, {}));
+  const std::vector<training::Attempt> kept = store.list();
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_EQ(kept[0].mode, training::AttemptMode::free_practice);
+  EXPECT_FALSE(kept[0].score || kept[0].passed);
+}
+
 TEST_F(AttemptLogTest, WithoutTheRecordingThatWasAskedForTheAttemptNeverBegan) {
   training::Store store(data());
   attempt::AttemptPlan plan;

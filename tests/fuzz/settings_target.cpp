@@ -46,6 +46,7 @@ std::vector<Seed> settings_seeds() {
   other.left_handed = other.mirrored_picture = true;
   other.trainee = "Ada \xc3\xa4";
   other.mouse = 2.5;
+  other.others = {{"Bob", {}}};
   return {{"defaults", bytes_of(app::settings_text({}))}, {"other", bytes_of(app::settings_text(other))}};
 }
 

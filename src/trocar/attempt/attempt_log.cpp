@@ -73,7 +73,7 @@ AttemptLog::AttemptLog(training::Store* store, Session& session, const AttemptPl
   if (m_attempt.trainee.empty()) m_attempt.trainee = "guest";
   m_attempt.exercise = lesson.name;
   m_attempt.title = lesson.title;
-  m_attempt.mode = plan.mode;
+  m_attempt.mode = plan.mode == AttemptMode::assessed && !lesson.exercise ? AttemptMode::free_practice : plan.mode;
   m_attempt.seed = lesson.seed;
   m_attempt.input = plan.input;
   m_attempt.started = utc_now();

@@ -11,7 +11,7 @@
 namespace trocar::training {
 namespace {
 
-constexpr const char* kModes[] = {"assessed", "familiarisation", "demonstration"};
+constexpr const char* kModes[] = {"assessed", "familiarisation", "demonstration", "free practice"};
 constexpr const char* kStates[] = {"running", "finished", "aborted", "interrupted"};
 
 template <class Enum, std::size_t N>

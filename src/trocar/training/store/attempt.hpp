@@ -13,6 +13,7 @@ enum class AttemptMode {
   assessed,
   familiarisation,  ///< getting to know scene and instruments: no score
   demonstration,    ///< nobody's hands: the scripted surgeon, or a recording done again
+  free_practice,    ///< a bare scene: there is no task, so no score
 };
 
 enum class AttemptState {
