@@ -83,7 +83,7 @@ std::vector<fs::path> Document::files() const {
     std::vector<std::string> names;
     names_in(read.root, names);
     for (const std::string& name : names) {
-      const fs::path path = whole_path(out[i].parent_path() / name);
+      const fs::path path = named_file(*this, out[i].parent_path(), name);
       std::error_code error;
       const bool there = m_files.count(path) > 0 || fs::is_regular_file(path, error);
       if (there && met.insert(path).second) out.push_back(path);

@@ -47,6 +47,8 @@ class Document {
   const fs::path& root() const { return m_root; }
   /// As edited. @throws core::BadInput where there is no such file
   const std::string& text(const fs::path& file) const;
+  /// Is it one of the files read so far, or one that is on no disk yet?
+  bool holds(const fs::path& file) const { return m_files.count(file) > 0; }
   /// The root and all files that it and they name and that are there, in the order in which they are met.
   std::vector<fs::path> files() const;
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/modeller/document/home.hpp>
 #include <trocar/modeller/operations/kinds.hpp>
 #include <trocar/modeller/operations/places.hpp>
 #include <trocar/modeller/operations/values.hpp>
@@ -48,8 +49,10 @@ JsonValue own_value(Draft& draft, const std::string& key) {
       return m->value;
     }
     const scene::JsonMember* like = scene.find(scene::kLike);
-    if (!like || !draft.has(whole_path(file.parent_path() / like->value.text))) break;
-    file = whole_path(file.parent_path() / like->value.text);
+    if (!like) break;
+    const fs::path below = named_file(draft.document(), file.parent_path(), like->value.text);
+    if (!draft.has(below)) break;
+    file = below;
   }
   return {};
 }
