@@ -66,7 +66,8 @@ class Document {
   /// it was when it was read, unless `over`.
   /// @throws core::BadInput with what is wrong, nothing lost
   void save(bool over = false);
-  /// The root under another name from now on. @throws core::BadInput
+  /// The root under another name from now on. In another folder everything that it names goes with it (collect.hpp).
+  /// @throws core::BadInput
   void save_as(const fs::path& root);
 
   /// What all texts say. Faults are appended; where there are some, what is returned is what could be read.

@@ -76,6 +76,16 @@ fs::path modelling_place() {
   return whole_path(place);
 }
 
+std::string text_of_place_with(const std::string& organ_file, const std::string& title) {
+  JsonValue text = scene::json_object();
+  scene::put(text, "format", scene::json_number(1));
+  scene::put(text, "name", scene::json_text("modelling"));
+  scene::put(text, "title", scene::json_text(title));
+  scene::put(text, "like", scene::json_text(kPlaceName));
+  scene::put(text, "organs", scene::json_array({scene::json_text(organ_file)}));
+  return scene::to_text(text);
+}
+
 fs::path at_home(const Document& document, scene::MemoryFiles& memory) {
   const scene::FileKind kind = scene::kind_of_file(document.root(), &memory);
   if (kind == scene::FileKind::scene) return document.root();
@@ -84,12 +94,7 @@ fs::path at_home(const Document& document, scene::MemoryFiles& memory) {
         {{{document.root().generic_string(), 1, 1}, "expected a scene or an organ, got a file of another kind"}});
   const fs::path folder = document.root().parent_path();
   const fs::path place = folder / ".modelling-place.json";
-  JsonValue text = scene::json_object();
-  scene::put(text, "format", scene::json_number(1));
-  scene::put(text, "name", scene::json_text("modelling"));
-  scene::put(text, "like", scene::json_text(kPlaceName));
-  scene::put(text, "organs", scene::json_array({scene::json_text(document.root().filename().generic_string())}));
-  memory[place] = scene::to_text(text);
+  memory[place] = text_of_place_with(document.root().filename().generic_string(), document.root().stem().string());
   return place;
 }
 

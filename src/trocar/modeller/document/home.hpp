@@ -10,6 +10,9 @@ namespace trocar::modeller {
 /// @throws core::BadInput for a file of another kind
 fs::path at_home(const Document& document, scene::MemoryFiles& memory);
 
+/// A scene in the place to model in with an organ's file.
+std::string text_of_place_with(const std::string& organ_file, const std::string& title);
+
 /// scenes/modelling/place.json. @throws core::BadInput where the program's scenes are not there
 fs::path modelling_place();
 

@@ -2,6 +2,7 @@
 // that names it into the document.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,8 @@ struct OrganWish {
   double cell_mm = 0;                       ///< 0: such that about 700 cells fill it
   bool cuttable = false;
   std::optional<Vec3d> centre_mm;  ///< where its middle goes; none: where it is in the scan
+  std::function<Vec3d(Vec3d size_mm)> place_mm = {};  ///< the same by its size; asked where there is no centre
+  bool attach = false;                                ///< in its middle
   int most_triangles = 20000;
   double within = 0.02;  ///< how much its volume may differ from the segment's, as a share
 };
