@@ -13,7 +13,7 @@
 namespace trocar::app {
 namespace {
 
-constexpr float kHeight = 96, kReach = 9;  // [px at scale 1]
+constexpr float kHeight = 96, kPointReach = 9;  // [px at scale 1]
 constexpr std::size_t kMostPoints = 24;
 
 struct Canvas {
@@ -52,7 +52,7 @@ void paint_function(const volumes::TransferFunction& t, const Canvas& c, int cho
 
 int point_under(const volumes::TransferFunction& t, const Canvas& c, ImVec2 mouse) {
   int best = -1;
-  float nearest = kReach * ui::scale();
+  float nearest = kPointReach * ui::scale();
   for (std::size_t i = 0; i < t.points.size(); ++i) {
     const ImVec2 s = c.spot(t.points[i]);
     const float off = std::hypot(s.x - mouse.x, s.y - mouse.y);

@@ -160,8 +160,8 @@ void from_file(const JsonObject& o, Draft& draft) {
 std::vector<Operation> file_operations() {
   return {
       {{"from_file",
-        "A solid from another program's file: triangles (OBJ, STL, PLY, glTF, VTK), which are mended where they are "
-        "not closed; tetrahedra (Gmsh .msh); STEP and IGES. What it needs is kept beside the document.",
+        "A solid from another program's file: triangles (OBJ, STL, PLY, glTF, VTK), whose holes are closed; "
+        "tetrahedra (Gmsh .msh, VTK); STEP and IGES. A copy is saved next to the document.",
         {scene::needed(keys::text("file", "where it is, relative to the document")),
          scene::needed(keys::name("name", "what the body is called")),
          scene::needed(keys::name("tissue", "its material")),

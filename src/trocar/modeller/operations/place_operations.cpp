@@ -106,7 +106,7 @@ Operation tool() {
 
 Operation scope() {
   return {{"scope",
-           "The endoscope: through which port, how it looks. What is left out stays.",
+           "The endoscope: its port, tip and optics. Fields that are left out stay.",
            {keys::text("port", "the port that it passes"), keys::vec3("tip_mm", -2000, 2000, "where its tip is"),
             keys::number("angle_deg", 0, 90, "between its shaft and its view"),
             keys::number("field_of_view_deg", 20, 140, "full cone"),

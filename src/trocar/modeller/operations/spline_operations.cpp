@@ -187,7 +187,7 @@ nurbs::Fit best_fit(const geometry::TriMesh& mesh, nurbs::BodyFitOptions options
 Operation fit() {
   return {
       {"fit_spline",
-       "Fits a NURBS body to a closed mesh from a file: OBJ, STL, PLY, glTF, VTK. What is not closed is mended first.",
+       "Fits a NURBS body to a mesh from a file: OBJ, STL, PLY, glTF, VTK. Holes are closed first.",
        {scene::needed(keys::text("file", "the mesh, relative to the document")),
         scene::needed(keys::name("name", "what the body is called")),
         scene::needed(keys::name("tissue", "its material")),

@@ -16,10 +16,10 @@ struct OrganWish {
   double cell_mm = 0;                       ///< 0: such that about 700 cells fill it
   bool cuttable = false;
   std::optional<Vec3d> centre_mm;  ///< where its middle goes; none: where it is in the scan
-  std::function<Vec3d(Vec3d size_mm)> place_mm = {};  ///< the same by its size; asked where there is no centre
-  bool attach = false;                                ///< in its middle
   int most_triangles = 20000;
   double within = 0.02;  ///< how much its volume may differ from the segment's, as a share
+  std::function<Vec3d(Vec3d size_mm)> place_mm = {};  ///< where its middle goes, by its size; without centre_mm
+  bool attach = false;                                ///< in its middle
 };
 struct SegmentOrgan {
   double segment_mL = 0, mL = 0;  ///< of the segment's voxels, of the surface
