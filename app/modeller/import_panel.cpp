@@ -89,7 +89,8 @@ void ImportPanel::draw_units() {
   const double now = m_unit;
   for (const double unit : modeller::kImportUnits) {
     m_unit = unit;
-    const std::string words = tr("{}:  {}, {}", unit_word(unit), size_in_words(size_mm()), volume_in_words(volume_mL(unit)));
+    const std::string words =
+        tr("{}:  {}, {}", unit_word(unit), size_in_words(size_mm()), volume_in_words(volume_mL(unit)));
     m_unit = now;
     const char* why = unit != m_preview->guess ? "" : m_preview->metres > 0 ? tr("(says the file)") : tr("(our guess)");
     if (ImGui::RadioButton((words + "   " + why).c_str(), std::fabs(now - unit) < 1e-9)) m_unit = unit;
@@ -103,8 +104,8 @@ void ImportPanel::draw_parts() {
   if (m_preview->parts.size() < 2) return;
   label(tr("Part of the file"));
   const bool drawing = m_preview->kind == Kind::drawing;
-  const std::string shown = m_part < 0 ? tr("all {} parts", m_preview->parts.size())
-                                       : m_preview->parts[std::size_t(m_part)].name;
+  const std::string shown =
+      m_part < 0 ? tr("all {} parts", m_preview->parts.size()) : m_preview->parts[std::size_t(m_part)].name;
   ImGui::SetNextItemWidth(-1);
   if (!ImGui::BeginCombo("##part", shown.c_str())) return;
   if (!drawing && ImGui::Selectable(tr("all parts"), m_part < 0)) m_part = -1;

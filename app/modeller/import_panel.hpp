@@ -51,10 +51,10 @@ class ImportPanel {
   std::vector<modeller::TissueChoice> m_tissues;
   std::future<modeller::ImportPreview> m_reading;
   std::optional<modeller::ImportPreview> m_preview;
-  double m_unit = 1e-3;       ///< [m]
-  double m_cell_mm = 0;       ///< 0: such that about 700 cells fill it
+  double m_unit = 1e-3;  ///< [m]
+  double m_cell_mm = 0;  ///< 0: such that about 700 cells fill it
   double m_deviation_mm = 0.05;
-  int m_part = -1;            ///< -1: all of them
+  int m_part = -1;  ///< -1: all of them
 };
 
 }  // namespace trocar::app

@@ -431,8 +431,8 @@ void run_modeller(const ModellerOptions& options) {
   std::vector<core::Fault> ignored;
   const Settings settings = read_settings(settings_file(), ignored);
   if (!options.file.empty()) modeller::Document::open(options.file);  // a wrong name is reported before a window opens
-  Window window =
-      open_window(tr("Trocar: modeller"), options.size, tr("The modeller without a window: trocar model --script FILE"));
+  Window window = open_window(tr("Trocar: modeller"), options.size,
+                              tr("The modeller without a window: trocar model --script FILE"));
   window.set_text_size(settings.text_size);
   EventLog log(EventLog::path_of(options.log));
   attempt::catch_interrupts();

@@ -35,8 +35,7 @@ void Modeller::toggle_brush() {
     return tell("");
   }
   const std::optional<modeller::Thing> thing = selected();
-  if (!thing || (thing->kind != "solid" && thing->kind != "pouch"))
-    return warn(tr("Choose an organ to paint on."));
+  if (!thing || (thing->kind != "solid" && thing->kind != "pouch")) return warn(tr("Choose an organ to paint on."));
   m_brush.on = true;
   tell(tr("Drag over the body to paint. Shift: erase. Ctrl-wheel: brush width. B or Esc: end."));
 }

@@ -75,12 +75,17 @@ std::string title_of(const std::string& operation) {
 struct Usual {
   const char *operation, *key, *value;  ///< operation "": any
 };
-constexpr Usual kUsual[] = {{"", "centre_mm", "0, -150, -110"}, {"", "half_mm", "18, 25, 18"},
-                            {"hold", "radius_mm", "10"},        {"cord", "radius_mm", "2"},
-                            {"", "radius_mm", "1.2"},           {"", "radii_mm", "6"},
-                            {"", "flow_mL_min", "60"},          {"", "vessel", "trunk"},
+constexpr Usual kUsual[] = {{"", "centre_mm", "0, -150, -110"},
+                            {"", "half_mm", "18, 25, 18"},
+                            {"hold", "radius_mm", "10"},
+                            {"cord", "radius_mm", "2"},
+                            {"", "radius_mm", "1.2"},
+                            {"", "radii_mm", "6"},
+                            {"", "flow_mL_min", "60"},
+                            {"", "vessel", "trunk"},
                             {"vessel_tree", "file", "arteries.json"},
-                            {"", "way", "along"},               {"", "at", "0.5"},
+                            {"", "way", "along"},
+                            {"", "at", "0.5"},
                             {"fibres", "ratio", "1.5"}};
 
 std::string usual_value(const std::string& operation, const std::string& key) {
@@ -235,7 +240,8 @@ void Modeller::draw_fields_of(const modeller::Operation& operation) {
       if (key.name == "of" && !m_selected.empty()) value = m_selected.substr(m_selected.find(':') + 1);
     }
     ui::text(modeller::label_of_key(key.name), key.required ? ui::kWhite : ui::kGrey);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", ui::wrapped(tr(key.meaning.c_str()), 400 * ui::scale()).c_str());
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s", ui::wrapped(tr(key.meaning.c_str()), 400 * ui::scale()).c_str());
     ImGui::SameLine(230 * ui::scale());
     ImGui::SetNextItemWidth(-1);
     const std::string id = "##" + key.name;

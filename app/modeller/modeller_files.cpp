@@ -38,23 +38,32 @@ void Modeller::ask_for_file(FileFor what) {
     case FileFor::open:
       return m_files.open({tr("Open a scene or an organ"), tr("Open"), folder, {".json"}});
     case FileFor::save_as:
-      return m_files.open({tr("Save as"), tr("Save"), named ? m_document->root() : fs::path("my_organ.json"),
-                           {".json"}, true});
+      return m_files.open(
+          {tr("Save as"), tr("Save"), named ? m_document->root() : fs::path("my_organ.json"), {".json"}, true});
     case FileFor::body:
       return m_files.open({m_body_by == "from_file" ? tr("Import an organ") : tr("Choose a surface to fit a NURBS to"),
-                           tr("Open"), {}, {kBodyFiles.begin(), kBodyFiles.end()}});
+                           tr("Open"),
+                           {},
+                           {kBodyFiles.begin(), kBodyFiles.end()}});
     case FileFor::export_body:
       return m_files.open({tr("Export {}: the ending decides the format (.stl, .obj, .ply, .vtk, .msh)", chosen),
-                           tr("Export"), fs::path(chosen + ".stl"), {".stl", ".obj", ".ply", ".vtk", ".msh"}, true});
+                           tr("Export"),
+                           fs::path(chosen + ".stl"),
+                           {".stl", ".obj", ".ply", ".vtk", ".msh"},
+                           true});
     case FileFor::send:
       return m_files.open({tr("Name of the folder for the copy"), tr("Save"), fs::path("my_organ_to_send"), {}, true});
     case FileFor::scan:
-      return m_files.open({tr("Open a scan: any file of a DICOM series, NIfTI, NRRD or MetaImage"), tr("Open"), {}, {}});
+      return m_files.open(
+          {tr("Open a scan: any file of a DICOM series, NIfTI, NRRD or MetaImage"), tr("Open"), {}, {}});
     case FileFor::labels:
       return m_files.open({tr("Open a label map for this scan"), tr("Open"), {}, {}});
     case FileFor::write_labels:
-      return m_files.open({tr("Save the label map (.nrrd, .nii, .nii.gz)"), tr("Save"), fs::path("labels.seg.nrrd"),
-                           {".nrrd", ".nii", ".gz"}, true});
+      return m_files.open({tr("Save the label map (.nrrd, .nii, .nii.gz)"),
+                           tr("Save"),
+                           fs::path("labels.seg.nrrd"),
+                           {".nrrd", ".nii", ".gz"},
+                           true});
     case FileFor::none:
       return;
   }

@@ -51,7 +51,8 @@ void Modeller::take_dropped(const std::string& path) {
   }
   if (!m_document) begin_scene();
   if (!m_document) return;
-  if (std::find(kBodyFiles.begin(), kBodyFiles.end(), ending) != kBodyFiles.end()) return ask_for_body("from_file", path);
+  if (std::find(kBodyFiles.begin(), kBodyFiles.end(), ending) != kBodyFiles.end())
+    return ask_for_body("from_file", path);
   m_scan.open(path);
   m_scan_shown = true;
 }
@@ -134,14 +135,16 @@ void Modeller::obey_key(int key, int mods) {
   if (key == GLFW_KEY_K) hold_here();
   if (key == GLFW_KEY_B) toggle_brush();
   if (key == GLFW_KEY_TAB && shift)
-    m_snap = !m_snap, tell(m_snap ? tr("Snap on: what you move goes onto the body under the pointer.") : tr("Snap off."));
+    m_snap = !m_snap,
+    tell(m_snap ? tr("Snap on: what you move goes onto the body under the pointer.") : tr("Snap off."));
   if (key == GLFW_KEY_H && alt) m_hidden.clear(), ++m_picture;
   if (key == GLFW_KEY_H && !alt)
     if (const std::optional<modeller::Thing> chosen = selected()) m_hidden.insert(chosen->name), ++m_picture;
   if (key == GLFW_KEY_G) begin_gesture(Gesture::Kind::move);
   if (key == GLFW_KEY_R) begin_gesture(Gesture::Kind::rotate);
   if (key == GLFW_KEY_S) begin_gesture(Gesture::Kind::scale);
-  if (key == GLFW_KEY_O) m_soft = !m_soft, tell(m_soft ? tr("Soft move on: points near by move along.") : tr("Soft move off."));
+  if (key == GLFW_KEY_O)
+    m_soft = !m_soft, tell(m_soft ? tr("Soft move on: points near by move along.") : tr("Soft move off."));
   const std::optional<modeller::Thing> thing = selected();
   if ((key == GLFW_KEY_X || key == GLFW_KEY_DELETE) && thing) {
     scene::JsonValue s = scene::json_object();

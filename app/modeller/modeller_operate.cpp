@@ -59,8 +59,8 @@ void Modeller::start_trainer() {
   guarded([this] {
     const scene::MemoryFiles memory = m_document->over_disk();
     const bool is_scene = scene::kind_of_file(m_document->root(), &memory) == scene::FileKind::scene;
-    const fs::path file = m_untitled || !is_scene ? modeller::write_scene_for_trainer(*m_document, operate_folder())
-                                                  : m_document->root();
+    const fs::path file =
+        m_untitled || !is_scene ? modeller::write_scene_for_trainer(*m_document, operate_folder()) : m_document->root();
     const fs::path log = operate_folder().parent_path() / "trainer_log.jsonl";
     std::error_code ignored;
     fs::remove(log, ignored);

@@ -174,7 +174,8 @@ void Modeller::draw_outline() {
     if (ImGui::Selectable((t.name + "##" + id).c_str(), id == m_selected)) select(id);
     ui::note_widget(id);
   }
-  if (m_things.empty()) ui::text(tr("Nothing yet. Add a ball, a tube or a vessel (Add), or import an organ (File)."), ui::kGrey);
+  if (m_things.empty())
+    ui::text(tr("Nothing yet. Add a ball, a tube or a vessel (Add), or import an organ (File)."), ui::kGrey);
   if (m_history) {
     ui::heading(tr("History"));
     for (std::size_t i = 0; i < m_document->history().size(); ++i) {
@@ -202,7 +203,8 @@ void Modeller::draw_status() {
     ui::text(ui::shortened(m_message, width - 40), ui::kOrange);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", ui::wrapped(m_message, 600 * ui::scale()).c_str());
   } else {
-    const char* hint = tr("Click: choose   right drag: turn   G R S: move, rotate, scale   T: test drive   F1: all keys");
+    const char* hint =
+        tr("Click: choose   right drag: turn   G R S: move, rotate, scale   T: test drive   F1: all keys");
     ui::text(ui::shortened(m_message.empty() ? hint : m_message, width), ui::kGrey);
   }
   const std::vector<core::Fault>* faults = m_built ? &m_built->built.faults : nullptr;

@@ -200,7 +200,9 @@ void draw_load(double us, const char* remark) {
   constexpr double kGood = 400, kBad = 1000;  // [us] of the 1000 that a step may take
   ui::mark(us < kGood ? ui::Mark::done : us < kBad ? ui::Mark::warning : ui::Mark::error);
   const std::string load = tr("Load: {:.0f} % of real time{}", 0.1 * us, remark);
-  ui::text(us < kBad ? load : tr("{}: slow motion", load), us < kGood ? ui::kWhite : us < kBad ? ui::kOrange : ui::kRed);
+  ui::text(us < kBad ? load : tr("{}: slow motion", load), us < kGood  ? ui::kWhite
+                                                           : us < kBad ? ui::kOrange
+                                                                       : ui::kRed);
 }
 
 }  // namespace
@@ -213,8 +215,8 @@ void Modeller::draw_size_and_load(const modeller::ReadOut& r) {
     if (sim::name_of(*m_shown->built.model, p.body) == r.name)
       for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p.at[k]), high[k] = std::max(high[k], p.at[k]);
   if (high.x > low.x)
-    ui::text(tr("Size {:.0f} x {:.0f} x {:.0f} mm", 1e3 * (high.x - low.x), 1e3 * (high.y - low.y),
-                1e3 * (high.z - low.z)));
+    ui::text(
+        tr("Size {:.0f} x {:.0f} x {:.0f} mm", 1e3 * (high.x - low.x), 1e3 * (high.y - low.y), 1e3 * (high.z - low.z)));
   draw_load(r.predicted_us, "");
   if (r.off_mm >= 0) {
     ui::mark(r.off_mm > 0.5 ? ui::Mark::warning : ui::Mark::done);
@@ -223,9 +225,9 @@ void Modeller::draw_size_and_load(const modeller::ReadOut& r) {
              r.off_mm > 0.5 ? ui::kOrange : ui::kWhite);
   }
   if (!ImGui::TreeNode(tr("Details"))) return;
-  ui::text(r.substeps > 0 ? tr("{} nodes, {} springs, {} sub-steps of {:.3f} ms", r.nodes, r.springs, r.substeps,
-                               1.0 / r.substeps)
-                          : tr("{} nodes, {} springs, implicit solver", r.nodes, r.springs),
+  ui::text(r.substeps > 0
+               ? tr("{} nodes, {} springs, {} sub-steps of {:.3f} ms", r.nodes, r.springs, r.substeps, 1.0 / r.substeps)
+               : tr("{} nodes, {} springs, implicit solver", r.nodes, r.springs),
            ui::kGrey);
   if (r.limit_ms > 0) ui::text(tr("Stable up to steps of {:.3f} ms", r.limit_ms), ui::kGrey);
   ui::text(tr("{} of memory", modeller::memory_in_words(r.bytes)), ui::kGrey);
@@ -259,8 +261,9 @@ void Modeller::draw_tissue(const std::string& name) {
     ImGui::PlotLines("##law", curve.data(), int(curve.size()), 0, label.c_str(), 0, curve.back(),
                      ImVec2(ImGui::GetContentRegionAvail().x, 90 * ui::scale()));
     ImGui::PopStyleColor();
-    ui::text(tr("{}: Young's modulus {:.3g} kPa, linear beyond {:.0f} % strain", modeller::stiffness_in_words(young), young * 1e-3,
-                100 * cap), ui::kGrey);
+    ui::text(tr("{}: Young's modulus {:.3g} kPa, linear beyond {:.0f} % strain", modeller::stiffness_in_words(young),
+                young * 1e-3, 100 * cap),
+             ui::kGrey);
     if (const scene::JsonMember* source = v.find("source")) ui::text(source->value.text, ui::kGrey);
     return;
   }

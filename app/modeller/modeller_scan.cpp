@@ -26,7 +26,8 @@ void Modeller::draw_scan_menu() {
     m_lost_segments.reset();
   }
   ImGui::Separator();
-  if (entry(m_scan_shown ? tr("Show the document") : tr("Show the scan"), "Tab", m_scan.shows())) m_scan_shown = !m_scan_shown;
+  if (entry(m_scan_shown ? tr("Show the document") : tr("Show the scan"), "Tab", m_scan.shows()))
+    m_scan_shown = !m_scan_shown;
   if (entry(tr("Close scan"), nullptr, m_scan.shows())) m_scan.close(), m_scan_shown = false;
 }
 

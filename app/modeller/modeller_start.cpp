@@ -32,10 +32,8 @@ void Modeller::draw_start() {
   ImGui::Spacing();
   if (begins(tr("New organ"), tr("An organ to shape, attached and in the endoscope's view. Operate at once."), true))
     begin_organ();
-  if (begins(tr("New scene"), tr("An empty scene with ports and instruments, for organs from files.")))
-    begin_scene();
-  if (begins(tr("Open a scan"), tr("CT or MRI: segment an organ and operate on it.")))
-    ask_for_file(FileFor::scan);
+  if (begins(tr("New scene"), tr("An empty scene with ports and instruments, for organs from files."))) begin_scene();
+  if (begins(tr("Open a scan"), tr("CT or MRI: segment an organ and operate on it."))) ask_for_file(FileFor::scan);
   if (begins(tr("Try a uterus"), tr("A finished example to look at, change and operate on."))) open_sample();
   if (begins(tr("Open"), tr("A scene or an organ that you saved."))) ask_for_file(FileFor::open);
   ui::text(m_message.empty() ? " " : m_message, m_is_error ? ui::kOrange : ui::kGrey);
@@ -45,7 +43,8 @@ void Modeller::draw_start() {
     for (const fs::path& file : m_recent) {
       std::error_code error;
       if (!fs::exists(file, error)) continue;
-      if (ImGui::Selectable(fmt::format("{}   {}##recent", file.filename().string(), file.parent_path().string()).c_str()))
+      if (ImGui::Selectable(
+              fmt::format("{}   {}##recent", file.filename().string(), file.parent_path().string()).c_str()))
         wanted = file;
       ui::note_widget("recent " + file.filename().string());
     }

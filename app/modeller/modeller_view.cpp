@@ -149,7 +149,8 @@ void Modeller::draw_over_views() {
     if (v.area.width >= 2) draw_handles(v);
   if (m_view) return;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const char* text = m_builder.busy() ? tr("Compiling ...") : tr("Nothing to show yet. Add an organ (Add), or import one (File).");
+  const char* text =
+      m_builder.busy() ? tr("Compiling ...") : tr("Nothing to show yet. Add an organ (Add), or import one (File).");
   list.AddText({m_middle.x + 24, m_middle.y + 24}, IM_COL32(190, 195, 200, 255), text);
 }
 
@@ -268,7 +269,8 @@ void Modeller::hold_here() {
   if (!v || !thing) return warn(tr("Choose a body, then point at the place to attach and press K."));
   const std::optional<modeller::BodyPlace> met =
       modeller::met_by(m_places, v->eye(), v->ray(io.MousePos.x, io.MousePos.y), kRayReach);
-  if (!met || sim::name_of(*m_shown->built.model, met->body) != thing->name) return warn(tr("Point at the chosen body."));
+  if (!met || sim::name_of(*m_shown->built.model, met->body) != thing->name)
+    return warn(tr("Point at the chosen body."));
   scene::JsonValue s = scene::json_object();
   put(s, "do", scene::json_text("hold"));
   put(s, "of", scene::json_text(m_selected));

@@ -304,9 +304,10 @@ void ScanDesk::preview_growth() {
   if (!m_seed || !v.grid.has(*m_seed)) return;
   const double value = v.value(*m_seed);
   if (value < m_from || value > m_to)
-    return refuse(tr("The value here is {:.0f} {}, outside the range {:.0f} to {:.0f}. Change the range, or click "
-                     "another place.",
-                     value, v.unit, m_from, m_to));
+    return refuse(
+        tr("The value here is {:.0f} {}, outside the range {:.0f} to {:.0f}. Change the range, or click "
+           "another place.",
+           value, v.unit, m_from, m_to));
   try {
     const volumes::Index3 seed = *m_seed;
     m_growth = volumes::grown(v, m_scan->labels(), std::span(&seed, 1), {m_from, m_to}, label());
@@ -436,8 +437,7 @@ void ScanDesk::draw_block(const Area& area) {
   list.AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, IM_COL32(18, 20, 24, 255));
   list.AddImage(ImTextureID(std::intptr_t(pane.texture)), {area.x, area.y},
                 {area.x + area.width, area.y + area.height});
-  list.AddText({area.x + 8, area.y + 6}, IM_COL32(210, 214, 220, 255),
-               tr("3D view"));
+  list.AddText({area.x + 8, area.y + 6}, IM_COL32(210, 214, 220, 255), tr("3D view"));
   list.AddRect({area.x, area.y}, {area.x + area.width, area.y + area.height}, IM_COL32(60, 64, 70, 255));
 }
 
@@ -530,9 +530,9 @@ void ScanDesk::draw_range() {
     if (m_tool == ScanTool::grow && m_seed) preview_growth();
   }
   const bool grows = m_tool == ScanTool::grow;
-  ui::text(grows ? tr("Click into the organ. Green: what Apply adds. Orange: the range.")
-                 : tr("Orange: what Apply adds."),
-           ui::kGrey);
+  ui::text(
+      grows ? tr("Click into the organ. Green: what Apply adds. Orange: the range.") : tr("Orange: what Apply adds."),
+      ui::kGrey);
   if (!ui::button(tr("Apply"), {.width = 120, .primary = true, .enabled = !grows || m_growth.has_value()})) return;
   if (grows) return apply_growth();
   edit(tr("Threshold"), [&](std::uint16_t of) {

@@ -106,11 +106,11 @@ class ScanDesk {
   ScanMessage m_message;
   std::string m_wanted_organ, m_segment = "organ";
   std::array<std::unique_ptr<Pane>, 4> m_panes;
-  Vec3d m_cross;  ///< [mm, L P S]
-  std::optional<double> m_under;                ///< the value under the pointer
-  bool m_is_ct = true;                          ///< values are Hounsfield units
-  std::optional<volumes::Index3> m_seed;        ///< where growth begins
-  std::optional<volumes::LabelChange> m_growth; ///< what Apply would do
+  Vec3d m_cross;                                 ///< [mm, L P S]
+  std::optional<double> m_under;                 ///< the value under the pointer
+  bool m_is_ct = true;                           ///< values are Hounsfield units
+  std::optional<volumes::Index3> m_seed;         ///< where growth begins
+  std::optional<volumes::LabelChange> m_growth;  ///< what Apply would do
   double m_centre = 40, m_width = 400, m_from = 0, m_to = 200, m_brush = 8, m_margin = 2;
   ScanTool m_tool = ScanTool::look;
   std::vector<Vec3d> m_stroke;        ///< [mm, L P S] painted with the button that is held

@@ -17,7 +17,8 @@ Document with_files(const Workplace& place) {
   mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
   fs::create_directories(place / "work");
   std::ofstream(place / "tet.obj") << geometry::to_obj(mesh, 1e-3);
-  apply(document, "from_file", R"({"file": "../tet.obj", "name": "tet", "tissue": "liver", "unit_mm": 1, "cell_mm": 3})");
+  apply(document, "from_file",
+        R"({"file": "../tet.obj", "name": "tet", "tissue": "liver", "unit_mm": 1, "cell_mm": 3})");
   apply(document, "hold", R"({"of": "tet", "centre_mm": [10, -140, -90], "radius_mm": 8})");
   document.save();
   return document;

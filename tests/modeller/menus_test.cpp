@@ -1,10 +1,11 @@
-// Every operation and every command that a menu offers, on documents and scans that have nothing for it: a message comes
-// back, never an end of the program.
+// Every operation and every command that a menu offers, on documents and scans that have nothing for it: a message
+// comes back, never an end of the program.
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/modeller/operations/first_organ.hpp>
 #include <trocar/modeller/operations/import_preview.hpp>
 #include <trocar/modeller/scan/segment_organ.hpp>
 #include <trocar/modeller/script/session.hpp>
+#include <trocar/scene/json/json_text.hpp>
 #include <trocar/volumes/files/volume_writer.hpp>
 #include <trocar/volumes/segment/islands.hpp>
 #include <trocar/volumes/segment/shape_tools.hpp>
@@ -58,10 +59,9 @@ TEST_P(EveryOperation, IsDoneOrRefusedWithAMessage) {
   const Workplace place;
   for (const Operation& operation : operations())
     for (const char* of : {"organ", "no such", ""}) {
-      Document document = GetParam() ? first_organ(place / "scene.json", "Mine")
-                                     : begun(place / "scene.json", false, "empty");
-      const std::string said =
-          refused([&] { modeller::apply(operation, filled(operation, of), "menu", document); });
+      Document document =
+          GetParam() ? first_organ(place / "scene.json", "Mine") : begun(place / "scene.json", false, "empty");
+      const std::string said = refused([&] { modeller::apply(operation, filled(operation, of), "menu", document); });
       EXPECT_TRUE(said.empty() || said.size() > 10) << operation.parameters.name;
       if (document.done() == 0) continue;
       const Built built = build(document);  // whatever it left
@@ -114,7 +114,8 @@ TEST(Menus, OrganOfAnEmptySegmentIsRefusedInWords) {
   wish.segment = wish.name = "kidney";
   wish.tissue = "liver";
   const std::string said = refused([&] { make_organ(document, scan, wish); });
-  EXPECT_NE(said.find("The segment \"kidney\" is empty. Paint, threshold or grow it first."), std::string::npos) << said;
+  EXPECT_NE(said.find("The segment \"kidney\" is empty. Paint, threshold or grow it first."), std::string::npos)
+      << said;
   wish.segment = "spleen";
   EXPECT_NE(refused([&] { make_organ(document, scan, wish); }), "");
 }

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include <trocar/geometry/surface_files/surface_writer.hpp>
+#include <trocar/modeller/document/collect.hpp>
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/modeller/materials/materials.hpp>
 #include <trocar/modeller/operations/first_organ.hpp>
@@ -36,6 +37,16 @@ TEST(Readiness, NewOrganCanBeOperatedOnAtOnce) {
   EXPECT_TRUE(findings_of(document).empty()) << findings_of(document).front().words;
   EXPECT_EQ(document.done(), 0u);
   EXPECT_NEAR(built_mL(document, "organ"), 34, 3);
+}
+
+TEST(Readiness, ExampleUterusCanBeOperatedOnAsACopyOfOnesOwn) {
+  const Workplace place;
+  const Document sample = Document::open(modelling_place().parent_path() / "uterus.json");
+  const Collection copy = collected(sample, place / "mine.json");
+  write_collection(copy);
+  const Built built = build(Document::open(place / "mine.json"));
+  EXPECT_TRUE(built.good());
+  EXPECT_TRUE(built.findings.empty()) << built.findings.front().words;
 }
 
 TEST(Readiness, EmptySceneAsksForAnOrgan) {

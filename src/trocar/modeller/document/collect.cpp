@@ -57,8 +57,7 @@ class Collector {
     m_out.texts[m_placed.at(file)] = scene::json_set_all(m_document.text(file), std::move(names));
   }
 
-  void names_in(const JsonValue& value, const std::string& path, const fs::path& from, const fs::path& to,
-                Names& out) {
+  void names_in(const JsonValue& value, const std::string& path, const fs::path& from, const fs::path& to, Names& out) {
     for (const scene::JsonMember& m : value.members) {
       const std::string at = scene::json_path(path, m.key);
       if (names_files(m.key)) {

@@ -21,7 +21,8 @@ struct Collection {
 };
 
 /// For a document whose file shall be `root`. Names of files that are taken there by something else get a number.
-/// @param tree_stays  files of the tree that `root` lies in stay where they are; else only those of its folder and below
+/// @param tree_stays  files of the tree that `root` lies in stay where they are; else only those of its folder and
+/// below
 Collection collected(const Document& document, const fs::path& root, bool tree_stays = false);
 
 /// The copies alone. @throws core::BadInput for files that cannot be read or written

@@ -104,7 +104,8 @@ Document begun(const fs::path& file, bool organ, const std::string& wanted) {
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
   std::string text = "{\n  \"format\": 1,\n  \"name\": " + named(name);
   if (organ) return Document::fresh(file, text + ",\n  \"solids\": []\n}\n");
-  text += ",\n  \"title\": " + named(wanted.empty() ? name : wanted) + ",\n  \"like\": " + named(kPlaceName) + ",\n  \"organs\": [\n    {\n      \"solids\": []\n    }\n  ]\n}\n";
+  text += ",\n  \"title\": " + named(wanted.empty() ? name : wanted) + ",\n  \"like\": " + named(kPlaceName) +
+          ",\n  \"organs\": [\n    {\n      \"solids\": []\n    }\n  ]\n}\n";
   return Document::fresh(file, text);
 }
 

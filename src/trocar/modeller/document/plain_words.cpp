@@ -81,11 +81,12 @@ constexpr Words kKeyWords[] = {{"name", "Name"},
                                {"bonds", "Bonds"},
                                {"as", "Keep as"}};
 
-constexpr Words kUnits[] = {{"_mm", "mm"},         {"_deg", "°"},           {"_Pa", "Pa"},         {"_kPa", "kPa"},
-                            {"_N", "N"},           {"_N_m", "N/m"},         {"_N_mm", "N/mm"},     {"_mL", "mL"},
-                            {"_mL_min", "mL/min"}, {"_ms", "ms"},           {"_s", "s"},           {"_mmHg", "mmHg"},
-                            {"_J_m2", "J/m²"},     {"_kg_m3", "kg/m³"},     {"_m_s2", "m/s²"},     {"_Hz", "Hz"},
-                            {"_mm_s", "mm/s"},     {"_mmHg_s_mL", "mmHg s/mL"}};
+constexpr Words kUnits[] = {{"_mm", "mm"},     {"_deg", "°"},       {"_Pa", "Pa"},
+                            {"_kPa", "kPa"},   {"_N", "N"},         {"_N_m", "N/m"},
+                            {"_N_mm", "N/mm"}, {"_mL", "mL"},       {"_mL_min", "mL/min"},
+                            {"_ms", "ms"},     {"_s", "s"},         {"_mmHg", "mmHg"},
+                            {"_J_m2", "J/m²"}, {"_kg_m3", "kg/m³"}, {"_m_s2", "m/s²"},
+                            {"_Hz", "Hz"},     {"_mm_s", "mm/s"},   {"_mmHg_s_mL", "mmHg s/mL"}};
 
 struct KindWords {
   std::string_view kind;

@@ -21,11 +21,11 @@ namespace {
 using scene::JsonValue;
 using About = Finding::About;
 
-constexpr double kNearest = 0.02;      // [m] a body nearer than this to the lens fills the picture with a blur
-constexpr double kFarthest = 0.25;     // [m] at which an endoscope still shows something
+constexpr double kNearest = 0.02;   // [m] a body nearer than this to the lens fills the picture with a blur
+constexpr double kFarthest = 0.25;  // [m] at which an endoscope still shows something
 constexpr double kUsualDistance = 0.12, kClearOfTips = 0.085;  // [m] from the lens
-constexpr double kLeastShare = 0.05;   // of a body's surface that has to be in the picture
-constexpr double kUsualOrgan = 0.1;    // [m] longest side
+constexpr double kLeastShare = 0.05;                           // of a body's surface that has to be in the picture
+constexpr double kUsualOrgan = 0.1;                            // [m] longest side
 
 JsonValue step_named(const char* name) {
   JsonValue step = scene::json_object();
@@ -84,7 +84,8 @@ void check_size(const Document& document, const Checked& body, std::vector<Findi
   if (volume >= kLeastOrgan && volume <= kMostOrgan) return;
   const Vec3d size = body.box().high - body.box().low;
   const double longest = std::max({size.x, size.y, size.z});
-  Finding finding{About::size, body.id(),
+  Finding finding{About::size,
+                  body.id(),
                   tr("{} is {:.3g} mm long and holds {:.3g} mL. Organs hold 0.1 mL to 20 L.", body.thing.name,
                      1e3 * longest, 1e6 * volume),
                   "",
@@ -152,7 +153,8 @@ void check_view(const scene::Description& d, const std::vector<Checked>& bodies,
   });
   const InPicture p = in_picture(*lens, d.scope.field_of_view, body.mesh);
   const geometry::Bounds box = body.box();
-  Finding finding{About::view, body.id(),
+  Finding finding{About::view,
+                  body.id(),
                   p.nearest < kNearest ? tr("{} is {:.0f} mm from the endoscope: nothing else is in the picture.",
                                             body.thing.name, 1e3 * p.nearest)
                                        : tr("The endoscope does not see {}.", body.thing.name),
@@ -251,7 +253,8 @@ scene::Anchor middle_hold(const scene::Solid& solid) {
   return solid.sections.empty() ? hold_in_middle(surface_mesh(solid), solid.cell) : ball_in(solid.sections, solid.cell);
 }
 scene::Anchor middle_hold(const scene::Pouch& pouch) {
-  return pouch.sections.empty() ? hold_in_middle(surface_mesh(pouch), pouch.spacing) : ball_in(pouch.sections, pouch.spacing);
+  return pouch.sections.empty() ? hold_in_middle(surface_mesh(pouch), pouch.spacing)
+                                : ball_in(pouch.sections, pouch.spacing);
 }
 
 double scale_to_organ(double longest) {

@@ -95,8 +95,7 @@ const std::vector<MaterialChoice>& material_choices() {
     for (const sim::Look& look : shelf.book()->looks)
       if (look.surface == sim::Look::Surface::tissue && !look.moulded && look.name != "neutral")
         out.push_back({look.name, look.colour, look.patches, look.flecks, look.vessel_colour.value_or(look.tint)});
-    std::sort(out.begin(), out.end(),
-              [](const MaterialChoice& a, const MaterialChoice& b) { return a.name < b.name; });
+    std::sort(out.begin(), out.end(), [](const MaterialChoice& a, const MaterialChoice& b) { return a.name < b.name; });
     return out;
   }();
   return all;

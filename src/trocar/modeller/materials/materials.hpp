@@ -1,5 +1,5 @@
-// Tissues and materials as a list to choose from: how firm a tissue is, how a material looks, which belong together, and
-// which a body's name suggests.
+// Tissues and materials as a list to choose from: how firm a tissue is, how a material looks, which belong together,
+// and which a body's name suggests.
 #pragma once
 
 #include <string>

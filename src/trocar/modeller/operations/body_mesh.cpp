@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kEdge = 0.002;     // [m]
 constexpr double kMostEdges = 150;  // along a body: one drawn metres long stays a small mesh
-constexpr double kChord = 0.0002;  // [m] by which a spline's triangles may be off it
+constexpr double kChord = 0.0002;   // [m] by which a spline's triangles may be off it
 
 geometry::TriMesh mesh_of(const std::vector<scene::Section>& of_file, const scene::ClosedShape& shape) {
   if (shape.surface) return shape.surface->mesh;

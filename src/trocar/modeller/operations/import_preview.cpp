@@ -63,7 +63,8 @@ ImportPreview preview_of(const fs::path& file) {
   out.box = out.parts.front().box;
   for (const ImportPreview::Part& part : out.parts) {
     const geometry::Bounds& b = part.box;
-    out.box.low = {std::min(out.box.low.x, b.low.x), std::min(out.box.low.y, b.low.y), std::min(out.box.low.z, b.low.z)};
+    out.box.low = {std::min(out.box.low.x, b.low.x), std::min(out.box.low.y, b.low.y),
+                   std::min(out.box.low.z, b.low.z)};
     out.box.high = {std::max(out.box.high.x, b.high.x), std::max(out.box.high.y, b.high.y),
                     std::max(out.box.high.z, b.high.z)};
   }

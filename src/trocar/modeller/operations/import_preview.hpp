@@ -23,12 +23,12 @@ struct ImportPreview {
   };
   enum class Kind { surface, tetrahedra, drawing } kind = Kind::surface;
   std::vector<Part> parts;
-  geometry::Bounds box;    ///< of all, in the file's unit
-  double volume = 0;       ///< of all, in the file's unit
+  geometry::Bounds box;  ///< of all, in the file's unit
+  double volume = 0;     ///< of all, in the file's unit
   std::size_t triangles = 0;
   bool closed = true;
-  double metres = 0;       ///< in the file's unit where the format says so, else 0
-  double guess = 1e-3;     ///< the unit that is likeliest [m]
+  double metres = 0;    ///< in the file's unit where the format says so, else 0
+  double guess = 1e-3;  ///< the unit that is likeliest [m]
   std::vector<std::string> notes;
 
   Vec3d size_mm(double unit) const { return (box.high - box.low) * (1e3 * unit); }

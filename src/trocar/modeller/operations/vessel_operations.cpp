@@ -119,7 +119,8 @@ double whole_flow(const JsonValue& tree) {
 Operation branch() {
   return {
       {"branch",
-       "Extends a vessel from its end along a line, or branches it. Radii follow from Murray's law, r^3 = sum r_i^3, and "
+       "Extends a vessel from its end along a line, or branches it. Radii follow from Murray's law, r^3 = sum r_i^3, "
+       "and "
        "the flow at the ends with them.",
        drawn_keys({scene::needed(keys::text("of", "the vessel from whose end it goes")),
                    scene::needed(keys::name("name", "of the new one")),

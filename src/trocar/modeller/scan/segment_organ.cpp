@@ -57,9 +57,7 @@ SegmentOrgan make_organ(Document& document, const Scan& scan, const OrganWish& w
   const std::string file = wish.name + ".stl";
   scene::put(surface, "file", scene::json_text(file));
   scene::put(surface, "unit_mm", number(1));
-  const Vec3d centre = wish.centre_mm  ? *wish.centre_mm
-                       : wish.place_mm ? wish.place_mm(out.size_mm)
-                                       : out.middle_mm;
+  const Vec3d centre = wish.centre_mm ? *wish.centre_mm : wish.place_mm ? wish.place_mm(out.size_mm) : out.middle_mm;
   scene::put(surface, "place_mm", point(centre));
   const double cell = wish.cell_mm > 0 ? wish.cell_mm : std::round(10 * std::cbrt(made.ml * 1e3 / 700)) / 10;
   scene::put(solid, "name", scene::json_text(wish.name));
@@ -67,7 +65,8 @@ SegmentOrgan make_organ(Document& document, const Scan& scan, const OrganWish& w
   if (!wish.look.empty()) scene::put(solid, "look", scene::json_text(wish.look));
   scene::put(solid, "surface", surface);
   scene::put(solid, "cell_mm", number(cell));
-  if (wish.attach) scene::put(solid, "anchors", scene::json_array({attachment(made.mesh, centre - out.middle_mm, cell)}));
+  if (wish.attach)
+    scene::put(solid, "anchors", scene::json_array({attachment(made.mesh, centre - out.middle_mm, cell)}));
   if (wish.cuttable) scene::put(solid, "cuttable", scene::json_flag(true));
   Draft draft(document);
   add_thing(draft, "solid", solid, "");  // refuses a name that is taken before anything is written

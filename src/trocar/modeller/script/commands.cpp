@@ -89,8 +89,8 @@ Command check() {
                                 {"memory_kB", std::round(1e-3 * double(r.bytes))}});
               if (r.off_mm >= 0) bodies.back()["off_mm"] = r.off_mm;
               if (o.flag("still") && r.off_mm > 0.5)
-                o.fault(o.at(), fmt::format("{} is not in equilibrium: it sagged {:.1f} mm in {:g} s", r.name,
-                                            r.off_mm, o.number("seconds", 1)));
+                o.fault(o.at(), fmt::format("{} is not in equilibrium: it sagged {:.1f} mm in {:g} s", r.name, r.off_mm,
+                                            o.number("seconds", 1)));
             }
             for (const std::string& note : session.built().notes) {
               if (o.flag("still")) o.fault(o.at(), note);
