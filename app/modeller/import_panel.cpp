@@ -92,7 +92,9 @@ void ImportPanel::draw_units() {
     const std::string words =
         tr("{}:  {}, {}", unit_word(unit), size_in_words(size_mm()), volume_in_words(volume_mL(unit)));
     m_unit = now;
-    const char* why = unit != m_preview->guess ? "" : m_preview->metres > 0 ? tr("(says the file)") : tr("(our guess)");
+    const char* why = std::fabs(unit - m_preview->guess) > 1e-9 ? ""
+                      : m_preview->metres > 0                   ? tr("(says the file)")
+                                                                : tr("(our guess)");
     if (ImGui::RadioButton((words + "   " + why).c_str(), std::fabs(now - unit) < 1e-9)) m_unit = unit;
     ui::note_widget(std::string("unit ") + (unit >= 1 ? "m" : unit >= 0.01 ? "cm" : "mm"));
     if (m_unit != now) break;

@@ -84,7 +84,7 @@ void Modeller::take(std::unique_ptr<modeller::Document> document) {
   m_shown.reset();
   m_state.reset();
   m_places.clear();
-  m_wants_operate = m_checks = m_scan_shown = false;
+  m_wants_operate = m_checks = m_scan_shown = m_is_recovered = false;
   m_window.set_title(m_untitled ? std::string(tr("Trocar: untitled"))
                                 : tr("Trocar: {}", m_document->root().filename().string()));
   tell("");
@@ -118,7 +118,7 @@ void Modeller::forget_untitled() {
 
 bool Modeller::needs_saving() const {
   if (!m_document || m_drop_changes) return false;
-  return m_untitled ? m_document->done() > 0 : !m_document->unsaved().empty();
+  return m_untitled ? m_document->done() > 0 || m_is_recovered : !m_document->unsaved().empty();
 }
 
 void Modeller::remember_file(const fs::path& file) {
@@ -306,7 +306,11 @@ void Modeller::draw_dialogues() {
   if (m_help) draw_help();
   draw_questions();
   fs::path chosen;
-  if (m_files.is_open() && m_files.draw(chosen)) take_file(chosen);
+  if (!m_files.is_open()) return;
+  if (m_files.draw(chosen))
+    take_file(chosen);
+  else if (!m_files.is_open())  // cancelled, and what was to follow with it
+    m_after = After::none;
 }
 
 void Modeller::log_widgets() {

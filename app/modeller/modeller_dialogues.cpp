@@ -221,6 +221,7 @@ void Modeller::ask_to_recover() {
 void Modeller::recover(const modeller::Lost& lost) {
   this->take(std::make_unique<modeller::Document>(modeller::recovered(lost)));
   m_recovery = std::make_unique<modeller::Recovery>(lost.file.parent_path(), lost.root);
+  m_is_recovered = true;
   tell(tr("Recovered. Save it to keep it."));
   m_log.event("recovered", {{"file", lost.root.generic_string()}});
 }

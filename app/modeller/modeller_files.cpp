@@ -71,7 +71,7 @@ void Modeller::ask_for_file(FileFor what) {
 
 void Modeller::take_file(fs::path chosen) {
   const FileFor wanted = std::exchange(m_file_for, FileFor::none);
-  guarded([&] {
+  const bool done = guarded([&] {
     switch (wanted) {
       case FileFor::open:
         m_to_open = chosen;
@@ -98,6 +98,7 @@ void Modeller::take_file(fs::path chosen) {
         return;
     }
   });
+  if (!done) m_after = After::none;
 }
 
 void Modeller::begin_organ() {
@@ -145,6 +146,7 @@ void Modeller::save_as(const fs::path& file) {
   }
   m_document->save_as(path);
   if (m_recovery) m_recovery->forget();
+  m_is_recovered = false;
   if (std::exchange(m_untitled, false)) {
     std::error_code ignored;
     fs::remove_all(before.parent_path(), ignored);
@@ -203,8 +205,9 @@ void Modeller::draw_import() {
   m_things_of = m_document->version();
   select("solid:" + m_import.name());
   if (m_import.attaches()) {
-    const modeller::Built built = modeller::build(*m_document);
-    for (const modeller::Finding& f : built.findings)
+    faults.clear();
+    const std::optional<scene::Description> now = m_document->description(faults);
+    for (const modeller::Finding& f : modeller::readiness(*m_document, now ? &*now : nullptr, faults))
       if (f.about == modeller::Finding::About::attachment && f.thing == m_selected) do_remedy(f);
   }
   tell(tr("Imported: {}", m_import.name()));

@@ -264,6 +264,7 @@ class Modeller {
   std::unique_ptr<modeller::Document> m_to_begin;  ///< After::begin
   bool m_untitled = false;                         ///< the document has no file of the user's yet
   bool m_drop_changes = false;
+  bool m_is_recovered = false;  ///< it was never saved, whatever its history says
   fs::path m_to_open;
   std::vector<modeller::Lost> m_lost;
   std::vector<fs::path> m_recent;
