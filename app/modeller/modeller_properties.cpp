@@ -196,13 +196,13 @@ void Modeller::choose_tissue_of_selected(const JsonValue* value) {
 namespace {
 
 /// Share of real time, in words and a colour that says whether it is good.
-void draw_load(double us, const char* remark) {
+void draw_load(double us, bool of_all) {
   constexpr double kGood = 400, kBad = 1000;  // [us] of the 1000 that a step may take
   ui::mark(us < kGood ? ui::Mark::done : us < kBad ? ui::Mark::warning : ui::Mark::error);
-  const std::string load = tr("Load: {:.0f} % of real time{}", 0.1 * us, remark);
-  ui::text(us < kBad ? load : tr("{}: slow motion", load), us < kGood  ? ui::kWhite
-                                                           : us < kBad ? ui::kOrange
-                                                                       : ui::kRed);
+  const std::string load = us >= kBad ? tr("Load: {:.0f} % of real time: slow motion", 0.1 * us)
+                           : of_all   ? tr("Load: {:.0f} % of real time (without contacts)", 0.1 * us)
+                                      : tr("Load: {:.0f} % of real time", 0.1 * us);
+  ui::text(load, us < kGood ? ui::kWhite : us < kBad ? ui::kOrange : ui::kRed);
 }
 
 }  // namespace
@@ -217,7 +217,7 @@ void Modeller::draw_size_and_load(const modeller::ReadOut& r) {
   if (high.x > low.x)
     ui::text(
         tr("Size {:.0f} x {:.0f} x {:.0f} mm", 1e3 * (high.x - low.x), 1e3 * (high.y - low.y), 1e3 * (high.z - low.z)));
-  draw_load(r.predicted_us, "");
+  draw_load(r.predicted_us, false);
   if (r.off_mm >= 0) {
     ui::mark(r.off_mm > 0.5 ? ui::Mark::warning : ui::Mark::done);
     ui::text(r.off_mm > 0.5 ? tr("Sags by {:.1f} mm in 0.5 s. Attach more of it, or choose a firmer tissue.", r.off_mm)
@@ -293,7 +293,7 @@ void Modeller::draw_overview() {
     int nodes = 0;
     for (const modeller::ReadOut& r : m_shown->read_outs) us += r.predicted_us, grams += r.mass_g, nodes += r.nodes;
     ui::text(tr("Bodies: {}, {:.0f} g together", m_shown->read_outs.size(), grams));
-    draw_load(us, tr(" (without contacts)"));
+    draw_load(us, true);
     if (ImGui::TreeNode(tr("Details"))) {
       ui::text(tr("{} nodes, compiled in {:.1f} s", nodes, m_shown->built.seconds), ui::kGrey);
       ImGui::TreePop();
