@@ -4,7 +4,6 @@
 
 #include <trocar/modeller/document/outline.hpp>
 #include <trocar/modeller/materials/materials.hpp>
-#include <trocar/modeller/operations/values.hpp>
 #include <trocar/scene/files/library.hpp>
 #include <trocar/scene/files/look_file.hpp>
 
@@ -72,7 +71,11 @@ bool is_material(const std::string& name) {
 std::vector<TissueChoice> tissue_choices(const Document& document) {
   std::vector<TissueChoice> out;
   for (const Thing& thing : outline(document))
-    if (thing.kind == "tissue") out.push_back({thing.name, number_in(value_of(document, thing), "young_Pa", 0)});
+    if (thing.kind == "tissue") {
+      const scene::JsonValue value = value_of(document, thing);
+      const scene::JsonMember* young = value.find("young_Pa");
+      out.push_back({thing.name, young ? young->value.number : 0.0});
+    }
   if (out.empty()) {  // an organ alone: what the place to model in has
     std::error_code error;
     const std::optional<fs::path> scenes = scene::found_scenes_folder();
