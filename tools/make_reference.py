@@ -201,7 +201,7 @@ def keys():
                 "## Player\n\n" + table(["Action", "Keyboard", "Mouse", "Gamepad"],
                                         rows_of("app/player/player_keys.hpp", "kPlayerHelp")),
                 "## Modeller\n\n" + table(["Control", "Action"],
-                                          rows_of("app/modeller/modeller_panels.cpp", "kHelp")))
+                                          rows_of("app/modeller/modeller_dialogues.cpp", "kHelp")))
 
 
 def main():

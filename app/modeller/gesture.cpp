@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
+
 namespace trocar::app {
 
 std::optional<double> Gesture::number() const {
@@ -16,11 +18,13 @@ std::optional<double> Gesture::number() const {
 }
 
 std::string Gesture::said(const std::string& amount) const {
-  static constexpr const char *words[] = {"Move", "Rotate", "Scale"}, *units[] = {" mm", " degrees", ""};
-  const std::string along = axis < 0 ? "" : fmt::format(" along {}", "xyz"[axis]);
-  const std::string value = typed.empty() ? amount : typed + "_" + units[int(kind)];
-  return fmt::format("{}{} {}   X Y Z: one axis   digits: exactly   Enter or click: keep   Esc: take back",
-                     words[int(kind)], along, value);
+  static constexpr const char *words[] = {"Move", "Rotate", "Scale"}, *units[] = {"mm", "degrees", "times"};
+  const std::string value = typed.empty() ? amount : fmt::format("{}_ {}", typed, tr(units[int(kind)]));
+  if (axis >= 0)
+    return tr("{} along {}: {}.   Digits: exact amount   Enter or click: keep   Esc: cancel", tr(words[int(kind)]),
+              "xyz"[axis], value);
+  return tr("{}: {}.   X Y Z: one axis   digits: exact amount   Enter or click: keep   Esc: cancel",
+            tr(words[int(kind)]), value);
 }
 
 }  // namespace trocar::app

@@ -6,12 +6,15 @@
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
-#include <spawn.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+#include <unistd.h>
 
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/scene/json/json_text.hpp>
 
@@ -19,8 +22,6 @@
 #include "shell/open_window.hpp"
 #include "shell/panes.hpp"
 #include "shell/settings.hpp"
-
-extern char** environ;
 
 namespace trocar::app {
 namespace {
@@ -32,6 +33,7 @@ constexpr std::size_t kRecent = 10;
 fs::path modeller_folder() { return attempt::data_folder() / "modeller"; }
 fs::path unsaved_folder() { return modeller_folder() / "unsaved"; }
 fs::path segments_folder() { return modeller_folder() / "segments"; }
+fs::path untitled_folder() { return modeller_folder() / "untitled"; }
 
 std::vector<fs::path> read_recent() {
   std::vector<fs::path> out;
@@ -56,26 +58,67 @@ Modeller::Modeller(Window& window, const ModellerOptions& options, EventLog& log
   for (std::size_t i = 0; i < m_views.size(); ++i) m_views[i].name = names[i];
   m_lost = modeller::lost_in(unsaved_folder());
   if (!m_lost.empty()) m_question = Question::recover;
+  m_files.set_recent(m_recent);
   m_lost_segments = lost_segments(segments_folder());
 }
 
 void Modeller::open(const fs::path& file) {
+  take(std::make_unique<modeller::Document>(modeller::Document::open(file)));
+  remember_file(m_document->root());
+  m_log.event("opened", {{"file", m_document->root().generic_string()}});
+}
+
+/// Takes it in place of the one that is open.
+void Modeller::take(std::unique_ptr<modeller::Document> document) {
   if (m_drive) toggle_drive();
-  m_document = std::make_unique<modeller::Document>(modeller::Document::open(file));
+  forget_untitled();
+  m_document = std::move(document);
+  m_untitled = m_document->root().parent_path().parent_path() == modeller::whole_path(untitled_folder());
   m_recovery = std::make_unique<modeller::Recovery>(unsaved_folder(), m_document->root());
   m_builder.forget();
   m_selected.clear();
   m_handle.reset();
-  m_things_of = m_handles_of = ~0ull;
+  m_things_of = m_handles_of = m_findings_of = m_tissues_of = ~0ull;
   m_built.reset();
   m_view.reset();
   m_shown.reset();
   m_state.reset();
   m_places.clear();
-  remember_file(m_document->root());
-  m_window.set_title("Trocar: " + m_document->root().filename().string());
-  m_log.event("opened", {{"file", m_document->root().generic_string()}});
+  m_wants_operate = m_checks = m_scan_shown = m_is_recovered = false;
+  m_window.set_title(m_untitled ? std::string(tr("Trocar: untitled"))
+                                : tr("Trocar: {}", m_document->root().filename().string()));
   tell("");
+}
+
+/// A new document: named when it is saved for the first time.
+void Modeller::begin(modeller::Document document) {
+  m_to_begin = std::make_unique<modeller::Document>(std::move(document));
+  m_after = After::begin;
+  leave();
+}
+
+/// Where a document without a name is until it has one: what it imports lies beside it.
+fs::path Modeller::untitled_file() const {
+  for (int i = 1;; ++i) {
+    const fs::path folder = untitled_folder() / fmt::format("{}-{}", getpid(), i);
+    std::error_code error;
+    if (!fs::exists(folder, error)) {
+      fs::create_directories(folder, error);
+      return folder / "untitled.json";
+    }
+  }
+}
+
+void Modeller::forget_untitled() {
+  if (!m_document || !m_untitled) return;
+  std::error_code ignored;
+  fs::remove_all(m_document->root().parent_path(), ignored);
+  m_untitled = false;
+}
+
+bool Modeller::needs_saving() const {
+  if (!m_document || m_drop_changes) return false;
+  return m_untitled ? m_document->done() > 0 || m_is_recovered : !m_document->unsaved().empty();
 }
 
 void Modeller::remember_file(const fs::path& file) {
@@ -88,6 +131,7 @@ void Modeller::remember_file(const fs::path& file) {
   std::error_code ignored;
   fs::create_directories(modeller_folder(), ignored);
   core::write_file(modeller_folder() / "recent.json", text.data(), text.size(), 0600);
+  m_files.set_recent(m_recent);
 }
 
 void Modeller::run() {
@@ -100,32 +144,34 @@ void Modeller::run() {
     }
     picture();
   }
-  if (m_document && m_recovery) m_recovery->keep(*m_document);  // an interrupt loses nothing
+  if (needs_saving() && m_recovery) m_recovery->keep(*m_document);  // an interrupt loses nothing
 }
 
 /// What was wanted after the document, once nothing is lost by it.
 void Modeller::leave() {
-  if (m_document && !m_document->unsaved().empty()) {
+  if (needs_saving()) {
     m_question = Question::unsaved;
     return;
   }
+  m_drop_changes = false;
   if (m_recovery) m_recovery->forget();
   const After after = std::exchange(m_after, After::none);
   if (after == After::quit) {
     ScanDesk::forget(segments_folder());
+    forget_untitled();
     m_quit = true;
   }
   if (after == After::start) {
+    forget_untitled();
     m_view.reset();
     m_shown.reset();
+    m_recovery.reset();
     m_document.reset();
   }
-  if (after == After::open) {
-    try {
-      open(m_to_open);
-    } catch (const core::BadInput& bad) {
-      tell(bad.what());
-    }
+  if (after == After::open) guarded([this] { open(m_to_open); });
+  if (after == After::begin && m_to_begin) {
+    take(std::move(m_to_begin));
+    m_log.event("begun", {{"file", m_document->root().generic_string()}});
   }
 }
 
@@ -153,6 +199,8 @@ void Modeller::take_what_is_built() {
   if (!m_gesture || !m_gesture->dragged || !m_builder.busy()) m_builder.want(*m_document);
   std::unique_ptr<BuiltDocument> built = m_builder.poll();
   if (!built) return;
+  m_findings = built->built.findings;
+  m_findings_of = built->built.version;
   m_log.event("built", {{"good", built->built.good()},
                         {"seconds", built->built.seconds},
                         {"faults", built->built.faults.size()},
@@ -166,7 +214,9 @@ void Modeller::take_what_is_built() {
     m_places = modeller::places_of(*m_shown->built.model, *m_state);
     ++m_picture;
     m_built.reset();
+    if (!first && std::exchange(m_frame_when_built, false)) frame_selected();
     if (first) {
+      m_frame_when_built = false;
       frame_selected();
       for (int i = 0; i < 4; ++i) m_active = i, look_from(i);
       m_active = 0;
@@ -180,87 +230,87 @@ void Modeller::take_what_is_built() {
 void Modeller::keep_unsaved() {
   m_scan.keep(segments_folder());
   const auto now = std::chrono::steady_clock::now();
-  if (!m_document || !m_recovery || now - m_kept < std::chrono::seconds(1)) return;
+  if (!needs_saving() || !m_recovery || now - m_kept < std::chrono::seconds(1)) return;
   m_kept = now;
   const std::string said = m_recovery->keep(*m_document);
-  if (!said.empty()) tell("what is unsaved cannot be kept for a crash: " + said);
+  if (!said.empty()) warn(tr("Changes that are not saved would be lost in a crash: {}", said));
 }
 
 void Modeller::picture() {
   const bool busy = m_drive || m_gesture || ImGui::IsAnyMouseDown();
   m_window.set_picture_rate(busy ? kBusyRate : kCalmRate);
   m_window.begin_picture();
-  lay_out();
-  take_what_is_built();
-  listen();
-  if (m_drive) drive_on();
-  if (m_document) {
-    if (m_things_of != m_document->version()) {
-      m_things = modeller::outline(*m_document);
-      m_things_of = m_document->version();
-    }
-    if (scan_shown()) {
-      draw_scan();
-    } else {
-      draw_views();
-      if (!m_files.is_open() && !m_help && !m_faults && m_question == Question::none && m_adding.empty()) point();
-      draw_properties();
-      draw_over_views();
-    }
-    draw_menu_bar();
-    draw_outline();
-    draw_status();
-  } else {
-    draw_start();
+  try {
+    draw_all();
+  } catch (const std::exception& failed) {  // nothing that is done in the window ends it
+    ImGui::ErrorCheckEndFrameRecover(nullptr);
+    recover_from(failed.what());
   }
-  if (m_help) draw_help();
-  if (m_faults) draw_faults();
-  if (!m_adding.empty()) draw_adding();
-  draw_brush_panel();
-  draw_questions();
-  fs::path chosen;
-  if (m_files.is_open() && m_files.draw(chosen)) take_file(chosen);
-  keep_unsaved();
   m_window.draw_panels();
   m_window.show();
   log_widgets();
 }
 
-/// For what the file panel was opened.
-void Modeller::take_file(fs::path chosen) {
-  const FileFor wanted = std::exchange(m_file_for, FileFor::none);
-  try {
-    if (wanted == FileFor::open) {
-      m_to_open = chosen;
-      m_after = After::open;
-      leave();
-    }
-    if (wanted == FileFor::save_as) save_as(chosen);
-    if (wanted == FileFor::body) ask_for_body(m_body_by, chosen);
-    if (wanted == FileFor::scan) m_scan.open(chosen), m_scan_shown = true;
-    if (wanted == FileFor::labels) m_scan.take_labels(chosen);
-    if (wanted == FileFor::write_labels) m_scan.write_labels(chosen);
-    if (wanted == FileFor::new_scene || wanted == FileFor::new_organ) {
-      if (chosen.extension() != ".json") chosen += ".json";
-      modeller::Document begun = modeller::begun(chosen, wanted == FileFor::new_organ, chosen.stem().string());
-      begun.save();
-      open(chosen);
-    }
-  } catch (const core::BadInput& bad) {
-    tell(bad.what());
-  }
+/// Something failed that nobody had thought of: the document is kept, and what was under way is given up.
+void Modeller::recover_from(const std::string& why) {
+  m_gesture.reset();
+  m_previewed = false;
+  m_draw_for.clear();
+  m_drawn.clear();
+  m_brush = {};
+  warn(tr("This could not be done: {}", why));
+  m_log.event("failed", {{"said", why}});
 }
 
-/// What else is to be known of a body that a file shall become.
-void Modeller::ask_for_body(const std::string& operation, const fs::path& file) {
-  m_adding = operation;
-  m_asked.clear();
-  m_asked["file"] = file.lexically_proximate(m_document->root().parent_path()).generic_string();
-  std::string name = file.stem().string();
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  m_asked["name"] = free_name(name);
-  if (operation == "fit_spline") m_asked["cell_mm"] = "5";
+void Modeller::draw_all() {
+  lay_out();
+  take_what_is_built();
+  listen();
+  if (m_drive) drive_on();
+  watch_trainer();
+  if (m_document) {
+    if (m_things_of != m_document->version()) {
+      m_things = modeller::outline(*m_document);
+      m_things_of = m_document->version();
+    }
+    continue_operating();
+    if (scan_shown()) {
+      draw_scan();
+    } else {
+      draw_views();
+      if (!asks()) point();
+      draw_properties();
+      draw_over_views();
+    }
+    draw_menu_bar();
+    if (m_document) {
+      draw_outline();
+      draw_status();
+    }
+  } else {
+    draw_start();
+  }
+  draw_dialogues();
+  keep_unsaved();
+}
+
+void Modeller::draw_dialogues() {
+  if (m_document) {
+    if (m_faults) draw_faults();
+    if (!m_adding.empty()) draw_adding();
+    if (m_import.is_open()) draw_import();
+    draw_brush_panel();
+    if (m_checks) draw_checks();
+  }
+  if (m_trainer_status) draw_trainer_report();
+  if (m_help) draw_help();
+  draw_questions();
+  fs::path chosen;
+  if (!m_files.is_open()) return;
+  if (m_files.draw(chosen))
+    take_file(chosen);
+  else if (!m_files.is_open())  // cancelled, and what was to follow with it
+    m_after = After::none;
 }
 
 void Modeller::log_widgets() {
@@ -288,56 +338,17 @@ void Modeller::log_widgets() {
                          {"widgets", places}});
 }
 
-void Modeller::save() {
-  try {
-    m_document->save();
-    if (m_recovery) m_recovery->forget();
-    tell("saved");
-    m_log.event("saved", {{"file", m_document->root().generic_string()}});
-  } catch (const core::BadInput& bad) {
-    tell(bad.what());
-  }
-}
-
-void Modeller::save_as(const fs::path& file) {
-  if (m_recovery) m_recovery->forget();
-  m_document->save_as(file);
-  m_recovery = std::make_unique<modeller::Recovery>(unsaved_folder(), m_document->root());
-  remember_file(m_document->root());
-  m_window.set_title("Trocar: " + m_document->root().filename().string());
-  tell("saved as " + m_document->root().generic_string());
-  m_log.event("saved", {{"file", m_document->root().generic_string()}});
-}
-
-/// The trainer opens on the document as it is saved, as a program of its own: the modeller stays.
-void Modeller::operate() {
-  if (!m_document->unsaved().empty()) save();
-  if (!m_document->unsaved().empty()) return;
-  std::string words[] = {"trocar", "train", m_document->root().generic_string()};
-  char* argv[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
-  pid_t child = 0;
-  const int failed = posix_spawn(&child, "/proc/self/exe", nullptr, nullptr, argv, environ);
-  tell(failed ? "the trainer could not be started" : "the trainer is starting");
-  m_log.event("operate", {{"started", failed == 0}});
-}
-
 bool Modeller::step(scene::JsonValue step) {
-  try {
+  return guarded([&] {
     const scene::JsonMember* name = step.find("do");
     const modeller::Operation* operation = name ? modeller::find_operation(name->value.text) : nullptr;
-    if (!operation) return false;
+    if (!operation) throw std::invalid_argument(tr("There is no such operation."));
     scene::JsonValue parameters = step;
     parameters.members.erase(parameters.members.begin());
     const std::string said = modeller::apply(*operation, parameters, "here", *m_document);
     if (!said.empty()) tell(said);
     if (m_log.on() && !m_previewed) m_log.event("step", {{"do", operation->parameters.name}});
-    return true;
-  } catch (const core::BadInput& bad) {
-    tell(bad.faults().front().message);
-  } catch (const core::EnvironmentLacks& lacks) {
-    tell(lacks.what());
-  }
-  return false;
+  });
 }
 
 bool Modeller::set_key(const std::string& path, const scene::JsonValue& value) {
@@ -365,16 +376,16 @@ std::optional<modeller::Thing> Modeller::selected() const {
 void Modeller::undo() {
   const std::size_t done = m_document->done();
   if (m_document->undo())
-    tell("undone: " + m_document->history()[done - 1].name);
+    tell(tr("Undone: {}", m_document->history()[done - 1].name));
   else
-    tell("there is nothing to undo");
+    tell(tr("There is nothing to undo."));
 }
 void Modeller::redo() {
   const std::size_t done = m_document->done();
   if (m_document->redo())
-    tell("done again: " + m_document->history()[done].name);
+    tell(tr("Done again: {}", m_document->history()[done].name));
   else
-    tell("there is nothing to do again");
+    tell(tr("There is nothing to redo."));
 }
 
 std::string Modeller::free_name(const std::string& stem) const {
@@ -395,11 +406,11 @@ void Modeller::toggle_drive() {
     tell("");
     return;
   }
-  if (!m_shown) return tell("there is nothing to try yet");
+  if (!m_shown) return warn(tr("There is nothing to try yet. Add an organ first (Add, or File > Import)."));
   m_drive = std::make_unique<modeller::TestDrive>(*m_shown->built.model);
   m_drive_debt = 0;
-  tell(m_drive->hand() < 0 ? "this scene has no grasper in a hand: it hangs, and can be looked at"
-                           : "test drive: press on a body and pull; T ends it");
+  tell(m_drive->hand() < 0 ? tr("Test drive without a grasper: this scene has none. Press T to end it.")
+                           : tr("Test drive: press on a body and pull. Press T to end it."));
 }
 
 /// So many ticks as time has passed, as far as the machine gets: slow motion where it is too slow.
@@ -423,9 +434,9 @@ void Modeller::drive_on() {
 void run_modeller(const ModellerOptions& options) {
   std::vector<core::Fault> ignored;
   const Settings settings = read_settings(settings_file(), ignored);
-  if (!options.file.empty()) modeller::Document::open(options.file);  // a wrong name is told before a window opens
-  Window window =
-      open_window("Trocar: modeller", options.size, "The modeller without a window: trocar model --script FILE");
+  if (!options.file.empty()) modeller::Document::open(options.file);  // a wrong name is reported before a window opens
+  Window window = open_window(tr("Trocar: modeller"), options.size,
+                              tr("The modeller without a window: trocar model --script FILE"));
   window.set_text_size(settings.text_size);
   EventLog log(EventLog::path_of(options.log));
   attempt::catch_interrupts();

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/operations/values.hpp>
 #include <trocar/modeller/picture/painted.hpp>
 #include <trocar/scene/json/json_text.hpp>
@@ -34,10 +35,9 @@ void Modeller::toggle_brush() {
     return tell("");
   }
   const std::optional<modeller::Thing> thing = selected();
-  if (!thing || (thing->kind != "solid" && thing->kind != "pouch"))
-    return tell("choose a solid or a pouch to paint on");
+  if (!thing || (thing->kind != "solid" && thing->kind != "pouch")) return warn(tr("Choose an organ to paint on."));
   m_brush.on = true;
-  tell("drag over the body to paint   Shift: rub out   wheel with Ctrl: how wide   B or Esc: done");
+  tell(tr("Drag over the body to paint. Shift: erase. Ctrl-wheel: brush width. B or Esc: end."));
 }
 
 /// The chosen body's place under the pointer.
@@ -73,7 +73,7 @@ void Modeller::end_stroke() {
   put(s, "radius_mm", modeller::number(m_brush.radius_mm));
   if (m_brush.what == "stiffness") put(s, "stiffness", modeller::number(m_brush.stiffness));
   if (m_brush.erases) put(s, "erase", scene::json_flag(true));
-  if (step(std::move(s))) tell(m_brush.erases ? "rubbed out" : "painted");
+  if (step(std::move(s))) tell(m_brush.erases ? tr("Erased.") : tr("Painted."));
 }
 
 void Modeller::draw_brush_over(const Viewport& v) const {
@@ -111,12 +111,12 @@ void Modeller::draw_brush_panel() {
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_AlwaysAutoResize);
   const std::optional<modeller::Thing> thing = selected();
-  ui::text("paint on " + (thing ? thing->name : std::string("?")));
+  ui::text(tr("Paint on {}", thing ? thing->name : std::string("?")));
   static constexpr std::pair<const char*, const char*> kWhat[] = {
-      {"hold", "what holds it"}, {"stiffness", "stiffness"}, {"bonds", "bonds"}};
+      {"hold", "attachment"}, {"stiffness", "stiffness"}, {"bonds", "bonds"}};
   for (const auto& [what, label] : kWhat) {
     if (m_brush.what == what) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.10f, 0.40f, 0.58f, 1));
-    const bool chosen = m_brush.what == what, pressed = ImGui::SmallButton(label);
+    const bool chosen = m_brush.what == what, pressed = ImGui::SmallButton(tr(label));
     if (chosen) ImGui::PopStyleColor();
     ui::note_widget(std::string("paint ") + what);
     if (pressed) m_brush.what = what;
@@ -125,13 +125,13 @@ void Modeller::draw_brush_panel() {
   ImGui::NewLine();
   float radius = float(m_brush.radius_mm), stiffness = float(m_brush.stiffness);
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::SliderFloat("##wide", &radius, 0.5f, 60, "reaches %.1f mm", ImGuiSliderFlags_Logarithmic))
+  if (ImGui::SliderFloat("##wide", &radius, 0.5f, 60, tr("brush radius %.1f mm"), ImGuiSliderFlags_Logarithmic))
     m_brush.radius_mm = double(radius);
   ImGui::SetNextItemWidth(-1);
   if (m_brush.what == "stiffness" &&
-      ImGui::SliderFloat("##stiff", &stiffness, 0.1f, 10, "%.2f times as stiff", ImGuiSliderFlags_Logarithmic))
+      ImGui::SliderFloat("##stiff", &stiffness, 0.1f, 10, tr("%.2f times as stiff"), ImGuiSliderFlags_Logarithmic))
     m_brush.stiffness = double(stiffness);
-  ui::text("Shift rubs out; B or Esc: done", ui::kGrey);
+  ui::text(tr("Shift: erase. B or Esc: end."), ui::kGrey);
   ImGui::End();
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/operations/points.hpp>
 #include <trocar/modeller/operations/transform.hpp>
 #include <trocar/modeller/operations/values.hpp>
@@ -37,7 +38,7 @@ std::optional<Vec3d> Modeller::onto_other_body(const Viewport& v, float x, float
 
 void Modeller::begin_gesture(Gesture::Kind kind) {
   const std::optional<modeller::Thing> thing = selected();
-  if (!thing) return tell("choose a thing first");
+  if (!thing) return warn(tr("Choose a body first."));
   const ImGuiIO& io = ImGui::GetIO();
   Gesture g;
   g.kind = kind;
@@ -97,7 +98,7 @@ std::optional<scene::JsonValue> Modeller::step_of_gesture(std::string& amount) c
     if (g.axis >= 0) by = kAxes[g.axis] * dot(by, kAxes[g.axis]);
     if (const std::optional<double> n = g.number()) by = kAxes[g.axis < 0 ? 0 : g.axis] * *n;
     by = {snapped(by.x, 1, snap), snapped(by.y, 1, snap), snapped(by.z, 1, snap)};
-    amount = fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", by.x, by.y, by.z);
+    amount = tr("({:.1f}, {:.1f}, {:.1f}) mm", by.x, by.y, by.z);
     if (length(by) < 1e-4) return std::nullopt;
     put(s, "do", scene::json_text(g.item ? "move_point" : "move"));
     put(s, "of", g.item ? scene::json_text(g.thing) : of);
@@ -124,7 +125,7 @@ std::optional<scene::JsonValue> Modeller::step_of_gesture(std::string& amount) c
     }
     if (const std::optional<double> n = g.number()) by = *n;
     by = snapped(by, 5, snap);
-    amount = fmt::format("{:.1f} degrees", by);
+    amount = tr("{:.1f} degrees", by);
     if (std::fabs(by) < 1e-3) return std::nullopt;
     put(s, "do", scene::json_text("rotate"));
     put(s, "of", of);

@@ -6,34 +6,67 @@
 #include <imgui.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/json_text.hpp>
 
 #include "modeller/modeller_parts.hpp"
 
 namespace trocar::app {
 
-void Modeller::listen() {
-  if (m_window.keys().help) m_help = !m_help;
-  for (const std::string& path : m_window.dropped()) {
-    const std::string ending = fs::path(path).extension().string();
-    if (m_document && std::find(kBodyFiles.begin(), kBodyFiles.end(), ending) != kBodyFiles.end()) {
-      ask_for_body("from_file", path);
-      continue;
-    }
-    if (m_document && ending != ".json") {
-      m_scan.open(path);
-      m_scan_shown = true;
-      continue;
-    }
+/// Is a dialogue open? Then keys and clicks belong to it.
+bool Modeller::asks() const {
+  return m_files.is_open() || m_question != Question::none || m_help || m_faults || m_import.is_open() || m_checks ||
+         !m_adding.empty() || m_trainer_status.has_value();
+}
+
+/// Esc closes the dialogue on top. False: none is open.
+bool Modeller::close_top() {
+  if (m_files.is_open())
+    m_files.close(), m_file_for = FileFor::none, m_after = After::none;
+  else if (m_question != Question::none)
+    m_question = Question::none, m_after = After::none;
+  else if (m_help)
+    m_help = false;
+  else if (m_trainer_status)
+    m_trainer_status.reset();
+  else if (m_checks)
+    m_checks = false, tell("");
+  else if (m_import.is_open())
+    m_import.close();
+  else if (!m_adding.empty())
+    m_adding.clear();
+  else if (m_faults)
+    m_faults = false;
+  else
+    return false;
+  return true;
+}
+
+void Modeller::take_dropped(const std::string& path) {
+  const std::string ending = fs::path(path).extension().string();
+  if (ending == ".json") {
     m_to_open = path;
     m_after = After::open;
-    leave();
+    return leave();
   }
-  const bool typing = ImGui::GetIO().WantTextInput;
-  if (typing || m_files.is_open() || m_question != Question::none || !m_adding.empty()) {
-    if (m_window.keys().back) m_files.close(), m_adding.clear();
+  if (!m_document) begin_scene();
+  if (!m_document) return;
+  if (std::find(kBodyFiles.begin(), kBodyFiles.end(), ending) != kBodyFiles.end())
+    return ask_for_body("from_file", path);
+  m_scan.open(path);
+  m_scan_shown = true;
+}
+
+void Modeller::listen() {
+  if (m_window.keys().help && (m_help || !asks())) m_help = !m_help;
+  for (const std::string& path : m_window.dropped()) guarded([&] { take_dropped(path); });
+  const bool escape = std::any_of(m_window.typed().begin(), m_window.typed().end(),
+                                  [](const TypedKey& k) { return k.key == GLFW_KEY_ESCAPE; });
+  if (asks()) {
+    if (escape || m_window.keys().back) close_top();
     return;
   }
+  if (ImGui::GetIO().WantTextInput) return;
   for (const TypedKey& k : m_window.typed()) {
     if (m_gesture)
       obey_key_of_gesture(k.key);
@@ -74,23 +107,15 @@ void Modeller::obey_key(int key, int mods) {
     if (key == GLFW_KEY_Z) shift ? redo() : undo();
     if (key == GLFW_KEY_Y) redo();
     if (key == GLFW_KEY_S && !shift) save();
-    if (key == GLFW_KEY_S && shift) {
-      m_file_for = FileFor::save_as;
-      m_files.open("Save as", "Save", m_document->root(), {".json"});
-    }
-    if (key == GLFW_KEY_O) {
-      m_file_for = FileFor::open;
-      m_files.open("Open a scene or an organ", "Open", m_document->root().parent_path(), {".json"});
-    }
+    if (key == GLFW_KEY_S && shift) ask_for_file(FileFor::save_as);
+    if (key == GLFW_KEY_O) ask_for_file(FileFor::open);
     if (key == GLFW_KEY_Q && !alt) m_after = After::quit, leave();
     return;
   }
   if (scan_shown()) return;
   if (key == GLFW_KEY_T) toggle_drive();
   if (key == GLFW_KEY_ESCAPE) {
-    if (m_help)
-      m_help = false;
-    else if (m_brush.on)
+    if (m_brush.on)
       toggle_brush();
     else if (m_drive)
       toggle_drive();
@@ -110,14 +135,16 @@ void Modeller::obey_key(int key, int mods) {
   if (key == GLFW_KEY_K) hold_here();
   if (key == GLFW_KEY_B) toggle_brush();
   if (key == GLFW_KEY_TAB && shift)
-    m_snap = !m_snap, tell(m_snap ? "snap: onto the body under the pointer" : "snap is off");
+    m_snap = !m_snap,
+    tell(m_snap ? tr("Snap on: what you move goes onto the body under the pointer.") : tr("Snap off."));
   if (key == GLFW_KEY_H && alt) m_hidden.clear(), ++m_picture;
   if (key == GLFW_KEY_H && !alt)
     if (const std::optional<modeller::Thing> chosen = selected()) m_hidden.insert(chosen->name), ++m_picture;
   if (key == GLFW_KEY_G) begin_gesture(Gesture::Kind::move);
   if (key == GLFW_KEY_R) begin_gesture(Gesture::Kind::rotate);
   if (key == GLFW_KEY_S) begin_gesture(Gesture::Kind::scale);
-  if (key == GLFW_KEY_O) m_soft = !m_soft, tell(m_soft ? "soft: points near by go along" : "soft is off");
+  if (key == GLFW_KEY_O)
+    m_soft = !m_soft, tell(m_soft ? tr("Soft move on: points near by move along.") : tr("Soft move off."));
   const std::optional<modeller::Thing> thing = selected();
   if ((key == GLFW_KEY_X || key == GLFW_KEY_DELETE) && thing) {
     scene::JsonValue s = scene::json_object();
@@ -127,7 +154,7 @@ void Modeller::obey_key(int key, int mods) {
     if (one) put(s, "key", scene::json_text(m_handle->list.substr(1)));
     if (one) put(s, "item", scene::json_number(double(m_handle->item)));
     if (step(std::move(s))) {
-      tell(one ? "point removed" : "deleted " + thing->name);
+      tell(one ? std::string(tr("Point removed.")) : tr("Deleted: {}", thing->name));
       if (!one) m_selected.clear();
       m_handle.reset();
     }
@@ -151,7 +178,7 @@ void Modeller::obey_key(int key, int mods) {
     put(s, "of", scene::json_text(m_selected));
     put(s, "key", scene::json_text(m_handle->list.substr(1)));
     put(s, "before", scene::json_number(double(m_handle->item + 1)));
-    if (step(std::move(s))) tell("point put in");
+    if (step(std::move(s))) tell(tr("Point inserted."));
   }
 }
 

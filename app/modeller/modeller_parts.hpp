@@ -11,9 +11,11 @@
 #include <string>
 #include <vector>
 
+#include <trocar/core/error.hpp>
 #include <trocar/modeller/document/recovery.hpp>
 #include <trocar/modeller/drive/places.hpp>
 #include <trocar/modeller/drive/test_drive.hpp>
+#include <trocar/modeller/materials/materials.hpp>
 #include <trocar/modeller/operations/operation.hpp>
 #include <trocar/render/frame/governor.hpp>
 #include <trocar/render/gl/gl_context.hpp>
@@ -22,9 +24,11 @@
 #include "modeller/file_panel.hpp"
 #include "modeller/gesture.hpp"
 #include "modeller/gizmo.hpp"
+#include "modeller/import_panel.hpp"
 #include "modeller/modeller.hpp"
 #include "modeller/scan_desk.hpp"
 #include "modeller/viewport.hpp"
+#include "shell/child_program.hpp"
 #include "shell/event_log.hpp"
 #include "shell/ui.hpp"
 #include "shell/window.hpp"
@@ -47,20 +51,54 @@ class Modeller {
   void run();
 
  private:
+  /// What a file is chosen for.
+  enum class FileFor { none, open, save_as, scan, labels, write_labels, body, export_body, send };
+
   // modeller.cpp: the round of a picture
   void picture();
+  void draw_all();
+  void draw_dialogues();
   void lay_out();
   void take_what_is_built();
   void keep_unsaved();
+  void leave();
+  void recover_from(const std::string& why);
+  void take(std::unique_ptr<modeller::Document> document);
+  void begin(modeller::Document document);
+  fs::path untitled_file() const;
+  void forget_untitled();
+  bool needs_saving() const;
+
+  // modeller_operate.cpp
+  void operate();
+  void continue_operating();
+  void start_trainer();
+  void watch_trainer();
+  void do_remedy(const modeller::Finding& finding);
+  void draw_checks();
+  void draw_trainer_report();
+  const std::vector<modeller::Finding>* findings_now() const;
+
+  // modeller_files.cpp
+  void ask_for_file(FileFor what);
   void take_file(fs::path chosen);
   void ask_for_body(const std::string& operation, const fs::path& file);
-  bool may_close();
-  void leave();
+  void save();
+  void save_as(const fs::path& file);
+  void send_copy(const fs::path& folder);
+  void begin_organ();
+  void begin_scene();
+  void open_sample();
+  void export_chosen(const fs::path& file);
+  void draw_import();
 
   // modeller_keys.cpp
   void listen();
   void obey_key(int key, int mods);
   void obey_key_of_gesture(int key);
+  void take_dropped(const std::string& path);
+  bool close_top();
+  bool asks() const;
 
   // modeller_view.cpp: pictures and the pointer over them
   void draw_views();
@@ -101,6 +139,11 @@ class Modeller {
 
   // modeller_panels.cpp
   void draw_menu_bar();
+  void draw_file_menu();
+  void draw_edit_menu();
+  void draw_add_menu();
+  void draw_scene_menu();
+  void draw_view_menu();
   void draw_outline();
   void draw_properties();
   void draw_status();
@@ -109,6 +152,11 @@ class Modeller {
   void draw_help();
   void draw_questions();
   void draw_adding();
+  void draw_fields_of(const modeller::Operation& operation);
+  void do_adding(const modeller::Operation& operation);
+  void ask_to_save();
+  void ask_to_recover();
+  void recover(const modeller::Lost& lost);
 
   // modeller_properties.cpp
   void draw_thing(const modeller::Thing& thing);
@@ -116,20 +164,27 @@ class Modeller {
   void draw_key(const scene::Key& key, const scene::JsonValue* value, const std::string& path, int depth);
   std::optional<scene::JsonValue> edited(const scene::Key& key, const scene::JsonValue* value, const std::string& id);
   void draw_read_outs(const modeller::Thing& thing);
+  void draw_size_and_load(const modeller::ReadOut& read_out);
+  void draw_overview();
   void draw_tissue(const std::string& tissue);
+  void choose_tissue_of_selected(const scene::JsonValue* value);
+  bool choose_tissue(const std::string& thing, std::string name);
+  const std::vector<modeller::TissueChoice>& tissues();
 
   // changes
   /// Does a step of a script. False: it could not be done, and why is told.
   bool step(scene::JsonValue step);
   bool set_key(const std::string& path, const scene::JsonValue& value);
-  void tell(const std::string& what) { m_message = what; }
+  /// A line in grey, where one looks for it; or one in orange with a mark: it could not be done, and why.
+  void tell(const std::string& what) { m_message = what, m_is_error = false; }
+  void warn(const std::string& what) { m_message = what, m_is_error = true; }
+  /// Does something that files or people may make impossible. False: it could not be done, and why is shown.
+  template <class Do>
+  bool guarded(Do&& act);
   void select(const std::string& thing);
   std::optional<modeller::Thing> selected() const;
   void undo();
   void redo();
-  void save();
-  void save_as(const fs::path& file);
-  void operate();
   void remember_file(const fs::path& file);
   std::string free_name(const std::string& stem) const;
 
@@ -181,7 +236,7 @@ class Modeller {
   std::optional<Gesture> m_gesture;
   bool m_previewed = false;        ///< the document's last change is the gesture's so far
   std::set<std::string> m_hidden;  ///< names of what is not shown
-  bool m_instruments = true;       ///< shown
+  bool m_instruments = false;      ///< shown: they stand in front of what is modelled
   bool m_soft = false, m_symmetric = false;
   bool m_snap = false;  ///< what is moved goes onto the body under the pointer
   struct Brush {
@@ -202,20 +257,14 @@ class Modeller {
   bool m_scan_shown = false;  ///< else the document
 
   FilePanel m_files;
-  enum class FileFor {
-    none,
-    open,
-    save_as,
-    new_scene,
-    new_organ,
-    scan,
-    labels,
-    write_labels,
-    body
-  } m_file_for = FileFor::none;
+  FileFor m_file_for = FileFor::none;
   std::string m_body_by;  ///< the operation that takes the file of a body
-  enum class Question { none, unsaved, recover } m_question = Question::none;
-  enum class After { none, quit, open, start } m_after = After::none;
+  enum class Question { none, unsaved, save_and_operate, recover } m_question = Question::none;
+  enum class After { none, quit, open, start, begin } m_after = After::none;
+  std::unique_ptr<modeller::Document> m_to_begin;  ///< After::begin
+  bool m_untitled = false;                         ///< the document has no file of the user's yet
+  bool m_drop_changes = false;
+  bool m_is_recovered = false;  ///< it was never saved, whatever its history says
   fs::path m_to_open;
   std::vector<modeller::Lost> m_lost;
   std::vector<fs::path> m_recent;
@@ -225,6 +274,21 @@ class Modeller {
   std::map<std::string, std::string> m_texts;              ///< fields that are being edited, by their key's path
   std::map<std::string, std::array<double, 3>> m_numbers;  ///< the same
   std::string m_message;
+  bool m_is_error = false;
+
+  ImportPanel m_import;
+  bool m_wants_operate = false;  ///< as soon as the document is compiled
+  bool m_checks = false;         ///< what it lacks is shown
+  bool m_frame_when_built = false;
+  std::vector<modeller::Finding> m_findings;
+  std::uint64_t m_findings_of = ~0ull;  ///< version
+  std::string m_choosing_for;           ///< a thing whose tissue is chosen
+  std::optional<ChildProgram> m_trainer;
+  bool m_trainer_is_up = false;
+  std::optional<int> m_trainer_status;  ///< of one that has failed, until it was read
+  std::string m_trainer_said;
+  std::vector<modeller::TissueChoice> m_tissues;
+  std::uint64_t m_tissues_of = ~0ull;
   std::chrono::steady_clock::time_point m_kept{};
   Area m_left, m_right, m_middle, m_bottom;
   float m_bar = 0;      ///< height of the menu bar [px]
@@ -232,5 +296,19 @@ class Modeller {
   std::vector<ui::Widget> m_widgets;
   Json m_logged_points;
 };
+
+template <class Do>
+bool Modeller::guarded(Do&& act) {
+  try {
+    act();
+    return true;
+  } catch (const core::BadInput& bad) {
+    warn(bad.faults().empty() ? bad.what() : bad.faults().front().message);
+  } catch (const std::exception& failed) {
+    warn(failed.what());
+  }
+  m_log.event("refused", {{"said", m_message}});
+  return false;
+}
 
 }  // namespace trocar::app

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/scan/segment_organ.hpp>
 
 #include "modeller/modeller_parts.hpp"
@@ -17,38 +17,29 @@ void Modeller::draw_scan_menu() {
     ui::note_widget(label);
     return pressed;
   };
-  const auto ask = [this](FileFor what, const char* title, const char* button, const fs::path& at,
-                          std::vector<std::string> endings) {
-    m_file_for = what;
-    m_files.open(title, button, at, std::move(endings));
-  };
-  const fs::path folder = m_document->root().parent_path();
-  if (entry("Open scan ...", nullptr, !m_scan.reads()))
-    ask(FileFor::scan, "A scan: any file of a DICOM series, NIfTI, NRRD, MetaImage", "Read", folder, {});
-  if (entry("Open label map ...", nullptr, m_scan.shows()))
-    ask(FileFor::labels, "A label map for this scan", "Read", folder, {});
-  if (entry("Save label map ...", nullptr, m_scan.shows()))
-    ask(FileFor::write_labels, "Where the label map is kept: .nrrd, .nii, .nii.gz", "Save", folder / "labels.seg.nrrd",
-        {});
-  if (m_lost_segments && entry("Segments of the last time", nullptr, !m_scan.reads())) {
+  if (entry(tr("Open scan ..."), nullptr, !m_scan.reads())) ask_for_file(FileFor::scan);
+  if (entry(tr("Open label map ..."), nullptr, m_scan.shows())) ask_for_file(FileFor::labels);
+  if (entry(tr("Save label map ..."), nullptr, m_scan.shows())) ask_for_file(FileFor::write_labels);
+  if (m_lost_segments && entry(tr("Last session's segments"), nullptr, !m_scan.reads())) {
     m_scan.open(m_lost_segments->scan, m_lost_segments->labels);
     m_scan_shown = true;
     m_lost_segments.reset();
   }
   ImGui::Separator();
-  if (entry(m_scan_shown ? "Show the document" : "Show the scan", "Tab", m_scan.shows())) m_scan_shown = !m_scan_shown;
-  if (entry("Close scan", nullptr, m_scan.shows())) m_scan.close(), m_scan_shown = false;
+  if (entry(m_scan_shown ? tr("Show the document") : tr("Show the scan"), "Tab", m_scan.shows()))
+    m_scan_shown = !m_scan_shown;
+  if (entry(tr("Close scan"), nullptr, m_scan.shows())) m_scan.close(), m_scan_shown = false;
 }
 
 void Modeller::draw_scan() {
   m_scan.draw(m_middle, m_right);
-  const std::string said = m_scan.take_message();
-  if (!said.empty()) {
-    tell(said);
-    m_log.event("scan", {{"said", said}});
+  const ScanMessage said = m_scan.take_message();
+  if (!said.text.empty()) {
+    said.error ? warn(said.text) : tell(said.text);
+    m_log.event("scan", {{"said", said.text}, {"error", said.error}});
   }
   if (!m_scan.shows()) {
-    const char* text = m_scan.reads() ? "reading the scan ..." : "";
+    const char* text = m_scan.reads() ? tr("Reading the scan ...") : "";
     ImGui::GetBackgroundDrawList()->AddText({m_middle.x + 24, m_middle.y + 24}, IM_COL32(190, 195, 200, 255), text);
   }
   if (const std::string segment = m_scan.take_wanted_organ(); !segment.empty()) make_organ(segment);
@@ -62,20 +53,27 @@ void Modeller::make_organ(const std::string& segment) {
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
   wish.name = free_name(name);
-  wish.tissue = "liver";
-  wish.centre_mm = Vec3d{0, -150, -120};
-  try {
+  wish.tissue = modeller::tissue_for_name(segment, tissues());
+  if (wish.tissue.empty()) wish.tissue = "liver";
+  wish.look = modeller::material_for(segment, wish.tissue);
+  wish.attach = true;
+  std::vector<core::Fault> ignored;
+  const std::optional<scene::Description> d = m_document->description(ignored);
+  wish.place_mm = [&d](Vec3d size_mm) {
+    const std::optional<Vec3d> to = d ? modeller::place_in_view(*d, size_mm * 1e-3) : std::nullopt;
+    return to ? *to * 1e3 : Vec3d{0, -150, -120};
+  };
+  guarded([&] {
     const modeller::SegmentOrgan made = modeller::make_organ(*m_document, m_scan.scan(), wish);
     m_scan_shown = false;
     m_things = modeller::outline(*m_document);
     m_things_of = m_document->version();
     select("solid:" + wish.name);
-    tell(fmt::format("{}: {:.1f} mL, its segment {:.1f} mL; hold it (Add), and try it (T)", wish.name, made.mL,
-                     made.segment_mL));
+    m_frame_when_built = true;
+    tell(tr("{}: {:.1f} mL, its segment {:.1f} mL. Attached and in view: press F5 to operate.", wish.name, made.mL,
+            made.segment_mL));
     m_log.event("organ", {{"name", wish.name}, {"mL", made.mL}, {"segment_mL", made.segment_mL}});
-  } catch (const core::BadInput& bad) {
-    tell(bad.faults().front().message);
-  }
+  });
 }
 
 }  // namespace trocar::app

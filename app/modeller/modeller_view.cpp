@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/operations/transform.hpp>
 #include <trocar/modeller/operations/values.hpp>
 #include <trocar/numerics/portable.hpp>
@@ -116,7 +117,7 @@ void Modeller::draw_handles(const Viewport& v) const {
     const std::optional<modeller::Spot> before = v.spot(m_measured[i - 1]);
     if (!before) continue;
     list.AddLine({before->x, before->y}, {s->x, s->y}, IM_COL32(240, 240, 240, 255), 1.5f);
-    const std::string text = fmt::format("{:.1f} mm", 1e3 * length(m_measured[i] - m_measured[i - 1]));
+    const std::string text = tr("{:.1f} mm", 1e3 * length(m_measured[i] - m_measured[i - 1]));
     list.AddText({(before->x + s->x) / 2 + 6, (before->y + s->y) / 2 - 18}, IM_COL32(255, 255, 255, 255), text.c_str());
   }
   for (std::size_t i = 0; i < m_drawn.size(); ++i) {
@@ -130,7 +131,7 @@ void Modeller::draw_handles(const Viewport& v) const {
   // which way the patient's axes point
   const Vec3d ends[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const ImU32 colours[3] = {IM_COL32(230, 120, 60, 255), IM_COL32(90, 180, 230, 255), IM_COL32(220, 220, 120, 255)};
-  const char* words[3] = {"left", "head", "front"};
+  const char* words[3] = {tr("left"), tr("head"), tr("front")};
   const float x = v.area.x + 46, y = v.area.y + v.area.height - 46;
   for (int i = 0; i < 3; ++i) {
     const Vec3f d{float(ends[i].x), float(ends[i].y), float(ends[i].z)};
@@ -139,7 +140,7 @@ void Modeller::draw_handles(const Viewport& v) const {
     list.AddText({x + 1.25f * dx - 8, y + 1.25f * dy - 8}, colours[i], words[i]);
   }
   draw_brush_over(v);
-  if (m_four) list.AddText({v.area.x + 8, v.area.y + 6}, IM_COL32(200, 205, 210, 255), v.name.c_str());
+  if (m_four) list.AddText({v.area.x + 8, v.area.y + 6}, IM_COL32(200, 205, 210, 255), tr(v.name.c_str()));
   list.PopClipRect();
 }
 
@@ -148,7 +149,8 @@ void Modeller::draw_over_views() {
     if (v.area.width >= 2) draw_handles(v);
   if (m_view) return;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const char* text = m_builder.busy() ? "compiling ..." : "nothing to show yet: add a body, or mend what is told below";
+  const char* text =
+      m_builder.busy() ? tr("Compiling ...") : tr("Nothing to show yet. Add an organ (Add), or import one (File).");
   list.AddText({m_middle.x + 24, m_middle.y + 24}, IM_COL32(190, 195, 200, 255), text);
 }
 
@@ -199,13 +201,13 @@ void Modeller::point_in(Viewport& v) {
       if (const std::optional<modeller::BodyPlace> met = modeller::met_by(m_places, v.eye(), v.ray(x, y), kRayReach)) {
         m_drive->take(met->at);
         m_taking = true;
-        tell("taking hold of " + sim::name_of(*m_shown->built.model, met->body));
+        tell(tr("Grasping {}", sim::name_of(*m_shown->built.model, met->body)));
       }
     }
     if (m_taking && m_drive->holds() && m_drive->done()) m_drive->pull_to(v.on_plane_of(m_drive->tip(), x, y));
     if (m_taking && m_drive->holds()) {
       m_drive->pull_to(v.on_plane_of(m_drive->tip(), x, y));
-      tell(fmt::format("pull {:.2f} N", m_drive->pull()));
+      tell(tr("Pull {:.2f} N", m_drive->pull()));
     }
     return;
   }
@@ -234,9 +236,7 @@ void Modeller::draw_point(const Viewport& v, float x, float y) {
   m_drawn.push_back(met ? met->at : v.on_plane_of(m_drawn.empty() ? v.orbit.target : m_drawn.back(), x, y));
   m_drawn_on = met ? sim::name_of(*m_shown->built.model, met->body) : "";
   if (is_one_place(m_draw_for)) return end_drawing(true);
-  tell(fmt::format(
-      "{} points   click: another one   Enter or double click: that is it   Backspace: one less   Esc: none",
-      m_drawn.size()));
+  tell(tr("{} points. Click: one more. Enter or double click: end. Backspace: one less. Esc: cancel.", m_drawn.size()));
 }
 
 /// The line becomes a parameter of its operation, which asks for the others.
@@ -266,16 +266,17 @@ void Modeller::hold_here() {
   const ImGuiIO& io = ImGui::GetIO();
   const Viewport* v = view_under(io.MousePos.x, io.MousePos.y);
   const std::optional<modeller::Thing> thing = selected();
-  if (!v || !thing) return tell("choose a body, then point at where it is held");
+  if (!v || !thing) return warn(tr("Choose a body, then point at the place to attach and press K."));
   const std::optional<modeller::BodyPlace> met =
       modeller::met_by(m_places, v->eye(), v->ray(io.MousePos.x, io.MousePos.y), kRayReach);
-  if (!met || sim::name_of(*m_shown->built.model, met->body) != thing->name) return tell("point at the chosen body");
+  if (!met || sim::name_of(*m_shown->built.model, met->body) != thing->name)
+    return warn(tr("Point at the chosen body."));
   scene::JsonValue s = scene::json_object();
   put(s, "do", scene::json_text("hold"));
   put(s, "of", scene::json_text(m_selected));
   put(s, "centre_mm", modeller::point(met->at * 1e3));
   put(s, "radius_mm", modeller::number(std::clamp(m_soft_mm / 2, 2.0, 100.0)));
-  if (step(std::move(s))) tell("held there");
+  if (step(std::move(s))) tell(tr("Attached here."));
 }
 
 void Modeller::pick(const Viewport& v, float x, float y) {

@@ -13,6 +13,8 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/text.hpp>
+#include <trocar/modeller/scan/value_presets.hpp>
 #include <trocar/volumes/files/volume_writer.hpp>
 #include <trocar/volumes/segment/brush.hpp>
 #include <trocar/volumes/segment/islands.hpp>
@@ -25,8 +27,8 @@
 namespace trocar::app {
 namespace {
 
-constexpr const char *kPlanes[] = {"axial", "sagittal", "coronal", "block"},
-                     *kLooks[] = {"bone", "skin", "vessels", "soft tissue"};
+constexpr const char *kPlanes[] = {"Axial", "Sagittal", "Coronal"},
+                     *kLooks[] = {"Bone", "Skin", "Vessels", "Soft tissue"};
 constexpr double kBlockTurn = 0.008;  // [rad/px]
 
 }  // namespace
@@ -131,10 +133,10 @@ void ScanDesk::take_what_was_read() {
     m_caster.reset();
     m_scan = std::move(read);
   } catch (const core::BadInput& bad) {
-    m_message = bad.faults().front().message;
+    refuse(bad.faults().front().message);
     return;
   } catch (const std::exception& failed) {  // cancelled, or a library that is lacking
-    m_message = failed.what();
+    refuse(failed.what());
     return;
   }
   const volumes::Volume& v = m_scan->volume();
@@ -150,6 +152,9 @@ void ScanDesk::take_what_was_read() {
     m_from = m_centre;
     m_to = high;
   }
+  m_is_ct = is_ct;
+  m_seed.reset();
+  m_growth.reset();
   m_caster = std::make_unique<volumes::VolumeCaster>(v, m_pool);
   m_counted = ~0ull;
   m_transfer = is_ct ? volumes::transfer_preset(volumes::TransferPreset(m_preset))
@@ -165,27 +170,21 @@ void ScanDesk::take_what_was_read() {
   m_orbit.pitch = 0.6;
   m_cast_labels = ~0ull;
   ++m_look, ++m_block_wanted;
-  m_message = fmt::format("{} x {} x {} voxels of {:.2f} x {:.2f} x {:.2f} mm", v.grid.size[0], v.grid.size[1],
-                          v.grid.size[2], v.grid.spacing.x, v.grid.spacing.y, v.grid.spacing.z);
-  for (const std::string& note : m_scan->report().notes) m_message += "; " + note;
+  say(tr("{} x {} x {} voxels of {:.2f} x {:.2f} x {:.2f} mm", v.grid.size[0], v.grid.size[1], v.grid.size[2],
+         v.grid.spacing.x, v.grid.spacing.y, v.grid.spacing.z));
+  for (const std::string& note : m_scan->report().notes) m_message.text += "; " + note;
 }
 
 void ScanDesk::take_labels(const std::filesystem::path& path) {
-  try {
-    for (const std::string& note : m_scan->take_labels(path)) m_message = note;
-    if (!m_scan->labels().segments.empty()) m_segment = m_scan->labels().segments.front().name;
-  } catch (const core::BadInput& bad) {
-    m_message = bad.faults().front().message;
-  }
+  if (!m_scan) return;
+  for (const std::string& note : m_scan->take_labels(path)) say(note);
+  if (!m_scan->labels().segments.empty()) m_segment = m_scan->labels().segments.front().name;
 }
 
 void ScanDesk::write_labels(const std::filesystem::path& path) {
-  try {
-    volumes::write_labels(path, m_scan->labels());
-    m_message = "written: " + path.string();
-  } catch (const core::BadInput& bad) {
-    m_message = bad.faults().front().message;
-  }
+  if (!m_scan) return;
+  volumes::write_labels(path, m_scan->labels());
+  say(tr("Saved: {}", path.string()));
 }
 
 void ScanDesk::close() {
@@ -193,8 +192,8 @@ void ScanDesk::close() {
   m_scan.reset();
 }
 
-void ScanDesk::undo() { m_message = m_scan->undo() ? "undone" : "there is nothing to undo"; }
-void ScanDesk::redo() { m_message = m_scan->redo() ? "done again" : "there is nothing to do again"; }
+void ScanDesk::undo() { say(m_scan->undo() ? tr("Undone.") : tr("There is nothing to undo.")); }
+void ScanDesk::redo() { say(m_scan->redo() ? tr("Done again.") : tr("There is nothing to redo.")); }
 
 std::uint16_t ScanDesk::label() { return m_scan->segment(m_segment); }
 std::string ScanDesk::chosen_segment() const { return m_segment; }
@@ -206,18 +205,27 @@ const std::vector<std::size_t>& ScanDesk::voxels() {
   return m_voxels;
 }
 
+/// Whatever a tool cannot do is a message: nothing that is done here ends the program.
 template <class Make>
 void ScanDesk::edit(const char* name, Make&& make) {
-  const std::uint16_t of = label();
-  const double voxel = m_scan->volume().grid.voxel_ml(), before = voxel * double(voxels()[of]);
-  const volumes::LabelChange change = make(of);
-  m_scan->change(name, change);
-  for (const volumes::LabelRun& run : change.runs) {
-    m_voxels[run.from] -= run.count;
-    m_voxels[run.to] += run.count;
+  try {
+    const std::uint16_t of = label();
+    const double voxel = m_scan->volume().grid.voxel_ml(), before = voxel * double(voxels()[of]);
+    const volumes::LabelChange change = make(of);
+    if (change.empty()) return say(tr("{}: nothing changed, {} has {:.2f} mL.", name, m_segment, before));
+    m_scan->change(name, change);
+    for (const volumes::LabelRun& run : change.runs) {
+      m_voxels[run.from] -= run.count;
+      m_voxels[run.to] += run.count;
+    }
+    m_counted = m_scan->version();
+    m_growth.reset();
+    say(tr("{}: {} has {:.2f} mL (before: {:.2f} mL).", name, m_segment, voxel * double(m_voxels[of]), before));
+  } catch (const core::BadInput& bad) {
+    refuse(bad.faults().front().message);
+  } catch (const std::exception& failed) {
+    refuse(tr("{}: {}", name, failed.what()));
   }
-  m_counted = m_scan->version();
-  m_message = fmt::format("{}: {} {:.2f} mL, was {:.2f}", name, m_segment, voxel * double(m_voxels[of]), before);
 }
 
 bool ScanDesk::obey_key(int key, int mods) {
@@ -227,10 +235,15 @@ bool ScanDesk::obey_key(int key, int mods) {
   }
   if (key >= GLFW_KEY_1 && key <= GLFW_KEY_6) {
     m_tool = ScanTool(key - GLFW_KEY_1);
+    m_growth.reset();
     ++m_look;
     return true;
   }
-  if (key == GLFW_KEY_ESCAPE) m_tool = ScanTool::look, ++m_look;
+  if ((key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER) && m_growth) {
+    apply_growth();
+    return true;
+  }
+  if (key == GLFW_KEY_ESCAPE) m_tool = ScanTool::look, m_growth.reset(), ++m_look;
   if (key == GLFW_KEY_KP_ADD || key == GLFW_KEY_EQUAL) m_brush = std::min(100.0, 1.25 * m_brush);
   if (key == GLFW_KEY_KP_SUBTRACT || key == GLFW_KEY_MINUS) m_brush = std::max(0.5, m_brush / 1.25);
   return key == GLFW_KEY_ESCAPE;
@@ -239,20 +252,25 @@ bool ScanDesk::obey_key(int key, int mods) {
 /// What the chosen tool does at a place of a slice.
 void ScanDesk::press(const Vec3d& at, const volumes::SlicePlane& plane, bool fresh) {
   const volumes::Volume& v = m_scan->volume();
-  const volumes::Labels& labels = m_scan->labels();
   const volumes::Index3 voxel = v.grid.nearest(at);
   if (m_tool == ScanTool::look || !v.grid.has(voxel)) {
     m_cross = at;
     ++m_look;
     return;
   }
+  press_tool(at, voxel, plane, fresh);
+}
+
+void ScanDesk::press_tool(const Vec3d& at, const volumes::Index3& voxel, const volumes::SlicePlane& plane, bool fresh) {
+  const volumes::Volume& v = m_scan->volume();
+  const volumes::Labels& labels = m_scan->labels();
   if (m_tool == ScanTool::paint || m_tool == ScanTool::erase) {
     const bool erases = m_tool == ScanTool::erase;
     if (!m_stroke.empty() && length(at - m_stroke.back()) < 0.25 * m_brush) return;
     std::vector<Vec3d> way{at};
     if (!fresh && !m_stroke.empty()) way.insert(way.begin(), m_stroke.back());
     m_stroke.push_back(at);
-    edit(erases ? "erase" : "paint", [&](std::uint16_t of) {
+    edit(erases ? tr("Erase") : tr("Paint"), [&](std::uint16_t of) {
       volumes::EditRules rules;
       if (erases) rules.inside = of;
       volumes::Brush brush;
@@ -264,16 +282,69 @@ void ScanDesk::press(const Vec3d& at, const volumes::SlicePlane& plane, bool fre
     return;
   }
   if (!fresh) return;
-  if (m_tool == ScanTool::grow)
-    edit("grow", [&](std::uint16_t of) { return volumes::grown(v, labels, std::span(&voxel, 1), {m_from, m_to}, of); });
+  if (m_tool == ScanTool::grow) {
+    m_seed = voxel;
+    preview_growth();
+  }
   if (m_tool == ScanTool::islands)
-    edit("keep this island", [&](std::uint16_t of) { return volumes::chosen_kept(v, labels, of, voxel); });
+    edit(tr("Keep this island"), [&](std::uint16_t of) { return volumes::chosen_kept(v, labels, of, voxel); });
   if (m_tool == ScanTool::threshold) {  // the value there is in the middle
     const double value = v.value(voxel), half = (m_to - m_from) / 2;
     m_from = value - half;
     m_to = value + half;
     ++m_look;
   }
+}
+
+/// What Grow would take from its seed; a seed outside the range is refused with its value.
+void ScanDesk::preview_growth() {
+  m_growth.reset();
+  ++m_look;
+  const volumes::Volume& v = m_scan->volume();
+  if (!m_seed || !v.grid.has(*m_seed)) return;
+  const double value = v.value(*m_seed);
+  if (value < m_from || value > m_to)
+    return refuse(
+        tr("The value here is {:.0f} {}, outside the range {:.0f} to {:.0f}. Change the range, or click "
+           "another place.",
+           value, v.unit, m_from, m_to));
+  try {
+    const volumes::Index3 seed = *m_seed;
+    m_growth = volumes::grown(v, m_scan->labels(), std::span(&seed, 1), {m_from, m_to}, label());
+    say(tr("Grow would add {:.1f} mL. Press Apply or Enter.", v.grid.voxel_ml() * double(m_growth->voxels())));
+  } catch (const std::exception& failed) {
+    refuse(failed.what());
+  }
+}
+
+void ScanDesk::apply_growth() {
+  if (!m_growth) return;
+  const volumes::LabelChange change = *m_growth;
+  edit(tr("Grow"), [&](std::uint16_t) { return change; });
+  m_seed.reset();
+}
+
+/// Voxels of the range in orange; what Grow would take in green.
+void ScanDesk::tint(volumes::Picture& picture, const volumes::SlicePlane& plane) const {
+  const volumes::Volume& v = m_scan->volume();
+  const volumes::Grid& grid = v.grid;
+  const auto is_taken = [this](std::size_t voxel) {
+    const auto& runs = m_growth->runs;
+    auto run = std::upper_bound(runs.begin(), runs.end(), voxel,
+                                [](std::size_t at, const volumes::LabelRun& r) { return at < r.first; });
+    return run != runs.begin() && voxel < std::size_t((--run)->first) + run->count;
+  };
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const Vec3d place = plane.at(x, y);
+      std::uint8_t* p = picture.rgba.data() + 4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x));
+      const volumes::Index3 voxel = grid.nearest(place);
+      if (m_growth && grid.has(voxel) && is_taken(grid.index(voxel))) {
+        p[0] = std::uint8_t(p[0] / 2), p[1] = std::uint8_t((p[1] + 255) / 2), p[2] = std::uint8_t((p[2] + 120) / 2);
+      } else if (const double value = v.at(grid.to_index(place)); value >= m_from && value <= m_to) {
+        p[0] = std::uint8_t((p[0] + 255) / 2), p[1] = std::uint8_t((p[1] + 160) / 2);
+      }
+    }
 }
 
 void ScanDesk::draw_slice(Pane& pane, const Area& area, int which) {
@@ -288,14 +359,7 @@ void ScanDesk::draw_slice(Pane& pane, const Area& area, int which) {
     look.width = m_width;
     volumes::Picture picture =
         volumes::slice_image(m_scan->volume(), m_labels_shown ? &m_scan->labels() : nullptr, pane.plane, look);
-    if (m_tool == ScanTool::threshold)  // what Apply would take
-      for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x) {
-          const double value = m_scan->volume().at(grid.to_index(pane.plane.at(x, y)));
-          std::uint8_t* p = picture.rgba.data() + 4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x));
-          if (value >= m_from && value <= m_to)
-            p[0] = std::uint8_t((p[0] + 255) / 2), p[1] = std::uint8_t((p[1] + 160) / 2);
-        }
+    if (range_is_in_use()) tint(picture, pane.plane);
     pane.take(picture);
     pane.drawn = wanted;
   }
@@ -311,11 +375,16 @@ void ScanDesk::draw_slice(Pane& pane, const Area& area, int which) {
   const float cy = y0 + scale * float(dot(off, pane.plane.down) / dot(pane.plane.down, pane.plane.down));
   list.AddLine({x0, cy}, {x0 + w, cy}, IM_COL32(107, 191, 242, 120));
   list.AddLine({cx, y0}, {cx, y0 + h}, IM_COL32(107, 191, 242, 120));
-  list.AddText({area.x + 8, area.y + 6}, IM_COL32(210, 214, 220, 255), kPlanes[which]);
+  list.AddText({area.x + 8, area.y + 6}, IM_COL32(210, 214, 220, 255), tr(kPlanes[which]));
   list.AddRect({area.x, area.y}, {area.x + area.width, area.y + area.height}, IM_COL32(60, 64, 70, 255));
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantCaptureMouse || !area.holds(io.MousePos.x, io.MousePos.y)) return;
   const Vec3d at = pane.plane.at((io.MousePos.x - x0) / scale, (io.MousePos.y - y0) / scale);
+  if (const volumes::Index3 voxel = grid.nearest(at); grid.has(voxel)) {
+    m_under = m_scan->volume().value(voxel);
+    list.AddText({area.x + 8, area.y + area.height - 26}, IM_COL32(255, 255, 255, 255),
+                 tr("{:.0f} {}", *m_under, m_scan->volume().unit).c_str());
+  }
   if (m_tool == ScanTool::paint || m_tool == ScanTool::erase)
     list.AddCircle(io.MousePos, float(m_brush / length(pane.plane.right)) * scale, IM_COL32(242, 168, 26, 255), 48,
                    1.4f);
@@ -368,13 +437,134 @@ void ScanDesk::draw_block(const Area& area) {
   list.AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, IM_COL32(18, 20, 24, 255));
   list.AddImage(ImTextureID(std::intptr_t(pane.texture)), {area.x, area.y},
                 {area.x + area.width, area.y + area.height});
-  list.AddText({area.x + 8, area.y + 6}, IM_COL32(210, 214, 220, 255),
-               fmt::format("block, {:.0f} ms", m_block_ms).c_str());
+  list.AddText({area.x + 8, area.y + 6}, IM_COL32(210, 214, 220, 255), tr("3D view"));
   list.AddRect({area.x, area.y}, {area.x + area.width, area.y + area.height}, IM_COL32(60, 64, 70, 255));
 }
 
 void ScanDesk::tool_button(const char* text, ScanTool tool) {
-  if (ui::button(text, {.width = 92, .primary = m_tool == tool})) m_tool = tool, ++m_look;
+  if (ui::button(text, {.width = 92, .primary = m_tool == tool})) m_tool = tool, m_growth.reset(), ++m_look;
+}
+
+void ScanDesk::draw_view_settings() {
+  bool changed = ui::slider(tr("window centre"), m_centre, -1000, 3000, "%.0f", false);
+  changed = ui::slider(tr("window width"), m_width, 1, 4000, "%.0f", true) || changed;
+  if (changed) ++m_look;
+  ImGui::SetNextItemWidth(170 * ui::scale());
+  if (ImGui::BeginCombo(tr("3D view"), tr(kLooks[m_preset]))) {
+    for (int i = 0; i < 4; ++i)
+      if (ImGui::Selectable(tr(kLooks[i]), i == m_preset)) {
+        m_preset = i;
+        m_transfer = volumes::transfer_preset(volumes::TransferPreset(i));
+        m_caster->set_transfer(m_transfer);
+        ++m_block_wanted;
+      }
+    ImGui::EndCombo();
+  }
+  if (ImGui::TreeNode(tr("Opacity of the 3D view"))) {
+    if (draw_transfer(m_transfer, m_low, m_high, m_chosen_point)) {
+      m_caster->set_transfer(m_transfer);
+      ++m_block_wanted;
+    }
+    ImGui::TreePop();
+  }
+}
+
+void ScanDesk::draw_segments() {
+  const volumes::Volume& v = m_scan->volume();
+  ui::heading(tr("Segments"));
+  if (ui::checkbox(tr("show segments"), m_labels_shown)) ++m_look, m_cast_labels = ~0ull;
+  const float rows = std::min(7.0f, 0.5f + float(m_scan->labels().segments.size()));
+  ImGui::BeginChild("segments", {0, rows * ImGui::GetTextLineHeightWithSpacing()});
+  for (const volumes::Segment& s : m_scan->labels().segments) {
+    ImGui::ColorButton(("##colour" + s.name).c_str(), ImVec4(s.colour[0], s.colour[1], s.colour[2], 1),
+                       ImGuiColorEditFlags_NoTooltip, {14, 14});
+    ImGui::SameLine();
+    const double mL = v.grid.voxel_ml() * double(voxels()[s.label]);
+    if (ImGui::Selectable(fmt::format("{}##{}", tr("{}  {:.1f} mL", s.name, mL), s.label).c_str(), s.name == m_segment))
+      m_segment = s.name;
+    ui::note_widget("segment " + s.name);
+  }
+  ImGui::EndChild();
+  char name[64];
+  std::snprintf(name, sizeof name, "%s", m_segment.c_str());
+  ImGui::SetNextItemWidth(170 * ui::scale());
+  if (ImGui::InputText(tr("draw into"), name, sizeof name) && name[0] != 0) m_segment = name;
+  ui::note_widget("segment name");
+}
+
+void ScanDesk::draw_tools() {
+  ui::heading(tr("Tools"));
+  tool_button(tr("1 Look"), ScanTool::look);
+  ImGui::SameLine();
+  tool_button(tr("2 Paint"), ScanTool::paint);
+  ImGui::SameLine();
+  tool_button(tr("3 Erase"), ScanTool::erase);
+  tool_button(tr("4 Threshold"), ScanTool::threshold);
+  ImGui::SameLine();
+  tool_button(tr("5 Grow"), ScanTool::grow);
+  ImGui::SameLine();
+  tool_button(tr("6 Island"), ScanTool::islands);
+  if (m_tool == ScanTool::paint || m_tool == ScanTool::erase)
+    ui::slider(tr("brush (mm)"), m_brush, 0.5, 60, "%.1f", true);
+  if (range_is_in_use()) draw_range();
+}
+
+/// The range of values of Threshold and Grow, and what Apply does.
+void ScanDesk::draw_range() {
+  bool changed = false;
+  ImGui::SetNextItemWidth(170 * ui::scale());
+  if (m_is_ct && ImGui::BeginCombo(tr("preset"), tr("choose (our estimate)"))) {
+    for (const modeller::ValuePreset& p : modeller::kValuePresets) {
+      if (ImGui::Selectable(tr("{}: {:.0f} to {:.0f} HU", tr(p.name), p.from, p.to).c_str()))
+        m_from = p.from, m_to = p.to, changed = true;
+      ui::note_widget(std::string("preset ") + p.name);
+    }
+    ImGui::EndCombo();
+  } else if (m_is_ct) {
+    ui::note_widget("preset");
+  }
+  changed = ui::slider(tr("from"), m_from, -1024, 3071, "%.0f", false) || changed;
+  changed = ui::slider(tr("to"), m_to, -1024, 3071, "%.0f", false) || changed;
+  if (changed) {
+    ++m_look;
+    if (m_tool == ScanTool::grow && m_seed) preview_growth();
+  }
+  const bool grows = m_tool == ScanTool::grow;
+  ui::text(
+      grows ? tr("Click into the organ. Green: what Apply adds. Orange: the range.") : tr("Orange: what Apply adds."),
+      ui::kGrey);
+  if (!ui::button(tr("Apply"), {.width = 120, .primary = true, .enabled = !grows || m_growth.has_value()})) return;
+  if (grows) return apply_growth();
+  edit(tr("Threshold"), [&](std::uint16_t of) {
+    return volumes::thresholded(m_scan->volume(), m_scan->labels(), {m_from, m_to}, of);
+  });
+}
+
+void ScanDesk::draw_whole_segment() {
+  const volumes::Labels& labels = m_scan->labels();
+  if (!ImGui::TreeNodeEx(tr("Change the whole segment"), ImGuiTreeNodeFlags_DefaultOpen)) return;
+  if (ui::button(tr("Largest part"), {.width = 132}))
+    edit(tr("Largest part"), [&](std::uint16_t of) { return volumes::largest_kept(m_scan->volume(), labels, of); });
+  ImGui::SameLine();
+  if (ui::button(tr("Fill holes"), {.width = 132}))
+    edit(tr("Fill holes"), [&](std::uint16_t of) { return volumes::holes_filled(m_scan->volume(), labels, of); });
+  if (ui::button(tr("Smooth"), {.width = 132}))
+    edit(tr("Smooth"), [&](std::uint16_t of) {
+      return volumes::smoothed(m_scan->volume(), labels, of, 3, volumes::Smoothing::keeps_volume).change;
+    });
+  ImGui::SameLine();
+  if (ui::button(tr("Between slices"), {.width = 132}))
+    edit(tr("Between slices"),
+         [&](std::uint16_t of) { return volumes::filled_between_slices(m_scan->volume(), labels, of, 2); });
+  ui::slider(tr("margin (mm)"), m_margin, 0.5, 20, "%.1f", true);
+  if (ui::button(tr("Add margin"), {.width = 132}))
+    edit(tr("Add margin"),
+         [&](std::uint16_t of) { return volumes::margin_moved(m_scan->volume(), labels, of, m_margin); });
+  ImGui::SameLine();
+  if (ui::button(tr("Remove margin"), {.width = 132}))
+    edit(tr("Remove margin"),
+         [&](std::uint16_t of) { return volumes::margin_moved(m_scan->volume(), labels, of, -m_margin); });
+  ImGui::TreePop();
 }
 
 void ScanDesk::draw_panel(const Area& panel) {
@@ -384,93 +574,22 @@ void ScanDesk::draw_panel(const Area& panel) {
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus);
   const volumes::Volume& v = m_scan->volume();
-  ui::title("Scan");
+  ui::title(tr("Scan"));
   ui::text(m_scan->path().filename().string(), ui::kGrey);
-  const volumes::Index3 voxel = v.grid.nearest(m_cross);
-  if (v.grid.has(voxel)) ui::text(fmt::format("at the cross: {:.0f} {}", v.value(voxel), v.unit));
-  bool changed = ui::slider("window centre", m_centre, -1000, 3000, "%.0f", false);
-  changed = ui::slider("window width", m_width, 1, 4000, "%.0f", true) || changed;
-  if (changed) ++m_look;
-  if (ImGui::BeginCombo("block", kLooks[m_preset])) {
-    for (int i = 0; i < 4; ++i)
-      if (ImGui::Selectable(kLooks[i], i == m_preset)) {
-        m_preset = i;
-        m_transfer = volumes::transfer_preset(volumes::TransferPreset(i));
-        m_caster->set_transfer(m_transfer);
-        ++m_block_wanted;
-      }
-    ImGui::EndCombo();
-  }
-  if (draw_transfer(m_transfer, m_low, m_high, m_chosen_point)) {
-    m_caster->set_transfer(m_transfer);
-    ++m_block_wanted;
-  }
-  if (ui::checkbox("segments shown", m_labels_shown)) ++m_look, m_cast_labels = ~0ull;
-  ui::heading("segments");
-  const float rows = std::min(7.0f, 0.5f + float(m_scan->labels().segments.size()));
-  ImGui::BeginChild("segments", {0, rows * ImGui::GetTextLineHeightWithSpacing()});
-  for (const volumes::Segment& s : m_scan->labels().segments) {
-    ImGui::ColorButton(("##colour" + s.name).c_str(), ImVec4(s.colour[0], s.colour[1], s.colour[2], 1),
-                       ImGuiColorEditFlags_NoTooltip, {14, 14});
-    ImGui::SameLine();
-    if (ImGui::Selectable(
-            fmt::format("{}  {:.1f} mL##{}", s.name, v.grid.voxel_ml() * double(voxels()[s.label]), s.label).c_str(),
-            s.name == m_segment))
-      m_segment = s.name;
-    ui::note_widget("segment " + s.name);
-  }
-  ImGui::EndChild();
-  char name[64];
-  std::snprintf(name, sizeof name, "%s", m_segment.c_str());
-  if (ImGui::InputText("segment", name, sizeof name)) m_segment = name;
-  ui::note_widget("segment name");
-  ui::heading("tools");
-  tool_button("1 Look", ScanTool::look);
-  ImGui::SameLine();
-  tool_button("2 Paint", ScanTool::paint);
-  ImGui::SameLine();
-  tool_button("3 Erase", ScanTool::erase);
-  tool_button("4 Threshold", ScanTool::threshold);
-  ImGui::SameLine();
-  tool_button("5 Grow", ScanTool::grow);
-  ImGui::SameLine();
-  tool_button("6 Island", ScanTool::islands);
-  ui::slider("brush mm", m_brush, 0.5, 60, "%.1f", true);
-  if (m_tool == ScanTool::threshold || m_tool == ScanTool::grow) {
-    bool range = ui::slider("from", m_from, -1024, 3071, "%.0f", false);
-    range = ui::slider("to", m_to, -1024, 3071, "%.0f", false) || range;
-    if (range) ++m_look;
-  }
-  const volumes::Labels& labels = m_scan->labels();
-  if (m_tool == ScanTool::threshold && ui::button("Apply", {.width = 120, .primary = true}))
-    edit("threshold", [&](std::uint16_t of) { return volumes::thresholded(v, labels, {m_from, m_to}, of); });
-  ui::heading("the segment as a whole");
-  if (ui::button("Largest part", {.width = 142}))
-    edit("largest part", [&](std::uint16_t of) { return volumes::largest_kept(v, labels, of); });
-  ImGui::SameLine();
-  if (ui::button("Fill holes", {.width = 142}))
-    edit("fill holes", [&](std::uint16_t of) { return volumes::holes_filled(v, labels, of); });
-  if (ui::button("Smooth", {.width = 142}))
-    edit("smooth", [&](std::uint16_t of) {
-      return volumes::smoothed(v, labels, of, 3, volumes::Smoothing::keeps_volume).change;
-    });
-  ImGui::SameLine();
-  if (ui::button("Between slices", {.width = 142}))
-    edit("between slices", [&](std::uint16_t of) { return volumes::filled_between_slices(v, labels, of, 2); });
-  ui::slider("margin mm", m_margin, 0.5, 20, "%.1f", true);
-  if (ui::button("Grow by that", {.width = 142}))
-    edit("margin", [&](std::uint16_t of) { return volumes::margin_moved(v, labels, of, m_margin); });
-  ImGui::SameLine();
-  if (ui::button("Shrink by that", {.width = 142}))
-    edit("margin", [&](std::uint16_t of) { return volumes::margin_moved(v, labels, of, -m_margin); });
-  ui::heading("then");
-  if (ui::button("Make an organ of it", {.width = 220, .primary = true})) m_wanted_organ = m_segment;
+  ui::text(m_under ? tr("Under the pointer: {:.0f} {}", *m_under, v.unit) : std::string(tr("Under the pointer: -")));
+  draw_view_settings();
+  draw_segments();
+  draw_tools();
+  draw_whole_segment();
+  ui::heading(tr("Next"));
+  if (ui::button(tr("Make an organ of it"), {.width = 220, .primary = true})) m_wanted_organ = m_segment;
   ImGui::End();
 }
 
 void ScanDesk::draw(const Area& middle, const Area& panel) {
   take_what_was_read();
   if (!m_scan) return;
+  m_under.reset();
   const float w = std::floor(middle.width / 2), h = std::floor(middle.height / 2);
   for (int i = 0; i < 3; ++i)
     draw_slice(*m_panes[std::size_t(i)], {middle.x + (i == 1 ? w : 0), middle.y + (i == 2 ? h : 0), w, h}, i);

@@ -27,6 +27,12 @@ namespace trocar::app {
 /// What a press in a slice does.
 enum class ScanTool { look, paint, erase, threshold, grow, islands };
 
+/// A line for the user: what was done, or why it could not be.
+struct ScanMessage {
+  std::string text;
+  bool error = false;
+};
+
 /// Segments that were kept when a modeller ended.
 struct LostSegments {
   std::filesystem::path scan, labels;
@@ -63,7 +69,7 @@ class ScanDesk {
 
   modeller::Scan& scan() { return *m_scan; }
   /// A line about what has happened, once.
-  std::string take_message() { return std::exchange(m_message, {}); }
+  ScanMessage take_message() { return std::exchange(m_message, {}); }
   /// A segment that is to become an organ; empty: none.
   std::string take_wanted_organ() { return std::exchange(m_wanted_organ, {}); }
   std::string chosen_segment() const;
@@ -74,6 +80,18 @@ class ScanDesk {
   void draw_slice(Pane& pane, const Area& area, int which);
   void draw_block(const Area& area);
   void draw_panel(const Area& panel);
+  void draw_view_settings();
+  void draw_segments();
+  void draw_tools();
+  void draw_range();
+  void draw_whole_segment();
+  void press_tool(const Vec3d& at, const volumes::Index3& voxel, const volumes::SlicePlane& plane, bool fresh);
+  void tint(volumes::Picture& picture, const volumes::SlicePlane& plane) const;
+  void preview_growth();
+  void apply_growth();
+  void say(std::string text) { m_message = {std::move(text), false}; }
+  void refuse(std::string text) { m_message = {std::move(text), true}; }
+  bool range_is_in_use() const { return m_tool == ScanTool::threshold || m_tool == ScanTool::grow; }
   void press(const Vec3d& at, const volumes::SlicePlane& plane, bool fresh);
   void tool_button(const char* label, ScanTool tool);
   template <class Make>
@@ -85,9 +103,14 @@ class ScanDesk {
   std::future<std::unique_ptr<modeller::Scan>> m_reading;
   std::atomic<double> m_share{0};
   std::atomic<bool> m_stop{false};
-  std::string m_message, m_wanted_organ, m_segment = "organ";
+  ScanMessage m_message;
+  std::string m_wanted_organ, m_segment = "organ";
   std::array<std::unique_ptr<Pane>, 4> m_panes;
-  Vec3d m_cross;  ///< [mm, L P S]
+  Vec3d m_cross;                                 ///< [mm, L P S]
+  std::optional<double> m_under;                 ///< the value under the pointer
+  bool m_is_ct = true;                           ///< values are Hounsfield units
+  std::optional<volumes::Index3> m_seed;         ///< where growth begins
+  std::optional<volumes::LabelChange> m_growth;  ///< what Apply would do
   double m_centre = 40, m_width = 400, m_from = 0, m_to = 200, m_brush = 8, m_margin = 2;
   ScanTool m_tool = ScanTool::look;
   std::vector<Vec3d> m_stroke;        ///< [mm, L P S] painted with the button that is held

@@ -6,12 +6,14 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <trocar/core/text.hpp>
+
 #include "shell/ui.hpp"
 
 namespace trocar::app {
 namespace {
 
-constexpr float kHeight = 96, kReach = 9;  // [px at scale 1]
+constexpr float kHeight = 96, kPointReach = 9;  // [px at scale 1]
 constexpr std::size_t kMostPoints = 24;
 
 struct Canvas {
@@ -50,7 +52,7 @@ void paint_function(const volumes::TransferFunction& t, const Canvas& c, int cho
 
 int point_under(const volumes::TransferFunction& t, const Canvas& c, ImVec2 mouse) {
   int best = -1;
-  float nearest = kReach * ui::scale();
+  float nearest = kPointReach * ui::scale();
   for (std::size_t i = 0; i < t.points.size(); ++i) {
     const ImVec2 s = c.spot(t.points[i]);
     const float off = std::hypot(s.x - mouse.x, s.y - mouse.y);
@@ -84,8 +86,8 @@ bool draw_transfer(volumes::TransferFunction& t, double low, double high, int& c
       chosen = -1;
       changed = true;
     }
-    const std::string tip = fmt::format("{:.0f}: opacity {:.2f}\ndouble click: another point; right click: away",
-                                        c.value(io.MousePos.x), c.opacity(io.MousePos.y));
+    const std::string tip = tr("{:.0f}: opacity {:.2f}\nDouble click: add a point. Right click: remove it.",
+                               c.value(io.MousePos.x), c.opacity(io.MousePos.y));
     ImGui::SetTooltip("%s", tip.c_str());
   }
   chosen = std::min(chosen, int(t.points.size()) - 1);
@@ -101,7 +103,7 @@ bool draw_transfer(volumes::TransferFunction& t, double low, double high, int& c
   if (chosen >= 0) {
     auto& colour = t.points[std::size_t(chosen)].colour;
     float edited[3] = {float(colour[0]), float(colour[1]), float(colour[2])};
-    if (ImGui::ColorEdit3("its colour", edited, ImGuiColorEditFlags_NoInputs)) {
+    if (ImGui::ColorEdit3(tr("colour of the point"), edited, ImGuiColorEditFlags_NoInputs)) {
       colour = {edited[0], edited[1], edited[2]};
       changed = true;
     }

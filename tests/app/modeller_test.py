@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Drives the modeller's real window by mouse and keys: a scene is begun, a ball put into it, moved, a point dragged, undone,
-saved, tried and operated on; then it is killed, and what was not saved is offered again.
+"""Drives the modeller's real window by mouse and keys: a new organ is operated on at once; in a scene a ball is added,
+moved, a point dragged, undone, saved, tried and operated on; then it is killed, and its unsaved changes are offered again.
 
     tools/with_xvfb.sh 1400x900 python3 tests/app/modeller_test.py PATH/TO/trocar [--kills N]
 
@@ -81,16 +81,20 @@ def centre_of(file):
     return [float(v) for v in re.search(r'"centre_mm": \[([^\]]*)\]', text).group(1).split(",")]
 
 
-def begin_with_a_ball(m):
-    m.eyes.on("start")
+def save_as(m, path, count=1):
+    m.keys("ctrl+s")
+    m.fill("file name", str(path))
+    m.hands.press("Save")
+    m.happened("saved", count)
+
+
+def begin_with_a_ball(m, begun=1):
     m.hands.press("New scene")
-    m.fill("file name", "mine.json")
-    m.hands.press("Create")
-    m.happened("opened", 1)
+    m.happened("begun", begun)
     m.menu("Add", "Ball or ellipsoid ...")
     m.hands.press("Add")
     m.happened("step", 1, do="ellipsoid")
-    m.menu("Add", "Hold the chosen one ...")
+    m.menu("Add", "Attach the chosen body ...")
     m.fill("ask radius_mm", "9")
     m.hands.press("Add")
     m.happened("step", 1, do="hold")
@@ -121,7 +125,7 @@ def paint(m, file):
     m.happened("step", 1, do="paint")
     shown("stiffness")
     m.keys("ctrl+s")
-    m.happened("saved", 8)
+    m.happened("saved", 9)
     check('"regions"' in file.read_text(encoding="utf-8"), "painted stiffness is in the file")
     m.hands.press("paint hold")
     drag(m, (0.5, 0.44), (0.5, 0.48))
@@ -132,17 +136,17 @@ def paint(m, file):
     xdo("keyup", "shift")
     m.happened("step", 3, do="paint")
     m.keys("b")
-    m.menu("Scene", "Mark here ...")
+    m.menu("Scene", "Add a mark ...")
     m.over_view(0.5, 0.5)
     xdo("click", 1)
     m.hands.press("Add")
     m.happened("step", 1, do="mark")
-    m.menu("Scene", "How the patient lies ...")
+    m.menu("Scene", "Position of the patient ...")
     m.fill("ask head_down_deg", "20")
     m.hands.press("Add")
     m.happened("step", 1, do="tilt")
     m.keys("ctrl+s")
-    m.happened("saved", 9)
+    m.happened("saved", 10)
     text = file.read_text(encoding="utf-8")
     check('"on": "organ"' in text and '"gravity_m_s2"' in text, "mark and tilt are in the file")
     m.eyes.wait("a good build of it", lambda: m.eyes.happened("built")[-1]["good"], 60)
@@ -175,17 +179,70 @@ def by_gizmo(m, file):
         check(did == {"move x": "move", "scale z": "stretch", "rotate x": "rotate"}[part], f"{part} did {did}")
         if part == "move x":
             m.keys("ctrl+s")
-            m.happened("saved", 2)
+            m.happened("saved", 3)
             check(abs(centre_of(file)[0] - before[0] - 4) < 1e-6, f"4 mm along x: {centre_of(file)} after {before}")
         m.keys("ctrl+z")
     m.keys("ctrl+s")
-    m.happened("saved", 3)
+    m.happened("saved", 4)
     check(centre_of(file) == before, "all of it undone")
+
+
+def trainer_opens_and_ends(m, count):
+    """Operate has been pressed: the trainer comes up; it is ended as by its own Quit."""
+    m.happened("operate", count, started=True)
+    m.happened("trainer", count, up=True)
+    children = subprocess.run(["pgrep", "-P", str(m.process.pid)], capture_output=True, text=True).stdout.split()
+    check(len(children) == 1, f"one trainer: {children}")
+    os.kill(int(children[0]), signal.SIGTERM)
+    m.eyes.wait("the end of the trainer", lambda: len([e for e in m.eyes.happened("trainer") if "status" in e]) >= count, 60)
+    if m.eyes.happened("trainer")[-1]["status"] != 0:
+        m.keys("Escape")
+    check(not Path(f"/proc/{children[0]}").exists(), "no zombie is left")
+
+
+def new_organ(m):
+    """New organ, Operate: nothing more to press. Esc closes dialogues; F1 stays below a question."""
+    m.eyes.on("start")
+    m.hands.press("New organ")
+    m.happened("begun", 1)
+    m.eyes.wait("a good build", lambda: any(e["good"] for e in m.eyes.happened("built")), 60)
+    shown("new_organ")
+    m.hands.press("Operate")
+    trainer_opens_and_ends(m, 1)
+    m.keys("F1")
+    m.eyes.where("Close")
+    m.keys("Escape")
+    m.eyes.wait("help closed", lambda: "Close" not in m.eyes.screen["widgets"], 20)
+    m.menu("File", "Start screen")
+    m.eyes.on("start")
+
+
+def unready(m):
+    """An organ that is not attached and out of view is operated on after two remedies."""
+    m.hands.press("New scene")
+    m.happened("begun", 2)
+    m.menu("Add", "Ball or ellipsoid ...")
+    m.fill("ask centre_mm", "200, 300, 0")
+    m.hands.press("Add")
+    m.happened("step", 1, do="ellipsoid")
+    m.hands.press("Operate")
+    m.happened("checks", 1)
+    shown("checks")
+    m.hands.press("Attach here")
+    m.hands.press("Bring into view")
+    trainer_opens_and_ends(m, 2)
+    m.menu("File", "Start screen")
+    m.hands.press("Do not save")
+    m.eyes.on("start")
 
 
 def session(program, folder):
     m = Modeller(program, folder)
+    new_organ(m)
+    unready(m)
+    m.eyes.events.clear()
     begin_with_a_ball(m)
+    save_as(m, Path(folder) / "mine.json")
     m.hands.press("solid:organ")
     m.eyes.wait("points of the ball", lambda: m.eyes.screen["selected"] == "solid:organ" and m.eyes.screen["points"], 30)
 
@@ -194,7 +251,7 @@ def session(program, folder):
     m.keys("g", "z", "1", "2", "Return")
     m.happened("gesture", 1, kept=True)
     m.keys("ctrl+s")
-    m.happened("saved", 1)
+    m.happened("saved", 2)
     file = Path(folder) / "mine.json"
     before = centre_of(file)
     check(abs(before[2] - (-110 + 12)) < 1e-6, f"moved by 12 mm exactly: {before}")
@@ -213,14 +270,14 @@ def session(program, folder):
     xdo("mouseup", 1)
     m.happened("gesture", 5)
     m.keys("ctrl+s")
-    m.happened("saved", 4)
+    m.happened("saved", 5)
     dragged = centre_of(file)
     check(sum(abs(a - b) for a, b in zip(dragged, before)) > 1, f"a dragged point has moved: {before} {dragged}")
     m.keys("ctrl+z", "ctrl+s")
-    m.happened("saved", 5)
+    m.happened("saved", 6)
     check(centre_of(file) == before, "undone, the file says what it said")
     m.keys("ctrl+shift+z", "ctrl+s")
-    m.happened("saved", 6)
+    m.happened("saved", 7)
     check(centre_of(file) == dragged, "done again, it says the other")
 
     # a cord drawn from place to place
@@ -233,7 +290,7 @@ def session(program, folder):
     m.hands.press("Add")
     m.happened("step", 1, do="cord")
     m.keys("ctrl+s")
-    m.happened("saved", 7)
+    m.happened("saved", 8)
     check("centreline_mm" in file.read_text(encoding="utf-8"), "the cord is in the file")
     m.hands.press("solid:organ")
     paint(m, file)
@@ -243,13 +300,15 @@ def session(program, folder):
     corners = [f"v {100 + 20 * (i & 1)} {-150 + 20 * (i >> 1 & 1)} {-110 + 20 * (i >> 2)}" for i in range(8)]
     sides = ["f 1 3 4 2", "f 5 6 8 7", "f 1 2 6 5", "f 3 7 8 4", "f 1 5 7 3", "f 2 4 8 6"]
     cube.write_text("\n".join(corners + sides) + "\n", encoding="utf-8")
-    m.menu("Add", "Body from a file ...")
-    m.fill("file name", "cube.obj")
-    m.hands.press("Take")
-    m.hands.press("Add")
-    m.happened("step", 1, do="from_file")
+    m.menu("File", "Import an organ ...")
+    m.fill("file name", str(cube))
+    m.hands.press("Open")
+    m.eyes.where("unit mm")
+    shown("import")
+    m.hands.press("Import")
+    m.happened("imported", 1)
     shown("from_file")
-    m.keys("ctrl+z")
+    m.keys("ctrl+z", "ctrl+z")  # its attachment, and itself
     m.hands.press("solid:organ")
 
     # the test drive takes hold of the ball
@@ -266,15 +325,7 @@ def session(program, folder):
 
     # the trainer opens on it
     m.keys("F5")
-    m.happened("operate", 1, started=True)
-
-    def trainer():
-        found = subprocess.run(["pgrep", "-P", str(m.process.pid)], capture_output=True, text=True).stdout.split()
-        titles = subprocess.run(["xdotool", "search", "--name", "^Trocar$"], capture_output=True, text=True).stdout.split()
-        return found and titles and found
-    children = m.eyes.wait("the trainer's window", trainer, 60)
-    for child in children:
-        os.kill(int(child), signal.SIGKILL)
+    trainer_opens_and_ends(m, 1)
 
     # killed with something unsaved: it is offered again
     m.over_view()
@@ -284,7 +335,10 @@ def session(program, folder):
     m.kill()
     check(centre_of(file) == dragged, "nothing half saved")
     again = Modeller(program, folder, name="again")
-    again.hands.press("Recover it")
+    again.eyes.where("Recover")
+    again.keys("F1")
+    check("Close" not in again.eyes.screen.get("widgets", {}), "help stays closed below the question")
+    again.hands.press("Recover")
     again.happened("recovered", 1)
     again.keys("ctrl+s")
     again.happened("saved", 1)
@@ -300,9 +354,9 @@ def kills(program, folder, count, seed):
     """Moves by a millimetre each, without saving; what comes back is what was done but for the last two seconds."""
     random_moment = random.Random(seed)
     m = Modeller(program, folder)
+    m.eyes.on("start")
     begin_with_a_ball(m)
-    m.keys("ctrl+s")
-    m.happened("saved", 1)
+    save_as(m, Path(folder) / "mine.json")
     m.keys("ctrl+q")
     m.process.wait(timeout=20)
     file = Path(folder) / "mine.json"

@@ -246,7 +246,7 @@ TEST(Build, WhatNothingHoldsIsShownAndNoted) {
   const Built built = build(document);
   EXPECT_TRUE(built.good());
   ASSERT_EQ(built.notes.size(), 1u);
-  EXPECT_NE(built.notes[0].find("nothing holds ball"), std::string::npos);
+  EXPECT_NE(built.notes[0].find("ball is not attached"), std::string::npos);
 }
 
 TEST(Build, FaultsOfAnEditHaveTheirPlaceInTheEditedText) {

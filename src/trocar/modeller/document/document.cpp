@@ -6,6 +6,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/modeller/document/collect.hpp>
 #include <trocar/modeller/document/document.hpp>
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/scene/files/reader.hpp>
@@ -83,7 +84,7 @@ std::vector<fs::path> Document::files() const {
     std::vector<std::string> names;
     names_in(read.root, names);
     for (const std::string& name : names) {
-      const fs::path path = whole_path(out[i].parent_path() / name);
+      const fs::path path = named_file(*this, out[i].parent_path(), name);
       std::error_code error;
       const bool there = m_files.count(path) > 0 || fs::is_regular_file(path, error);
       if (there && met.insert(path).second) out.push_back(path);
@@ -170,7 +171,7 @@ void Document::save(bool over) {
   for (const fs::path& path : changed)
     if (!over && on_the_disk(path) != m_files.at(path).on_disk)
       faults.push_back({{path.generic_string(), 0, 0},
-                        "expected the file as it was read, got another one: somebody else has changed it meanwhile"});
+                        "expected the file as it was read, got another one: another program has changed it meanwhile"});
   if (!faults.empty()) throw core::BadInput(std::move(faults));
   for (const fs::path& path : changed) {
     File& file = m_files.at(path);
@@ -189,17 +190,15 @@ void Document::save(bool over) {
 }
 
 void Document::save_as(const fs::path& root) {
-  const fs::path path = whole_path(root);
-  if (path.parent_path() != m_root.parent_path()) {
-    // what it names is named from another place now
-    std::vector<core::Fault> ignored;
-    const scene::JsonDocument read = scene::parse_json(text(m_root), "", ignored);
-    std::string moved = renamed_from(text(m_root), read.root, m_root.parent_path(), path.parent_path());
-    m_files[path] = {std::move(moved), on_the_disk(path)};
+  const fs::path path = whole_path(root), before = m_root;
+  if (path.parent_path() != before.parent_path()) {
+    const Collection all = collected(*this, path, true);
+    for (const auto& [from, text] : all.texts) m_files[from] = {text, on_the_disk(from)};
+    copy_files(all);
   } else {
-    m_files[path] = {text(m_root), on_the_disk(path)};
+    m_files[path] = {text(before), on_the_disk(path)};
   }
-  const fs::path before = std::exchange(m_root, path);
+  m_root = path;
   const File old = m_files.at(before);
   if (before != path) {
     if (old.on_disk)

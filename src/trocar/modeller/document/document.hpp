@@ -47,6 +47,8 @@ class Document {
   const fs::path& root() const { return m_root; }
   /// As edited. @throws core::BadInput where there is no such file
   const std::string& text(const fs::path& file) const;
+  /// Is it one of the files read so far, or one that is on no disk yet?
+  bool holds(const fs::path& file) const { return m_files.count(file) > 0; }
   /// The root and all files that it and they name and that are there, in the order in which they are met.
   std::vector<fs::path> files() const;
 
@@ -64,7 +66,8 @@ class Document {
   /// it was when it was read, unless `over`.
   /// @throws core::BadInput with what is wrong, nothing lost
   void save(bool over = false);
-  /// The root under another name from now on. @throws core::BadInput
+  /// The root under another name from now on. In another folder everything that it names goes with it (collect.hpp).
+  /// @throws core::BadInput
   void save_as(const fs::path& root);
 
   /// What all texts say. Faults are appended; where there are some, what is returned is what could be read.

@@ -13,12 +13,20 @@ namespace trocar::modeller {
 namespace {
 
 using scene::JsonValue;
+constexpr const char* kPlaceName = "scenes/modelling/place.json";  // found wherever the program is installed
+
 using Renames = std::vector<std::pair<std::string, JsonValue>>;
 
 void rename(const JsonValue& name, const std::string& path, const fs::path& from, const fs::path& to, Renames& out) {
   if (name.kind != JsonValue::Kind::string) return;
-  const fs::path file = whole_path(from / name.text);
+  fs::path file = whole_path(from / name.text);
   std::error_code error;
+  if (!fs::exists(file, error)) file = scene::in_installed_scenes(name.text).value_or(file);
+  const bool from_outside = !scene::name_in_installed_scenes(to / "any.json");
+  if (const std::optional<std::string> installed = scene::name_in_installed_scenes(file); installed && from_outside) {
+    out.emplace_back(path, scene::json_text(*installed));
+    return;
+  }
   const fs::path relative = fs::relative(file, whole_path(to), error);
   if (!error && !relative.empty()) out.emplace_back(path, scene::json_text(relative.generic_string()));
 }
@@ -46,6 +54,14 @@ std::string named(const std::string& text) {
 
 }  // namespace
 
+fs::path named_file(const Document& document, const fs::path& folder, const std::string& name) {
+  const fs::path near = whole_path(folder / name);
+  std::error_code error;
+  if (document.holds(near) || fs::exists(near, error)) return near;
+  const std::optional<fs::path> installed = scene::in_installed_scenes(name);
+  return installed ? whole_path(*installed) : near;
+}
+
 bool names_files(std::string_view key) {
   static constexpr const char* keys[] = {"tissues", "organs", "instruments", "vessels", "like"};
   return std::any_of(std::begin(keys), std::end(keys), [&](const char* k) { return key == k; });
@@ -60,6 +76,16 @@ fs::path modelling_place() {
   return whole_path(place);
 }
 
+std::string text_of_place_with(const std::string& organ_file, const std::string& title) {
+  JsonValue text = scene::json_object();
+  scene::put(text, "format", scene::json_number(1));
+  scene::put(text, "name", scene::json_text("modelling"));
+  scene::put(text, "title", scene::json_text(title));
+  scene::put(text, "like", scene::json_text(kPlaceName));
+  scene::put(text, "organs", scene::json_array({scene::json_text(organ_file)}));
+  return scene::to_text(text);
+}
+
 fs::path at_home(const Document& document, scene::MemoryFiles& memory) {
   const scene::FileKind kind = scene::kind_of_file(document.root(), &memory);
   if (kind == scene::FileKind::scene) return document.root();
@@ -68,12 +94,7 @@ fs::path at_home(const Document& document, scene::MemoryFiles& memory) {
         {{{document.root().generic_string(), 1, 1}, "expected a scene or an organ, got a file of another kind"}});
   const fs::path folder = document.root().parent_path();
   const fs::path place = folder / ".modelling-place.json";
-  JsonValue text = scene::json_object();
-  scene::put(text, "format", scene::json_number(1));
-  scene::put(text, "name", scene::json_text("modelling"));
-  scene::put(text, "like", scene::json_text(fs::relative(modelling_place(), folder).generic_string()));
-  scene::put(text, "organs", scene::json_array({scene::json_text(document.root().filename().generic_string())}));
-  memory[place] = scene::to_text(text);
+  memory[place] = text_of_place_with(document.root().filename().generic_string(), document.root().stem().string());
   return place;
 }
 
@@ -83,8 +104,8 @@ Document begun(const fs::path& file, bool organ, const std::string& wanted) {
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
   std::string text = "{\n  \"format\": 1,\n  \"name\": " + named(name);
   if (organ) return Document::fresh(file, text + ",\n  \"solids\": []\n}\n");
-  const std::string place = fs::relative(modelling_place(), whole_path(file).parent_path()).generic_string();
-  text += ",\n  \"like\": " + named(place) + ",\n  \"organs\": [\n    {\n      \"solids\": []\n    }\n  ]\n}\n";
+  text += ",\n  \"title\": " + named(wanted.empty() ? name : wanted) + ",\n  \"like\": " + named(kPlaceName) +
+          ",\n  \"organs\": [\n    {\n      \"solids\": []\n    }\n  ]\n}\n";
   return Document::fresh(file, text);
 }
 

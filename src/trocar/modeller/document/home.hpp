@@ -10,6 +10,9 @@ namespace trocar::modeller {
 /// @throws core::BadInput for a file of another kind
 fs::path at_home(const Document& document, scene::MemoryFiles& memory);
 
+/// A scene in the place to model in with an organ's file.
+std::string text_of_place_with(const std::string& organ_file, const std::string& title);
+
 /// scenes/modelling/place.json. @throws core::BadInput where the program's scenes are not there
 fs::path modelling_place();
 
@@ -21,6 +24,9 @@ Document begun(const fs::path& file, bool organ, const std::string& wanted);
 /// @param root  what the text says
 std::string renamed_from(const std::string& text, const scene::JsonValue& root, const fs::path& from,
                          const fs::path& to);
+
+/// Where a name in a file of `folder` leads: there, else into the installed folder `scenes`.
+fs::path named_file(const Document& document, const fs::path& folder, const std::string& name);
 
 /// Keys under which files name others.
 bool names_files(std::string_view key);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/drive/body_memory.hpp>
 #include <trocar/modeller/drive/built.hpp>
 #include <trocar/scene/checks/standing.hpp>
@@ -8,42 +9,18 @@
 namespace trocar::modeller {
 namespace {
 
-/// A ball about the middle of the sections that holds a quarter of the body.
-scene::Anchor middle_of(const std::vector<scene::Section>& sections, double cell) {
-  const scene::Section& middle = sections[sections.size() / 2];
-  scene::Anchor anchor;
-  anchor.centre = middle.centre;
-  anchor.radius = 0.6 * std::max(length(middle.across), length(middle.deep)) + 1.5 * cell;
-  return anchor;
-}
-
-/// A ball in the middle of a box, as large as its smaller sides allow.
-scene::Anchor middle_of(const geometry::Bounds& box, double cell) {
-  const Vec3d size = box.high - box.low;
-  scene::Anchor anchor;
-  anchor.centre = (box.low + box.high) / 2.0;
-  anchor.radius = 0.35 * std::min({size.x, size.y, size.z}) + 1.5 * cell;
-  return anchor;
-}
-
 void hold_what_nothing_holds(scene::Description& d, std::vector<std::string>& notes) {
   const auto note = [&](const std::string& name) {
-    notes.push_back("nothing holds " + name + " yet: it is shown as if its middle were held");
+    notes.push_back(tr("{} is not attached. Attach it (K) before you operate.", name));
   };
   for (scene::Solid& solid : d.solids)
-    if (solid.anchors.empty()) {
-      if (!solid.sections.empty())
-        solid.anchors.push_back(middle_of(solid.sections, solid.cell));
-      else if (solid.shape.any())
-        solid.anchors.push_back(middle_of(scene::size_of(solid.shape).box, solid.cell));
-      else if (solid.tets)
-        solid.anchors.push_back(middle_of(geometry::bounds(solid.tets->mesh.points), solid.cell));
+    if (!is_attached(solid)) {
+      if (!solid.sections.empty() || solid.shape.any() || solid.tets) solid.anchors.push_back(middle_hold(solid));
       note(solid.name);
     }
   for (scene::Pouch& pouch : d.pouches)
-    if (pouch.held.empty() && !pouch.free) {
-      pouch.held.push_back(pouch.sections.empty() ? middle_of(scene::size_of(pouch.shape).box, pouch.spacing)
-                                                  : middle_of(pouch.sections, pouch.spacing));
+    if (!is_attached(pouch)) {
+      pouch.held.push_back(middle_hold(pouch));
       note(pouch.name);
     }
 }
@@ -57,12 +34,14 @@ Built build(const Document& document) {
   out.version = document.version();
   try {
     std::optional<scene::Description> read = document.description(out.faults);
+    out.findings = readiness(document, read ? &*read : nullptr, out.faults);
     if (read && out.faults.empty()) {
       hold_what_nothing_holds(*read, out.notes);
       out.model = std::make_unique<sim::Model>(scene::compile(*read, &out.report));
     }
   } catch (const core::BadInput& bad) {
     out.faults = bad.faults();
+    if (out.findings.empty()) out.findings = readiness(document, nullptr, out.faults);
   }
   out.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return out;

@@ -7,6 +7,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/modeller/document/document.hpp>
+#include <trocar/modeller/drive/readiness.hpp>
 #include <trocar/scene/compile/compile.hpp>
 
 namespace trocar::modeller {
@@ -17,6 +18,7 @@ struct Built {
   std::unique_ptr<sim::Model> model;  ///< null where there are faults
   scene::CompileReport report;
   std::vector<std::string> notes;  ///< what was made up so that there is something to look at
+  std::vector<Finding> findings;   ///< what it lacks to be operated on
   double seconds = 0;              ///< that it took
 
   bool good() const { return model != nullptr; }

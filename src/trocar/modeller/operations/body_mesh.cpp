@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -5,23 +6,34 @@
 #include <trocar/geometry/nurbs/mesh.hpp>
 #include <trocar/geometry/surfaces/loft.hpp>
 #include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/geometry/tets/tet_mesh.hpp>
 #include <trocar/modeller/operations/body_mesh.hpp>
 
 namespace trocar::modeller {
 namespace {
 
-constexpr double kEdge = 0.002;    // [m]
-constexpr double kChord = 0.0002;  // [m] by which a spline's triangles may be off it
+constexpr double kEdge = 0.002;     // [m]
+constexpr double kMostEdges = 150;  // along a body: one drawn metres long stays a small mesh
+constexpr double kChord = 0.0002;   // [m] by which a spline's triangles may be off it
 
 geometry::TriMesh mesh_of(const std::vector<scene::Section>& of_file, const scene::ClosedShape& shape) {
   if (shape.surface) return shape.surface->mesh;
   if (const auto spline = scene::spline_of(shape)) return geometry::nurbs::tessellate(*spline, kChord).mesh;
   std::vector<geometry::Section> sections;
   for (const scene::Section& s : of_file) sections.push_back({s.centre, s.across, s.deep, s.squareness});
-  return sections.size() < 2 ? geometry::TriMesh{} : geometry::tessellate(geometry::loft(sections), kEdge);
+  if (sections.size() < 2) return {};
+  std::vector<Vec3d> middles;
+  for (const geometry::Section& s : sections) middles.push_back(s.centre);
+  const geometry::Bounds box = geometry::bounds(middles);
+  return geometry::tessellate(geometry::loft(sections), std::max(kEdge, length(box.high - box.low) / kMostEdges));
 }
 
 }  // namespace
+
+geometry::TriMesh surface_mesh(const scene::Solid& solid) {
+  return solid.tets ? geometry::surface_of(solid.tets->mesh).mesh : mesh_of(solid.sections, solid.shape);
+}
+geometry::TriMesh surface_mesh(const scene::Pouch& pouch) { return mesh_of(pouch.sections, pouch.shape); }
 
 geometry::TriMesh body_mesh(const Document& document, const Thing& thing) {
   std::vector<core::Fault> faults;

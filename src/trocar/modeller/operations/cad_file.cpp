@@ -1,4 +1,6 @@
 #include <cstdlib>
+#include <fstream>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -46,6 +48,14 @@ scene::JsonValue as_text(const Json& value) {
 }
 
 }  // namespace
+
+bool holds_tetrahedra(const fs::path& file) {
+  if (file.extension() == ".msh") return true;
+  if (file.extension() != ".vtk") return false;
+  char head[512] = {};
+  std::ifstream(file, std::ios::binary).read(head, sizeof head - 1);
+  return std::string_view(head, sizeof head).find("UNSTRUCTURED_GRID") != std::string_view::npos;
+}
 
 bool is_cad_file(const fs::path& file) {
   std::string ending = file.extension().string();

@@ -17,6 +17,8 @@ struct CadPart {
       nurbs;  ///< what it is exactly, as a body's file says it; none: no single closed surface
 };
 
+/// A Gmsh mesh, or a VTK file with cells.
+bool holds_tetrahedra(const fs::path& file);
 /// By its name's ending.
 bool is_cad_file(const fs::path& file);
 

@@ -6,6 +6,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/repair/mend.hpp>
 #include <trocar/geometry/surface_files/surface_file.hpp>
 #include <trocar/geometry/surface_files/surface_writer.hpp>
@@ -30,6 +31,17 @@ void write_beside(const fs::path& path, const std::string& bytes) {
         {{{path.generic_string(), 0, 0}, fmt::format("expected a file that can be written, got \"{}\"", said)}});
 }
 
+/// As a body. @throws core::BadInput with what keeps it open
+geometry::TriMesh mended(const fs::path& path, const geometry::TriMesh& mesh) {
+  geometry::MendedMesh out = geometry::mend(mesh);
+  if (out.after.is_body() && !out.mesh.triangles.empty()) return std::move(out.mesh);
+  std::string left;
+  for (const std::string& words : out.left) left += (left.empty() ? "" : "; ") + words;
+  throw core::BadInput({{{path.generic_string(), 0, 0},
+                         tr("expected a surface that can be closed, got: {}",
+                            left.empty() ? std::string(tr("one that encloses nothing")) : left)}});
+}
+
 /// A closed mesh [m] from a file of triangles; a part that is not there is told through `o`.
 geometry::TriMesh closed_mesh(const JsonObject& o, const fs::path& path) {
   const geometry::SurfaceFile file = geometry::read_surface_file(path);
@@ -42,7 +54,7 @@ geometry::TriMesh closed_mesh(const JsonObject& o, const fs::path& path) {
   }
   const double unit = o.has("unit_mm") ? o.number("unit_mm") * 1e-3 : file.metres > 0 ? file.metres : 1e-3;
   for (Vec3d& p : mesh.positions) p = p * unit;
-  return geometry::mend(mesh).mesh;
+  return mended(path, mesh);
 }
 
 /// The part of a drawing that is meant; none: told through `o`.
@@ -60,11 +72,16 @@ const CadPart* chosen_part(const JsonObject& o, const std::vector<CadPart>& part
 void put_surface(const JsonObject& o, Draft& draft, const geometry::TriMesh& mesh, JsonValue& solid) {
   const std::string name = o.text("name") + ".stl";
   const fs::path path = draft.document().root().parent_path() / name;
-  write_beside(path, geometry::to_stl(mesh, 1e-3));
+  const geometry::Bounds box = geometry::bounds(mesh.positions);
+  const Vec3d middle = (box.low + box.high) / 2.0;  // the file's origin, so that it is scaled about its middle
+  geometry::TriMesh about_middle = mesh;
+  for (Vec3d& p : about_middle.positions) p = p - middle;
+  write_beside(path, geometry::to_stl(about_middle, 1e-3));
   JsonValue surface = scene::json_object();
   scene::put(surface, "file", scene::json_text(name));
   scene::put(surface, "unit_mm", number(1));
-  if (o.has("place_mm")) scene::put(surface, "place_mm", point(o.vec3("place_mm")));
+  const Vec3d centre = o.has("centre_mm") ? o.vec3("centre_mm") : middle * 1e3 + o.vec3("place_mm");
+  scene::put(surface, "place_mm", point(centre));
   scene::put(solid, "surface", surface);
   draft.say(fmt::format("{:.2f} mL in {} triangles", 1e6 * geometry::volume(mesh), mesh.triangles.size()));
 }
@@ -106,9 +123,10 @@ void from_file(const JsonObject& o, Draft& draft) {
   JsonValue solid = scene::json_object();
   scene::put(solid, "name", scene::json_text(o.text("name")));
   scene::put(solid, "tissue", scene::json_text(o.text("tissue")));
+  if (o.has("look")) scene::put(solid, "look", scene::json_text(o.text("look")));
   Draft trial(draft.document());  // refuses a name that is taken before anything is written
   add_thing(trial, "solid", solid, "");
-  if (path.extension() == ".msh") {
+  if (holds_tetrahedra(path)) {
     put_tetrahedra(o, draft, path, solid);
     return add_thing(draft, "solid", solid, "");
   }
@@ -117,7 +135,7 @@ void from_file(const JsonObject& o, Draft& draft) {
     const std::vector<CadPart> parts = read_cad_file(path, o.number("within_mm", 0.05) * 1e-3);
     const CadPart* part = chosen_part(o, parts);
     if (!part) return;
-    mesh = geometry::mend(part->mesh).mesh;
+    mesh = mended(path, part->mesh);
     if (o.text("as") == "nurbs" && !part->nurbs)
       return o.fault("as", fmt::format("expected a part that is one closed NURBS, got one of {} faces: take it as a "
                                        "surface, and fit_spline to that",
@@ -142,8 +160,8 @@ void from_file(const JsonObject& o, Draft& draft) {
 std::vector<Operation> file_operations() {
   return {
       {{"from_file",
-        "A solid from another program's file: triangles (OBJ, STL, PLY, glTF, VTK), which are mended where they are "
-        "not closed; tetrahedra (Gmsh .msh); STEP and IGES. What it needs is kept beside the document.",
+        "A solid from another program's file: triangles (OBJ, STL, PLY, glTF, VTK), whose holes are closed; "
+        "tetrahedra (Gmsh .msh, VTK); STEP and IGES. A copy is saved next to the document.",
         {scene::needed(keys::text("file", "where it is, relative to the document")),
          scene::needed(keys::name("name", "what the body is called")),
          scene::needed(keys::name("tissue", "its material")),
@@ -152,6 +170,8 @@ std::vector<Operation> file_operations() {
          keys::number("cell_mm", 0.1, 100, "edge of its cells; default: about 700 of them; of tetrahedra: its own"),
          keys::number("unit_mm", 1e-6, 1e6, "unit of its coordinates, default: what its format or size says"),
          keys::vec3("place_mm", -2000, 2000, "where the file's origin goes, default where it is"),
+         keys::vec3("centre_mm", -2000, 2000, "where its middle goes instead; of surfaces"),
+         keys::name("look", "its material; default: the one that is called as the body is"),
          keys::choice("as", {"surface", "nurbs"},
                       "of STEP and IGES: its triangles, or the one closed NURBS that it is; default: this where it is"),
          keys::number("within_mm", 0.001, 10, "of STEP and IGES: how far triangles may be from it, default 0.05")}},

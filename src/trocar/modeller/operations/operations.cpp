@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/operations/kinds.hpp>
+#include <trocar/scene/files/library.hpp>
 #include <trocar/scene/json/json_edit.hpp>
 
 namespace trocar::modeller {
@@ -39,6 +41,20 @@ std::string Operation::title(const scene::JsonObject& o) const {
   return of.empty() ? said : said + " " + of;
 }
 
+namespace {
+
+/// Files of the installed folder `scenes` belong to all documents.
+void refuse_installed(const Document& document, const Texts& texts) {
+  if (scene::name_in_installed_scenes(document.root())) return;
+  for (const auto& [file, text] : texts)
+    if (scene::name_in_installed_scenes(file))
+      throw core::BadInput({{{"", 0, 0},
+                             tr("This belongs to {}, which all documents share. It cannot be changed here.",
+                                file.filename().string())}});
+}
+
+}  // namespace
+
 std::string apply(const Operation& operation, const scene::JsonValue& parameters, const std::string& file,
                   Document& document) {
   std::vector<core::Fault> faults;
@@ -51,6 +67,7 @@ std::string apply(const Operation& operation, const scene::JsonValue& parameters
     o.fault(o.at(), unreadable.what());
   }
   if (!faults.empty()) throw core::BadInput(std::move(faults));
+  refuse_installed(document, draft.texts());
   document.change(operation.title(o), draft.texts());
   return draft.said();
 }

@@ -106,9 +106,8 @@ Operation paint() {
 
 Operation fibres() {
   return {{"fibres",
-           "A stroke along which a solid's fibres run: it is stiffer that way. What lies between strokes follows those "
-           "near "
-           "by.",
+           "A stroke along which a solid's fibres run: it is stiffer in that direction. Tissue between strokes follows "
+           "the nearest ones.",
            {scene::needed(keys::text("of", "the solid")),
             keys::points("line_mm", -2000, 2000, 2, "the stroke; default: along the solid's own middle line"),
             keys::number("ratio", 0.5, 4, "stiffness along them over across, default: as it is, else 1.5"),

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/modeller/document/home.hpp>
 #include <trocar/modeller/operations/kinds.hpp>
 #include <trocar/modeller/operations/places.hpp>
 #include <trocar/modeller/operations/values.hpp>
@@ -48,8 +49,10 @@ JsonValue own_value(Draft& draft, const std::string& key) {
       return m->value;
     }
     const scene::JsonMember* like = scene.find(scene::kLike);
-    if (!like || !draft.has(whole_path(file.parent_path() / like->value.text))) break;
-    file = whole_path(file.parent_path() / like->value.text);
+    if (!like) break;
+    const fs::path below = named_file(draft.document(), file.parent_path(), like->value.text);
+    if (!draft.has(below)) break;
+    file = below;
   }
   return {};
 }
@@ -103,7 +106,7 @@ Operation tool() {
 
 Operation scope() {
   return {{"scope",
-           "The endoscope: through which port, how it looks. What is left out stays.",
+           "The endoscope: its port, tip and optics. Fields that are left out stay.",
            {keys::text("port", "the port that it passes"), keys::vec3("tip_mm", -2000, 2000, "where its tip is"),
             keys::number("angle_deg", 0, 90, "between its shaft and its view"),
             keys::number("field_of_view_deg", 20, 140, "full cone"),

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <trocar/modeller/materials/materials.hpp>
 #include <trocar/modeller/operations/kinds.hpp>
 #include <trocar/modeller/operations/places.hpp>
 #include <trocar/modeller/operations/values.hpp>
-#include <trocar/scene/files/library.hpp>
 #include <trocar/scene/json/json_edit.hpp>
 
 namespace trocar::modeller {
@@ -27,16 +27,8 @@ std::vector<scene::Key> with_body_keys(std::vector<scene::Key> more) {
   return all;
 }
 
-/// The look that is called as the tissue is, a wall's as what it encloses; empty: there is none.
-std::string look_of(std::string tissue) {
-  if (const std::size_t wall = tissue.rfind("_wall"); wall != tissue.npos) tissue.resize(wall);
-  const std::optional<fs::path> scenes = scene::found_scenes_folder();
-  std::error_code error;
-  return scenes && fs::is_regular_file(*scenes / "looks" / (tissue + ".json"), error) ? tissue : std::string();
-}
-
 void put_look(JsonValue& body, const JsonObject& o) {
-  if (const std::string look = look_of(o.text("tissue")); !look.empty())
+  if (const std::string look = material_of_tissue(o.text("tissue")); !look.empty())
     scene::put(body, "look", scene::json_text(look));
 }
 

@@ -185,50 +185,49 @@ nurbs::Fit best_fit(const geometry::TriMesh& mesh, nurbs::BodyFitOptions options
 }
 
 Operation fit() {
-  return {
-      {"fit_spline",
-       "Fits a NURBS body to a closed mesh from a file: OBJ, STL, PLY, glTF, VTK. What is not closed is mended first.",
-       {scene::needed(keys::text("file", "the mesh, relative to the document")),
-        scene::needed(keys::name("name", "what the body is called")),
-        scene::needed(keys::name("tissue", "its material")),
-        scene::needed(keys::number("cell_mm", 0.1, 100, "edge of its cells")),
-        keys::text("part", "of several parts in the file, default: all"),
-        keys::number("unit_mm", 1e-6, 1e6, "unit of its coordinates, default: what its format or size says"),
-        keys::integer("around", 4, 64, "control points around, default 16"),
-        keys::integer("along", 5, 96, "control points from pole to pole, default 24"),
-        keys::number("most_mm", 0.001, 100, "greatest rms distance that is taken, default 1"),
-        keys::vec3("place_mm", -2000, 2000, "where the file's origin goes, default where it is")}},
-      [](const JsonObject& o, Draft& draft) {
-        const fs::path path = whole_path(draft.document().root().parent_path() / o.text("file"));
-        const geometry::SurfaceFile file = geometry::read_surface_file(path);
-        geometry::TriMesh mesh;
-        for (const geometry::SurfacePart& part : file.parts)
-          if (!o.has("part") || part.name == o.text("part")) geometry::append(mesh, part.mesh);
-        if (mesh.triangles.empty()) return o.fault("file", "expected a file with this part, got none");
-        const double unit = o.has("unit_mm") ? o.number("unit_mm") * 1e-3 : file.metres > 0 ? file.metres : 1e-3;
-        mesh = geometry::mend(mesh).mesh;
-        for (Vec3d& p : mesh.positions) p = p * unit + o.vec3("place_mm") * 1e-3;
-        nurbs::BodyFitOptions options;
-        options.around = o.integer("around", 16);
-        options.along = o.integer("along", 24);
-        const nurbs::Fit made = best_fit(mesh, options);
-        const double off = 1e3 * std::max(made.report.rms, made.report.back_rms);
-        if (off > o.number("most_mm", 1))
-          return o.fault("most_mm",
-                         fmt::format("expected a fit within {:g} mm rms both ways, got {:.3f} mm: more control "
-                                     "points may help",
-                                     o.number("most_mm", 1), off));
-        JsonValue solid = scene::json_object();
-        scene::put(solid, "name", scene::json_text(o.text("name")));
-        scene::put(solid, "tissue", scene::json_text(o.text("tissue")));
-        scene::put(solid, "nurbs", written(scene::shape_of(made.surface)));
-        scene::put(solid, "cell_mm", number(o.number("cell_mm")));
-        add_thing(draft, "solid", solid, "");
-        draft.say(fmt::format(
-            "fitted within {:.3f} mm rms, {:.2f} mm at most, back {:.3f} and {:.2f} mm, volume {:+.2f} %",
-            1e3 * made.report.rms, 1e3 * made.report.greatest, 1e3 * made.report.back_rms,
-            1e3 * made.report.back_greatest, 100 * (made.report.volume_of_fit / made.report.volume_of_mesh - 1)));
-      }};
+  return {{"fit_spline",
+           "Fits a NURBS body to a mesh from a file: OBJ, STL, PLY, glTF, VTK. Holes are closed first.",
+           {scene::needed(keys::text("file", "the mesh, relative to the document")),
+            scene::needed(keys::name("name", "what the body is called")),
+            scene::needed(keys::name("tissue", "its material")),
+            scene::needed(keys::number("cell_mm", 0.1, 100, "edge of its cells")),
+            keys::text("part", "of several parts in the file, default: all"),
+            keys::number("unit_mm", 1e-6, 1e6, "unit of its coordinates, default: what its format or size says"),
+            keys::integer("around", 4, 64, "control points around, default 16"),
+            keys::integer("along", 5, 96, "control points from pole to pole, default 24"),
+            keys::number("most_mm", 0.001, 100, "greatest rms distance that is taken, default 1"),
+            keys::vec3("place_mm", -2000, 2000, "where the file's origin goes, default where it is")}},
+          [](const JsonObject& o, Draft& draft) {
+            const fs::path path = whole_path(draft.document().root().parent_path() / o.text("file"));
+            const geometry::SurfaceFile file = geometry::read_surface_file(path);
+            geometry::TriMesh mesh;
+            for (const geometry::SurfacePart& part : file.parts)
+              if (!o.has("part") || part.name == o.text("part")) geometry::append(mesh, part.mesh);
+            if (mesh.triangles.empty()) return o.fault("file", "expected a file with this part, got none");
+            const double unit = o.has("unit_mm") ? o.number("unit_mm") * 1e-3 : file.metres > 0 ? file.metres : 1e-3;
+            mesh = geometry::mend(mesh).mesh;
+            for (Vec3d& p : mesh.positions) p = p * unit + o.vec3("place_mm") * 1e-3;
+            nurbs::BodyFitOptions options;
+            options.around = o.integer("around", 16);
+            options.along = o.integer("along", 24);
+            const nurbs::Fit made = best_fit(mesh, options);
+            const double off = 1e3 * std::max(made.report.rms, made.report.back_rms);
+            if (off > o.number("most_mm", 1))
+              return o.fault("most_mm",
+                             fmt::format("expected a fit within {:g} mm rms both ways, got {:.3f} mm: more control "
+                                         "points may help",
+                                         o.number("most_mm", 1), off));
+            JsonValue solid = scene::json_object();
+            scene::put(solid, "name", scene::json_text(o.text("name")));
+            scene::put(solid, "tissue", scene::json_text(o.text("tissue")));
+            scene::put(solid, "nurbs", written(scene::shape_of(made.surface)));
+            scene::put(solid, "cell_mm", number(o.number("cell_mm")));
+            add_thing(draft, "solid", solid, "");
+            draft.say(fmt::format(
+                "fitted within {:.3f} mm rms, {:.2f} mm at most, back {:.3f} and {:.2f} mm, volume {:+.2f} %",
+                1e3 * made.report.rms, 1e3 * made.report.greatest, 1e3 * made.report.back_rms,
+                1e3 * made.report.back_greatest, 100 * (made.report.volume_of_fit / made.report.volume_of_mesh - 1)));
+          }};
 }
 
 }  // namespace

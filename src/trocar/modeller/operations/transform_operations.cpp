@@ -101,7 +101,7 @@ Operation rotate() {
 Operation scale() {
   return {{"scale",
            "Makes things larger or smaller, thickness and all.",
-           {things_key(), scene::needed(keys::number("by", 0.01, 100, "factor")), about_key()}},
+           {things_key(), scene::needed(keys::number("by", 0.001, 1000, "factor")), about_key()}},
           [](const JsonObject& o, Draft& draft) {
             const double by = o.number("by", 1);
             apply_to(o, draft, [&](Vec3d about) {
@@ -160,7 +160,9 @@ void moved_values(const JsonValue& value, const std::string& path, const Movemen
   for (const scene::JsonMember& m : value.members) {
     const std::string at = scene::json_path(path, m.key);
     const Role role = role_of(m.key, m.value);
-    if (role == Role::length) {
+    if (m.key == "unit_mm" && m.value.kind == JsonValue::Kind::number) {  // of a file whose coordinates stay
+      if (movement.length != 1) put(at, scene::json_number(m.value.number * movement.length));
+    } else if (role == Role::length) {
       if (movement.length != 1) put(at, number(m.value.number * movement.length));
     } else if (role == Role::none) {
       moved_values(m.value, at, movement, put);

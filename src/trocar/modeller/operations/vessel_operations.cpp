@@ -119,9 +119,9 @@ double whole_flow(const JsonValue& tree) {
 Operation branch() {
   return {
       {"branch",
-       "Lets a vessel go on, or branch off: from the end of one that is there along a line. Radii follow by Murray's "
-       "law, "
-       "r^3 = sum r_i^3, and the flow at the ends with them.",
+       "Extends a vessel from its end along a line, or branches it. Radii follow from Murray's law, r^3 = sum r_i^3, "
+       "and "
+       "the flow at the ends with them.",
        drawn_keys({scene::needed(keys::text("of", "the vessel from whose end it goes")),
                    scene::needed(keys::name("name", "of the new one")),
                    scene::needed(keys::points("path_mm", -2000, 2000, 1, "its points after that end")),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/scan/scan.hpp>
 #include <trocar/scene/json/shape.hpp>
 
@@ -55,7 +56,10 @@ std::uint16_t Scan::segment_there(const std::string& name) const {
     if (s.name == name || std::to_string(s.label) == name) return s.label;
     names.push_back(s.name);
   }
-  throw core::BadInput({{{m_path.generic_string(), 0, 0}, scene::unknown_name("segment", name, names)}});
+  const std::string message = names.empty()
+                                  ? tr("There is no segment \"{}\". Create one first (Paint, Threshold or Grow).", name)
+                                  : scene::unknown_name("segment", name, names);
+  throw core::BadInput({{{m_path.generic_string(), 0, 0}, message}});
 }
 
 void Scan::rename(std::uint16_t label, const std::string& name) {

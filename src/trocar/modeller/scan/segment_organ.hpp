@@ -2,6 +2,7 @@
 // that names it into the document.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -16,7 +17,9 @@ struct OrganWish {
   bool cuttable = false;
   std::optional<Vec3d> centre_mm;  ///< where its middle goes; none: where it is in the scan
   int most_triangles = 20000;
-  double within = 0.02;  ///< how much its volume may differ from the segment's, as a share
+  double within = 0.02;                               ///< how much its volume may differ from the segment's, as a share
+  std::function<Vec3d(Vec3d size_mm)> place_mm = {};  ///< where its middle goes, by its size; without centre_mm
+  bool attach = false;                                ///< in its middle
 };
 struct SegmentOrgan {
   double segment_mL = 0, mL = 0;  ///< of the segment's voxels, of the surface

@@ -71,9 +71,9 @@ Command redo() {
 
 Command check() {
   return {{"check",
-           "Compiles the document and tells what it comes to.",
-           {keys::number("seconds", 0, 10, "simulated to see whether it hangs still, default 1"),
-            keys::flag("still", "whatever sinks is a fault; default false")}},
+           "Compiles the document and reports volume, mass, load and equilibrium.",
+           {keys::number("seconds", 0, 10, "simulated to see whether it is in equilibrium, default 1"),
+            keys::flag("still", "a body that sags is a fault; default false")}},
           [](const JsonObject& o, Session& session) {
             session.model();
             Json bodies = Json::array();
@@ -89,8 +89,8 @@ Command check() {
                                 {"memory_kB", std::round(1e-3 * double(r.bytes))}});
               if (r.off_mm >= 0) bodies.back()["off_mm"] = r.off_mm;
               if (o.flag("still") && r.off_mm > 0.5)
-                o.fault(o.at(), fmt::format("expected {} to hang still, got {:.1f} mm off after {:g} s", r.name,
-                                            r.off_mm, o.number("seconds", 1)));
+                o.fault(o.at(), fmt::format("{} is not in equilibrium: it sagged {:.1f} mm in {:g} s", r.name, r.off_mm,
+                                            o.number("seconds", 1)));
             }
             for (const std::string& note : session.built().notes) {
               if (o.flag("still")) o.fault(o.at(), note);
@@ -222,7 +222,7 @@ Command rest() {
 }
 
 Command stop() {
-  return {{"stop", "Ends the test drive: all is as drawn again.", {}},
+  return {{"stop", "Ends the test drive: all bodies return to their shape in the file.", {}},
           [](const JsonObject&, Session& session) { session.stop_driving(); }};
 }
 

@@ -260,7 +260,7 @@ Command combine() {
 
 Command measure() {
   return {{"measure",
-           "Tells a segment's volume and the scan's values in it.",
+           "Reports a segment's volume and the scan's values in it.",
            {segment_key(), keys::number("mean_from", -100000, 100000, "a mean below this is a fault"),
             keys::number("mean_to", -100000, 100000, "one above, too")}},
           [](const JsonObject& o, Session& session) {

@@ -54,6 +54,28 @@ std::optional<fs::path> found_scenes_folder() {
   return programs_scenes_folder();
 }
 
+std::optional<fs::path> in_installed_scenes(const fs::path& name) {
+  const std::optional<fs::path> scenes = found_scenes_folder();
+  if (!scenes) return {};
+  fs::path tail;
+  bool within = false;
+  for (const fs::path& step : name) {
+    if (within) tail /= step;
+    if (step == "scenes") within = true, tail.clear();
+  }
+  std::error_code error;
+  const fs::path found = resolved(*scenes / tail);
+  if (tail.empty() || !lies_in(found, resolved(*scenes)) || !fs::is_regular_file(found, error)) return {};
+  return found;
+}
+
+std::optional<std::string> name_in_installed_scenes(const fs::path& file) {
+  const std::optional<fs::path> scenes = found_scenes_folder();
+  const fs::path whole = resolved(file), tree = scenes ? resolved(*scenes) : fs::path();
+  if (tree.empty() || !lies_in(whole, tree)) return {};
+  return (fs::path("scenes") / whole.lexically_relative(tree)).generic_string();
+}
+
 Library::Library(const fs::path& first) : m_folders{tree_of(first)} {
   if (const std::optional<fs::path> scenes = found_scenes_folder()) m_folders.push_back(resolved(*scenes));
   const std::string declared = environment("TROCAR_LIBRARY");

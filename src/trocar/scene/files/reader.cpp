@@ -73,15 +73,23 @@ void Reading::include(const fs::path& path, const core::Location& from, const Sh
   m_open.pop_back();
 }
 
+fs::path Reading::place_of(const fs::path& folder, const fs::path& named) const {
+  fs::path near = (folder / named).lexically_normal();
+  std::error_code error;
+  const bool there = !m_library || (m_memory && m_memory->text_of(near)) || fs::exists(near, error);
+  if (there) return near;
+  return in_installed_scenes(named).value_or(std::move(near));
+}
+
 void Reading::include_named(const JsonObject& o, const core::Location& at, const JsonValue& name,
                             const fs::path& folder, const Shape& shape, const Read& read) {
   const fs::path named(name.text);
   if (named.empty() || named.is_absolute())
     o.fault(at, fmt::format("expected a file name relative to this file, got {}", shown(name)));
-  else if (m_library && !m_library->holds(folder / named))
+  else if (const fs::path path = place_of(folder, named); m_library && !m_library->holds(path))
     o.fault(at, m_library->refusal(name.text));
   else
-    include((folder / named).lexically_normal(), at, shape, read);
+    include(path, at, shape, read);
 }
 
 void Reading::includes(const JsonObject& o, const char* key, const fs::path& folder, const Shape& shape,

@@ -102,6 +102,8 @@ class Reading {
   /// The items of an `includes` key: the files that are named by `read`, objects that stand there by `read_here`.
   void includes(const JsonObject& o, const char* key, const std::filesystem::path& folder, const Shape& shape,
                 const Read& read, const Read& read_here);
+  /// Where a name leads: from the folder of the file that has it, else into the installed folder `scenes`.
+  std::filesystem::path place_of(const std::filesystem::path& folder, const std::filesystem::path& named) const;
   /// The bytes of a file that o names by a key; none, and a fault, where it cannot be read.
   std::optional<std::string> bytes_of(const JsonObject& o, const std::filesystem::path& folder,
                                       const char* key = "file");

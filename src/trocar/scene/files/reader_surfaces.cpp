@@ -117,7 +117,7 @@ std::string Reading::bytes_beside(const fs::path& folder, const std::string& nam
 std::optional<SurfaceSource> Reading::surface_of(const JsonObject& o, SurfaceSource source, const fs::path& folder) {
   const std::optional<std::string> bytes = bytes_of(o, folder);
   if (!bytes) return {};
-  const fs::path path = (folder / source.file).lexically_normal();
+  const fs::path path = place_of(folder, source.file);
   std::string parts;
   try {
     const geometry::SurfaceFile file = geometry::read_surfaces(

@@ -47,11 +47,12 @@ std::optional<std::string> Reading::bytes_of(const JsonObject& o, const fs::path
     o.fault(key, fmt::format("expected a file name relative to this file, got \"{}\"", named.generic_string()));
     return {};
   }
-  if (m_library && !m_library->holds(folder / named)) {
+  const fs::path path = place_of(folder, named);
+  if (m_library && !m_library->holds(path)) {
     o.fault(key, m_library->refusal(named.generic_string()));
     return {};
   }
-  return bytes_at(o, (folder / named).lexically_normal(), key);
+  return bytes_at(o, path, key);
 }
 
 std::optional<std::string> Reading::bytes_at(const JsonObject& o, const fs::path& path, const char* key) {
@@ -76,7 +77,7 @@ void Reading::mesh_of(const JsonObject& o, TetSource source, const fs::path& fol
   const std::optional<std::string> bytes = bytes_of(o, folder);
   if (!bytes) return;
   try {
-    const std::string shown = (folder / source.file).lexically_normal().generic_string();
+    const std::string shown = place_of(folder, source.file).generic_string();
     geometry::TetRepair repaired = geometry::repair(geometry::read_tets(*bytes, shown, source.unit).mesh);
     for (const geometry::Mended& m : repaired.mended) source.doubts.push_back("mended: " + geometry::in_words(m));
     for (const std::string& left : geometry::left_as_is(repaired.mesh)) source.doubts.push_back("not mended: " + left);
@@ -95,7 +96,7 @@ void Reading::voxels_of(const JsonObject& o, TetSource source, const fs::path& f
   const std::optional<std::string> bytes = bytes_of(o, folder);
   if (!bytes) return;
   try {
-    const std::string shown = (folder / source.file).lexically_normal().generic_string();
+    const std::string shown = place_of(folder, source.file).generic_string();
     const geometry::Voxels voxels = geometry::read_nrrd(*bytes, shown);
     source.mesh = geometry::stuffed(geometry::field_of_label(voxels, source.label, source.smoothing), s.cell,
                                     {.most_cells = kMaxSolidCells, .largest_part = true});
