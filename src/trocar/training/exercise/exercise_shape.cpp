@@ -18,7 +18,7 @@ const Shape& step_shape() {
       "What has to be done: a state that lasts (when) or an act (on).",
       {needed(keys::name("step", "its name, each once")),
        needed(keys::text("title", "for people; {n}, {name}, {title}")),
-       keys::text("hint", "how it is done; {placeholders} for limits"),
+       keys::text("hint", "how it is done; {placeholders} for limits, {key:declare} for the key of the device in use"),
        keys::number("weight", 0, 100, "in the score's quality, default 1"),
        keys::name("for_each", "set: one step an element"),
        keys::any("after", "\"previous\", a step or several: counts only when they are closed"),
