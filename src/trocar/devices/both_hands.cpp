@@ -8,26 +8,35 @@ namespace trocar::devices {
 namespace {
 
 constexpr HelpLine kHelpBoth[] = {
-    {Device::keyboard, "mouse", "leads one hand as it does alone"},
-    {Device::keyboard, "arrows, W S, Q E, I M J L, G, Space, A D", "the other hand, as they do alone"},
-    {Device::keyboard, "Tab", "exchange the hands of mouse and keys"},
-    {Device::keyboard, "1 2 3 4", "this hand for the mouse; a third one takes its hand's place"},
-    {Device::keyboard, "0 C", "the endoscope for mouse and keys, until Tab or a number"},
-    {Device::keyboard, "V X", "into the view, the rack: for the hand last used"},
-    {Device::mouse, "side buttons", "mouse: left hand, right hand, endoscope"},
-    {Device::gamepad, "left, right stick", "tip of the left, of the right hand"},
-    {Device::gamepad, "with its shoulder held", "up, down: deeper, back; sideways: roll"},
-    {Device::gamepad, "with A held", "bend the wrists of instruments that have one"},
-    {Device::gamepad, "left, right trigger", "close the left, the right jaws; suction; a hook coagulates"},
-    {Device::gamepad, "cross left, right", "lock, unlock the left, the right jaws; water; a hook cuts"},
-    {Device::gamepad, "trigger, cross of its side", "of an injection needle: draw, press the plunger"},
-    {Device::gamepad, "right stick pressed", "an injection needle: into its shaft, out of it"},
-    {Device::gamepad, "cross up, down", "another hand in place of the one last used"},
-    {Device::gamepad, "both shoulders held",
-     "left stick: where the endoscope looks; right: along it, roll; cross: post"},
-    {Device::gamepad, "both shoulders and Y", "one hand at a time again"},
-    {Device::gamepad, "left stick pressed", "everything fine: on, off"},
-    {Device::gamepad, "X, Y", "into the view, the rack: for the hand last used"},
+    {Device::keyboard, "mouse", "moves one hand, as it does alone", HelpGroup::move, HelpNeeds::nothing},
+    {Device::keyboard, "arrows, W S, Q E, G, Space, A D", "the other hand, as they do alone", HelpGroup::move,
+     HelpNeeds::nothing},
+    {Device::keyboard, "Tab", "exchange the hands of mouse and keyboard", HelpGroup::choose, HelpNeeds::nothing},
+    {Device::keyboard, "1 2 3 4", "the mouse controls this hand; a third one replaces it", HelpGroup::choose,
+     HelpNeeds::nothing},
+    {Device::keyboard, "0 C", "mouse and keyboard control the endoscope, until Tab or a number", HelpGroup::choose,
+     HelpNeeds::nothing},
+    {Device::keyboard, "V X", "into view, exchange: for the hand last used", HelpGroup::choose, HelpNeeds::nothing},
+    {Device::mouse, "side buttons", "mouse: left hand, right hand, endoscope", HelpGroup::choose, HelpNeeds::nothing},
+    {Device::gamepad, "left, right stick", "tip of the left, of the right hand", HelpGroup::move, HelpNeeds::nothing},
+    {Device::gamepad, "with its shoulder held", "up, down: deeper, back; sideways: roll", HelpGroup::move,
+     HelpNeeds::nothing},
+    {Device::gamepad, "with A held", "bend the wrists", HelpGroup::move, HelpNeeds::wrist},
+    {Device::gamepad, "both shoulders held", "left stick: turn the endoscope; right: along it, roll; cross: light post",
+     HelpGroup::move, HelpNeeds::nothing},
+    {Device::gamepad, "left stick pressed", "everything fine: on, off", HelpGroup::move, HelpNeeds::nothing},
+    {Device::gamepad, "left, right trigger", "close the left, the right jaws; suction; a hook coagulates",
+     HelpGroup::act, HelpNeeds::nothing},
+    {Device::gamepad, "cross left, right", "lock, unlock the left, the right jaws; water; a hook cuts", HelpGroup::act,
+     HelpNeeds::nothing},
+    {Device::gamepad, "trigger, cross of its side", "injection needle: draw, press the plunger", HelpGroup::act,
+     HelpNeeds::needle},
+    {Device::gamepad, "right stick pressed", "injection needle: into its shaft, out of it", HelpGroup::act,
+     HelpNeeds::needle},
+    {Device::gamepad, "cross up, down", "another hand in place of the one last used", HelpGroup::choose,
+     HelpNeeds::nothing},
+    {Device::gamepad, "both shoulders and Y", "one hand at a time", HelpGroup::choose, HelpNeeds::nothing},
+    {Device::gamepad, "X, Y", "into view, exchange: for the hand last used", HelpGroup::choose, HelpNeeds::nothing},
 };
 
 constexpr Button kShoulders[2] = {Button::left_shoulder, Button::right_shoulder};
@@ -35,7 +44,7 @@ constexpr Button kLocks[2] = {Button::left, Button::right};
 /// Keys that choose who is led, or speak of the hand last used: no hand's own.
 constexpr Key kChoosing[] = {Key::tab, Key::one, Key::two, Key::three, Key::four, Key::zero, Key::c, Key::v, Key::h};
 
-int instruments_of(const HandSettings& settings) { return std::clamp(settings.instruments, 1, kMaxHands); }
+int instruments_of(const HandSettings& settings) { return std::clamp(settings.instruments, 0, kMaxHands); }
 
 // --- shares of a sample ---
 
@@ -361,8 +370,10 @@ void lead_both(const HandSettings& settings, bool on, BothHands& hands) noexcept
   if (on == hands.on) return;
   hands.on = on;
   hands.looking = false;
+  if (!on && instruments_of(settings) >= 2) choose(hands.alone, hands.state);
   let_go(hands.state);
   if (!leads_both(settings, hands)) return;
+  hands.alone = hands.state.led;
   for (HandState& side : hands.side) side = {}, let_go(side);
   hands.scope = {};
   hands.away = {true, true};

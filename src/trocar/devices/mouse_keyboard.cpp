@@ -13,55 +13,68 @@ constexpr std::array<const char*, std::size_t(Key::count)> kKeyNames = {
     "W",   "S", "Q", "E", "R", "F", "G", "Enter", "V",     "X",  "Space", "Shift",  "A",
     "D",   "T", "B", "N", "H", "K", "I", "J",     "L",     "M",  "U",     "O"};
 
+using Needs = HelpNeeds;
+using Group = HelpGroup;
+
 constexpr HelpLine kHelp[] = {
-    {Device::keyboard, "1 2 3 4, Tab", "lead this hand, the next one; the others keep pose and grip"},
-    {Device::keyboard, "0 C", "lead the endoscope; the arrows turn the view"},
-    {Device::keyboard, "H", "both hands at once: on, off"},
-    {Device::keyboard, "Left Right Up Down", "tip sideways, up and down in the picture"},
-    {Device::keyboard, "W S, PageUp PageDown", "deeper (away from you), back"},
-    {Device::keyboard, "Q E", "roll the instrument, or the endoscope's picture"},
-    {Device::keyboard, "I, M, J, L, O", "bend a wrist up, down, left, right in the picture; straighten it"},
-    {Device::keyboard, "G Enter", "close the jaws as long as it is held"},
-    {Device::keyboard, "Space", "lock: jaws stay closed when let go; again: unlock"},
-    {Device::keyboard, "X", "another instrument for this hand, another hand"},
-    {Device::keyboard, "V", "bring the instrument into the view"},
-    {Device::keyboard, "R F", "light post of an oblique endoscope"},
-    {Device::keyboard, "A D",
-     "suction-irrigator: water, suction, as long as it is held; injection needle: press, draw the plunger"},
-    {Device::keyboard, "Space", "of an injection needle: into its shaft, out of it"},
-    {Device::keyboard, "G, Space", "of a hook: coagulate, cut, as long as it is held"},
-    {Device::keyboard, "T", "wipe the lens; it takes eight seconds"},
-    {Device::keyboard, "K", "declare that it is shown: the critical view"},
-    {Device::keyboard, "B N", "foot switch: blue, coagulates; yellow, cuts; as long as it is held"},
-    {Device::keyboard, "Shift", "fine: a quarter of every motion, of closing too: for clips"},
-    {Device::mouse, "move", "tip sideways, up and down; endoscope: where it looks"},
-    {Device::mouse, "wheel", "deeper (away from you), back"},
-    {Device::mouse, "left button", "close the jaws as long as it is held"},
-    {Device::mouse, "right drag", "roll the instrument, or the endoscope's picture"},
-    {Device::mouse, "move with U held", "bend a wrist"},
-    {Device::mouse, "left held, right click", "lock the jaws; the same again: unlock"},
-    {Device::mouse, "left, right button",
-     "of a suction-irrigator: suction, water; of an injection needle: draw, press the plunger"},
-    {Device::mouse, "left held, right click", "of an injection needle: into its shaft, out of it"},
-    {Device::mouse, "left button", "of a hook: coagulate, as long as it is held"},
-    {Device::mouse, "middle or right click", "choose hand, both hands, instrument, fine motion, pause"},
-    {Device::mouse, "side buttons", "lead the previous, the next hand"},
-    {Device::gamepad, "left stick", "tip sideways, up and down; endoscope: where it looks"},
-    {Device::gamepad, "cross, left stick pressed", "the same, fine; everything fine: on, off"},
-    {Device::gamepad, "right stick", "up, down: deeper, back; sideways: roll"},
-    {Device::gamepad, "right stick with A held", "bend a wrist"},
-    {Device::gamepad, "right trigger", "close the jaws as far as it is pulled; endoscope: light post"},
-    {Device::gamepad, "left trigger", "lock, unlock the jaws; endoscope: light post the other way"},
-    {Device::gamepad, "right, left trigger", "of a suction-irrigator: suction, water; of a hook: coagulate, cut"},
-    {Device::gamepad, "right, left trigger", "of an injection needle: draw, press the plunger"},
-    {Device::gamepad, "right stick pressed", "of an injection needle: into its shaft, out of it"},
-    {Device::gamepad, "B", "wipe the lens"},
-    {Device::gamepad, "A, right stick pressed", "foot switch: blue, coagulates; yellow, cuts"},
-    {Device::gamepad, "shoulders", "lead the previous, the next hand, the endoscope among them"},
-    {Device::gamepad, "both shoulders and Y", "both hands at once: on, off"},
-    {Device::gamepad, "both shoulders and B", "declare that it is shown: the critical view"},
-    {Device::gamepad, "Y", "another instrument for this hand, another hand"},
-    {Device::gamepad, "X", "bring the instrument into the view"},
+    {Device::keyboard, "1 2 3 4, Tab", "control this instrument, the next one; the others keep pose and grip",
+     Group::choose, Needs::instrument},
+    {Device::keyboard, "0 C", "control the endoscope", Group::choose, Needs::instrument},
+    {Device::keyboard, "H", "both hands at once: on, off", Group::choose, Needs::two_instruments},
+    {Device::keyboard, "X", "exchange the instrument, choose another hand", Group::choose, Needs::instrument},
+    {Device::keyboard, "V", "bring the instrument into view", Group::choose, Needs::instrument},
+    {Device::keyboard, "Left Right Up Down", "move the tip in the picture; turn the endoscope", Group::move,
+     Needs::nothing},
+    {Device::keyboard, "W S, PageUp PageDown", "deeper, back", Group::move, Needs::nothing},
+    {Device::keyboard, "Q E", "roll the instrument, or the endoscope's picture", Group::move, Needs::nothing},
+    {Device::keyboard, "R F", "turn the light post of the oblique endoscope", Group::move, Needs::oblique},
+    {Device::keyboard, "I, M, J, L, O", "bend the wrist up, down, left, right in the picture; straighten it",
+     Group::move, Needs::wrist},
+    {Device::keyboard, "U", "hold it and move the mouse: bend the wrist", Group::move, Needs::wrist},
+    {Device::keyboard, "Shift", "fine: a quarter of every motion; for clips close slowly with it", Group::move,
+     Needs::nothing},
+    {Device::keyboard, "G Enter", "close the jaws while it is held", Group::act, Needs::jaws},
+    {Device::keyboard, "Space", "lock: the jaws stay closed; again: unlock", Group::act, Needs::jaws},
+    {Device::keyboard, "A D", "suction-irrigator: water, suction, while it is held", Group::act, Needs::valves},
+    {Device::keyboard, "A D", "injection needle: press, draw the plunger", Group::act, Needs::needle},
+    {Device::keyboard, "Space", "injection needle: into its shaft, out of it", Group::act, Needs::needle},
+    {Device::keyboard, "G, Space", "hook: coagulate, cut, while it is held", Group::act, Needs::hook},
+    {Device::keyboard, "B N", "foot switch: blue coagulates, yellow cuts, while it is held", Group::act, Needs::energy},
+    {Device::keyboard, "T", "wipe the lens; it takes eight seconds", Group::act, Needs::lens},
+    {Device::keyboard, "K", "declare", Group::act, Needs::declares},
+    {Device::mouse, "side buttons", "control the previous, the next instrument", Group::choose, Needs::instrument},
+    {Device::mouse, "middle or right click", "choose hand, both hands, instrument, fine motion, pause", Group::choose,
+     Needs::instrument},
+    {Device::mouse, "move", "move the tip in the picture; turn the endoscope", Group::move, Needs::nothing},
+    {Device::mouse, "wheel", "deeper, back", Group::move, Needs::nothing},
+    {Device::mouse, "right drag", "roll the instrument, or the endoscope's picture", Group::move, Needs::nothing},
+    {Device::mouse, "move with U held", "bend the wrist", Group::move, Needs::wrist},
+    {Device::mouse, "left button", "close the jaws while it is held", Group::act, Needs::jaws},
+    {Device::mouse, "left held, right click", "lock the jaws; the same again: unlock", Group::act, Needs::jaws},
+    {Device::mouse, "left, right button", "suction-irrigator: suction, water", Group::act, Needs::valves},
+    {Device::mouse, "left, right button", "injection needle: draw, press the plunger", Group::act, Needs::needle},
+    {Device::mouse, "left held, right click", "injection needle: into its shaft, out of it", Group::act, Needs::needle},
+    {Device::mouse, "left button", "hook: coagulate, while it is held", Group::act, Needs::hook},
+    {Device::gamepad, "shoulders", "control the previous, the next instrument; the endoscope is among them",
+     Group::choose, Needs::instrument},
+    {Device::gamepad, "both shoulders and Y", "both hands at once: on, off", Group::choose, Needs::two_instruments},
+    {Device::gamepad, "Y", "exchange the instrument, choose another hand", Group::choose, Needs::instrument},
+    {Device::gamepad, "X", "bring the instrument into view", Group::choose, Needs::instrument},
+    {Device::gamepad, "left stick", "move the tip in the picture; turn the endoscope", Group::move, Needs::nothing},
+    {Device::gamepad, "cross, left stick pressed", "the same, fine; everything fine: on, off", Group::move,
+     Needs::nothing},
+    {Device::gamepad, "right stick", "up, down: deeper, back; sideways: roll", Group::move, Needs::nothing},
+    {Device::gamepad, "right, left trigger", "endoscope: turn the light post", Group::move, Needs::oblique},
+    {Device::gamepad, "right stick with A held", "bend the wrist", Group::move, Needs::wrist},
+    {Device::gamepad, "right trigger", "close the jaws as far as it is pulled", Group::act, Needs::jaws},
+    {Device::gamepad, "left trigger", "lock, unlock the jaws", Group::act, Needs::jaws},
+    {Device::gamepad, "right, left trigger", "suction-irrigator: suction, water", Group::act, Needs::valves},
+    {Device::gamepad, "right, left trigger", "hook: coagulate, cut", Group::act, Needs::hook},
+    {Device::gamepad, "right, left trigger", "injection needle: draw, press the plunger", Group::act, Needs::needle},
+    {Device::gamepad, "right stick pressed", "injection needle: into its shaft, out of it", Group::act, Needs::needle},
+    {Device::gamepad, "A, right stick pressed", "foot switch: blue coagulates, yellow cuts", Group::act, Needs::energy},
+    {Device::gamepad, "B", "wipe the lens", Group::act, Needs::lens},
+    {Device::gamepad, "both shoulders and B", "declare", Group::act, Needs::declares},
 };
 
 constexpr float kLongestSample = 0.1f, kFirstSpeed = 0.2f;
@@ -96,6 +109,7 @@ HandSample as_right_handed(const HandSettings& settings, HandSample sample) {
 // --- which one is led ---
 
 void choose_next_instrument(int instruments, HandState& state) {
+  if (instruments == 0) return;
   choose(state.led == kScope ? state.last_instrument : (state.led + 1) % instruments, state);
 }
 
@@ -107,6 +121,7 @@ void choose_neighbour(int step, int instruments, HandState& state) {
 }
 
 void choose_led(const HandSettings& settings, int instruments, const HandSample& sample, HandState& state) {
+  if (state.led >= instruments) choose(kScope, state);  // a scene without this hand: the endoscope is there always
   for (int i = 0; i < instruments; ++i)
     if (sample.pressed.has(kNumberKeys[i])) choose(settings.left_handed ? instruments - 1 - i : i, state);
   if (sample.pressed.has(Key::tab)) choose_next_instrument(instruments, state);
@@ -321,7 +336,7 @@ void take_up(const HandSettings& settings, const HandSample& sample, HandState& 
 
 HandCommand lead(const HandSettings& settings, const HandSample& given, HandState& state) noexcept {
   const HandSample all = as_right_handed(settings, given);
-  choose_led(settings, std::clamp(settings.instruments, 1, kMaxHands), all, state);
+  choose_led(settings, std::clamp(settings.instruments, 0, kMaxHands), all, state);
   const bool bends = state.led != kScope && state.wrist[state.led];
   const HandSample sample = bends ? without_wrist(all) : all;
   if (went_down(Button::left_stick, sample, state.last)) state.fine = !state.fine;
