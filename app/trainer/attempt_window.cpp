@@ -437,7 +437,9 @@ void AttemptWindow::draw_over(const attempt::Snapshot& now, Choice& choice) {
   if (m_stage.overlay() != TrainerWindow::Overlay::none) return;
   const bool gamepad = m_stage.window.gamepads().present();
   if (m_over) {
-    choice = draw_result(m_result, mode_text(), m_stage.options.store != nullptr, m_stage.reports.say());
+    choice = draw_result({m_summary, mode_text(), m_log.attempt().trainee, m_stage.options.store != nullptr, false,
+                          m_stage.reports.say()},
+                         m_name_on_report);
   } else if (m_hint) {
     if (draw_hint(gamepad, m_pilot->leads_both(), m_hint_again) == Choice::resume) {
       m_hint = false;
@@ -461,7 +463,7 @@ void AttemptWindow::draw_over(const attempt::Snapshot& now, Choice& choice) {
   if (choice == Choice::views) m_views = true;
   if (choice == Choice::settings) m_stage.open(TrainerWindow::Overlay::settings);
   if (choice == Choice::help) m_stage.open(TrainerWindow::Overlay::help);
-  if (choice == Choice::report) m_stage.reports.open(m_stage.options.store, m_log.attempt().uuid);
+  if (choice == Choice::report) m_stage.reports.open(m_stage.options.store, m_log.attempt().uuid, m_name_on_report);
 }
 
 void AttemptWindow::draw_the_rack(const attempt::Snapshot& now) {
@@ -498,11 +500,23 @@ void AttemptWindow::end(attempt::Live& live, Ending ending) {
   if (m_crew.team()) m_crew.team()->end(attempt::message::kFinished);
   if (m_age.known()) m_result["hand_to_picture_ms"] = {{"mean", 1000 * m_age.mean()}, {"most", 1000 * m_age.most()}};
   m_log.end(m_result, left ? AttemptState::aborted : AttemptState::finished);
+  summarise_result();
   m_stage.log.event("end", {{"interrupted", left}, {"passed", m_result["passed"]}, {"ticks", m_result["ticks"]}});
   if (ending == Ending::came_to_its_end) m_stage.sound.play(Tone::finished);
   if (!m_log.attempt().recording.empty()) core::log::info("recording: {}", m_log.attempt().recording);
   m_over = true;
   m_rack = m_paused = m_hint = false;
+}
+
+/// For the window that follows: with this person's earlier attempts, and what comes next.
+void AttemptWindow::summarise_result() {
+  training::Standing standing;
+  if (m_stage.options.store && counts())
+    standing = training::read_standing(*m_stage.options.store, m_log.attempt().trainee, m_lesson.name);
+  m_summary = summarise(m_result, standing);
+  if (!counts()) return;
+  const bool passed = m_summary.verdict == ResultSummary::Verdict::passed;
+  m_summary.next = next_training(attempt::list_exercises(attempt::scenes_folder()), m_lesson.name, passed);
 }
 
 }  // namespace trocar::app
