@@ -14,6 +14,7 @@
 
 #include "shell/ui.hpp"
 #include "trainer/attempt_window.hpp"
+#include "trainer/demonstrator.hpp"
 #include "trainer/start_screen.hpp"
 
 namespace trocar::app {
@@ -87,7 +88,10 @@ class Trainer {
     for (;;) {
       const StartChoice choice = start_screen();
       if (choice == StartChoice::quit) return m_result;
-      if (train(*m_shelf.poll(), plan_for(choice)) == Choice::quit) return m_result;
+      const attempt::Lesson& lesson = *m_shelf.poll();
+      const bool demonstration = choice == StartChoice::demonstrate;
+      if (demonstration && m_demonstrator.play(m_stage, lesson) != PlayerEnd::now_you) continue;
+      if (train(lesson, plan_for(demonstration ? StartChoice::start : choice)) == Choice::quit) return m_result;
     }
   }
 
@@ -144,6 +148,7 @@ class Trainer {
   StartMemory m_memory;
   Past m_past;
   Preview m_preview;
+  Demonstrator m_demonstrator;
   Json m_result;
 };
 
@@ -233,11 +238,14 @@ StartChoice Trainer::start_screen() {
                                m_stage.reports.say()};
     StartAnswer answer;
     if (m_stage.overlay() == TrainerWindow::Overlay::none) answer = draw_start(content, m_memory);
+    const bool demonstration_ready = m_demonstrator.draw(lesson);
     take_answer(answer);
     m_stage.end_picture("start", attempt::data_folder() / "start");
     if (answer.choice == StartChoice::quit) return StartChoice::quit;
-    const bool begin = answer.choice == StartChoice::start || answer.choice == StartChoice::familiarise ||
-                       answer.choice == StartChoice::demonstrate;
+    if (answer.choice == StartChoice::demonstrate && lesson) m_demonstrator.ask(*lesson);
+    if (demonstration_ready) answer.choice = StartChoice::demonstrate;
+    const bool begin =
+        answer.choice == StartChoice::start || answer.choice == StartChoice::familiarise || demonstration_ready;
     if (begin && lesson) {
       m_stage.settings.trainee = training::clean_name(m_memory.trainee);
       m_stage.keep_settings();
