@@ -318,8 +318,9 @@ TEST(Metrics, OfTheEndoscopeAreTheSameFromAStoredTrace) {
 }
 
 TEST(Metrics, OfTheEndoscopeFollowItsPathItsHorizonAndItsTargets) {
-  const Metrics m =
-      metrics_of(endoscope(), {.camera = {.on_target = 0.4, .lens_touches = 2, .target_seconds = {3, 5}}});
+  MetricsOptions options;
+  options.camera = {0.4, 2, {3, 5}};
+  const Metrics m = metrics_of(endoscope(), options);
   EXPECT_NEAR(m.from, 1, 0.1);
   EXPECT_GT(m.camera.path, 0.07);
   EXPECT_LT(m.camera.path, 0.2);

@@ -166,8 +166,8 @@ class CsvReader {
   }
 
   void columns(std::string_view line) {
-    const auto names = [line](std::string_view column) { return line.find(column) != std::string_view::npos; };
-    m_scope = !names(",scope.eye_x_m") ? 0 : names(",scope.horizon") ? kScopeChannels.size() : kFirstScopeChannels;
+    const auto has = [line](std::string_view column) { return line.find(column) != std::string_view::npos; };
+    m_scope = !has(",scope.eye_x_m") ? 0 : has(",scope.horizon") ? kScopeChannels.size() : kFirstScopeChannels;
     const std::string expected = column_names(m_trace, m_scope);
     if (line == expected) return;
     std::size_t same = 0;  // up to the first name that differs
