@@ -97,7 +97,9 @@ PlayerEnd play_recording(TrainerWindow& stage, const attempt::Lesson& lesson, co
     stage.drop_view();  // the player has one of its own
     stage.window.set_title(demonstration ? tr("Trocar: demonstration of {}", lesson.title)
                                          : tr("Trocar: recording of {}", lesson.title));
-    return play_inside(stage.window, *stage.backend, lesson, recording, std::move(options), stage.log);
+    const PlayerEnd end = play_inside(stage.window, *stage.backend, lesson, recording, std::move(options), stage.log);
+    stage.log_screen_again();
+    return end;
   } catch (const std::exception& bad) {
     failure = bad.what();
     return PlayerEnd::back;

@@ -143,12 +143,15 @@ TEST_F(KeptDemonstration, WhatIsDamagedIsNotPlayed) {
 }
 
 TEST_F(KeptDemonstration, ThatIsCancelledOrFailsLeavesNoFile) {
-  DemonstrationMaker maker;
-  maker.start("basics/camera-0", 4);
-  while (maker.progress().seconds < 0.5 && maker.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  maker.cancel();
-  EXPECT_EQ(maker.progress().stage, Stage::cancelled);
+  {
+    DemonstrationMaker maker;
+    maker.start("basics/camera-0", 4);
+    while (maker.progress().seconds < 0.5 && maker.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    maker.cancel();
+    EXPECT_EQ(maker.progress().stage, Stage::cancelled);
+  }
   EXPECT_TRUE(files().empty());
+  DemonstrationMaker maker;
   maker.start("no/such-exercise", 0);
   const auto p = wait(maker);
   EXPECT_EQ(p.stage, Stage::failed);

@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <thread>
 
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/attempt/paths.hpp>
@@ -52,35 +55,64 @@ double DemonstrationMaker::Progress::share() const {
   return expected > 0 ? std::min(kAlmost, seconds / expected) : 0;
 }
 
-DemonstrationMaker::~DemonstrationMaker() { cancel(); }
+/// One demonstration, and the thread that records it.
+struct DemonstrationMaker::Job {
+  Job(const std::string& exercise, std::uint64_t seed) {
+    progress.stage = Stage::preparing;
+    progress.exercise = progress.title = exercise;
+    progress.seed = seed;
+    thread = std::thread([this, exercise, seed] { make(exercise, seed); });
+  }
+  ~Job() {
+    stop = true;
+    thread.join();
+  }
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
+
+  void make(const std::string& exercise, std::uint64_t seed);
+  void record(const std::string& exercise, std::uint64_t seed);
+  bool given_up() const { return stop || interrupted(); }
+  /// Changes what is told, unless it has been cancelled.
+  template <class Change>
+  void tell(const Change& change) {
+    const std::lock_guard guard(lock);
+    if (progress.stage != Stage::cancelled) change(progress);
+  }
+
+  mutable std::mutex lock;  ///< of the progress
+  Progress progress;
+  std::atomic<bool> stop{false}, ended{false};
+  std::thread thread;
+};
+
+DemonstrationMaker::~DemonstrationMaker() = default;
 
 void DemonstrationMaker::start(const std::string& exercise, std::uint64_t seed) {
   cancel();
-  m_stop = false;
-  {
-    const std::lock_guard lock(m_lock);
-    m_progress = {};
-    m_progress.stage = Stage::preparing;
-    m_progress.exercise = m_progress.title = exercise;
-    m_progress.seed = seed;
-  }
-  m_thread = std::thread([this, exercise, seed] { make(exercise, seed); });
+  std::erase_if(m_jobs, [](const std::unique_ptr<Job>& job) { return job->ended.load(); });
+  m_jobs.push_back(std::make_unique<Job>(exercise, seed));
 }
 
 void DemonstrationMaker::cancel() {
-  m_stop = true;
-  if (m_thread.joinable()) m_thread.join();
+  if (m_jobs.empty()) return;
+  Job& job = *m_jobs.back();
+  job.stop = true;
+  const std::lock_guard guard(job.lock);
+  if (job.progress.stage == Stage::preparing || job.progress.stage == Stage::recording)
+    job.progress.stage = Stage::cancelled;
 }
 
 void DemonstrationMaker::forget() {
-  if (busy()) return;
-  const std::lock_guard lock(m_lock);
-  m_progress = {};
+  if (m_jobs.empty() || busy()) return;
+  const std::lock_guard guard(m_jobs.back()->lock);
+  m_jobs.back()->progress = {};
 }
 
 DemonstrationMaker::Progress DemonstrationMaker::progress() const {
-  const std::lock_guard lock(m_lock);
-  return m_progress;
+  if (m_jobs.empty()) return {};
+  const std::lock_guard guard(m_jobs.back()->lock);
+  return m_jobs.back()->progress;
 }
 
 bool DemonstrationMaker::busy() const {
@@ -88,53 +120,51 @@ bool DemonstrationMaker::busy() const {
   return stage == Stage::preparing || stage == Stage::recording;
 }
 
-void DemonstrationMaker::set(Stage stage) {
-  const std::lock_guard lock(m_lock);
-  m_progress.stage = stage;
-}
-
-void DemonstrationMaker::make(const std::string& exercise, std::uint64_t seed) {
+void DemonstrationMaker::Job::make(const std::string& exercise, std::uint64_t seed) {
   try {
     record(exercise, seed);
   } catch (const std::exception& bad) {
-    const std::lock_guard lock(m_lock);
-    m_progress.stage = Stage::failed;
-    m_progress.failure = bad.what();
+    tell([&](Progress& p) {
+      p.stage = Stage::failed;
+      p.failure = bad.what();
+    });
   }
+  ended = true;
 }
 
-void DemonstrationMaker::record(const std::string& exercise, std::uint64_t seed) {
+void DemonstrationMaker::Job::record(const std::string& exercise, std::uint64_t seed) {
   const std::unique_ptr<Lesson> lesson = load_lesson(exercise, seed);
   const std::unique_ptr<InputSource> source = lesson->surgeon();
   const fs::path file = demonstration_path(*lesson);
   make_folder(file.parent_path());
-  {
-    const std::lock_guard lock(m_lock);
-    m_progress.title = lesson->title;
-    m_progress.expected = lesson->exercise->expert_time;
-    m_progress.stage = Stage::recording;
-  }
-  const Unfinished part(fs::path(file.string() + ".part"));
+  tell([&](Progress& p) {
+    p.title = lesson->title;
+    p.expected = lesson->exercise->expert_time;
+    p.stage = Stage::recording;
+  });
+  if (given_up()) return;
+  const training::Attempt attempt = told_of(*lesson);
+  const Unfinished part(fs::path(file.string() + "." + attempt.uuid + ".part"));
   Session session(*lesson);
-  session.record(part.path(), told_of(*lesson));
+  session.record(part.path(), attempt);
   sim::Input input = lesson->model.start;
-  while (!m_stop && !interrupted() && session.broken().empty() && session.recording_failure().empty() &&
+  while (!given_up() && session.broken().empty() && session.recording_failure().empty() &&
          source->next(session.state(), input)) {
     source->after(session.state(), session.advance(input));
-    if (session.state().tick % kTellEvery != 0) continue;
-    const std::lock_guard lock(m_lock);
-    m_progress.seconds = double(session.state().tick) * core::kTick;
+    if (session.state().tick % kTellEvery == 0)
+      tell([&](Progress& p) { p.seconds = double(session.state().tick) * core::kTick; });
   }
-  if (m_stop || interrupted()) return set(Stage::cancelled);
+  if (given_up()) return tell([](Progress& p) { p.stage = Stage::cancelled; });
   Json result = session.result(false);
   result["input"] = "demo";
   result.update(source->describe());
   if (const std::string fault = session.finish(result); !fault.empty()) throw core::EnvironmentLacks(fault);
   keep_demonstration(*lesson, part.path());
-  const std::lock_guard lock(m_lock);
-  m_progress.file = file;
-  m_progress.passed = result["passed"] == true;
-  m_progress.stage = Stage::done;
+  tell([&](Progress& p) {
+    p.file = file;
+    p.passed = result["passed"] == true;
+    p.stage = Stage::done;
+  });
 }
 
 bool reached_pass_mark(const std::string& result_json) {

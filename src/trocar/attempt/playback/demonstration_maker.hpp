@@ -8,12 +8,11 @@
 //   if (p.stage == DemonstrationMaker::Stage::done) play(p.file);
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
+#include <memory>
 #include <string>
-#include <thread>
+#include <vector>
 
 namespace trocar::attempt {
 
@@ -34,12 +33,13 @@ class DemonstrationMaker {
   };
 
   DemonstrationMaker() = default;
-  ~DemonstrationMaker();  ///< cancels
+  ~DemonstrationMaker();  ///< cancels, and waits for it
   DemonstrationMaker(const DemonstrationMaker&) = delete;
   DemonstrationMaker& operator=(const DemonstrationMaker&) = delete;
 
   /// Another one that is being recorded is cancelled.
   void start(const std::string& exercise, std::uint64_t seed);
+  /// Returns at once; the thread ends when it can.
   void cancel();
   /// What is over is forgotten.
   void forget();
@@ -47,14 +47,8 @@ class DemonstrationMaker {
   bool busy() const;
 
  private:
-  void make(const std::string& exercise, std::uint64_t seed);
-  void record(const std::string& exercise, std::uint64_t seed);
-  void set(Stage stage);
-
-  mutable std::mutex m_lock;  ///< of m_progress
-  Progress m_progress;
-  std::atomic<bool> m_stop{false};
-  std::thread m_thread;
+  struct Job;
+  std::vector<std::unique_ptr<Job>> m_jobs;  ///< the last one is the newest
 };
 
 /// Did the recording's attempt reach the pass mark?

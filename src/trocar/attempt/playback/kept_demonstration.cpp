@@ -78,8 +78,8 @@ void keep_demonstration(const Lesson& lesson, const fs::path& recorded) {
   for (const fs::directory_entry& other : fs::directory_iterator(file.parent_path(), error)) {
     const std::string name = other.path().filename().string();
     std::error_code ignored;
-    if (other.path() != file && name.starts_with(begins) && name.size() == begins.size() + kRest)
-      fs::remove(other.path(), ignored);
+    const bool outdated = name.size() == begins.size() + kRest, left_over = name.ends_with(".part");
+    if (other.path() != file && name.starts_with(begins) && (outdated || left_over)) fs::remove(other.path(), ignored);
   }
 }
 

@@ -23,7 +23,7 @@ std::filesystem::path demonstration_path(const Lesson& lesson);
 std::optional<std::filesystem::path> kept_demonstration(const Lesson& lesson);
 
 /// Gives a finished recording its final name, at once, and removes those of the same exercise and anatomy that are
-/// outdated.  @throws core::EnvironmentLacks
+/// outdated or were never finished.  @throws core::EnvironmentLacks
 void keep_demonstration(const Lesson& lesson, const std::filesystem::path& recorded);
 
 }  // namespace trocar::attempt
