@@ -12,6 +12,7 @@
 #include <trocar/attempt/team/message.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/core/tick.hpp>
 
 #include "shell/display_panel.hpp"

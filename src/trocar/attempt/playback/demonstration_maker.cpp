@@ -86,6 +86,7 @@ struct DemonstrationMaker::Job {
   std::thread thread;
 };
 
+DemonstrationMaker::DemonstrationMaker() = default;
 DemonstrationMaker::~DemonstrationMaker() = default;
 
 void DemonstrationMaker::start(const std::string& exercise, std::uint64_t seed) {

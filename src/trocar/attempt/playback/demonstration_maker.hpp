@@ -32,7 +32,7 @@ class DemonstrationMaker {
     double share() const;
   };
 
-  DemonstrationMaker() = default;
+  DemonstrationMaker();
   ~DemonstrationMaker();  ///< cancels, and waits for it
   DemonstrationMaker(const DemonstrationMaker&) = delete;
   DemonstrationMaker& operator=(const DemonstrationMaker&) = delete;
