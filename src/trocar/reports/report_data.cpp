@@ -74,16 +74,10 @@ class Dotted {
   Json m_list = Json::array();
 };
 
-const char* mode_in_words(training::AttemptMode mode) {
-  switch (mode) {
-    case training::AttemptMode::familiarisation:
-      return tr("familiarisation, no score");
-    case training::AttemptMode::demonstration:
-      return tr("demonstration");
-    case training::AttemptMode::assessed:
-      break;
-  }
-  return tr("with score");
+const char* mode_in_words(const Report& r) {
+  if (r.attempt.mode == training::AttemptMode::familiarisation) return tr("familiarisation, no score");
+  if (r.attempt.mode == training::AttemptMode::demonstration) return tr("demonstration");
+  return part_of(r.result, "passed").is_boolean() ? tr("with score") : tr("free practice");
 }
 
 Json facts(const Report& r) {
@@ -91,7 +85,7 @@ Json facts(const Report& r) {
   if (r.attempt.number > 0) facts.add(tr("Attempt {}", r.attempt.number));
   if (r.names && !r.attempt.trainee.empty()) facts.add(r.attempt.trainee);
   facts.add(r.attempt.exercise);
-  facts.add(mode_in_words(r.attempt.mode));
+  facts.add(mode_in_words(r));
   facts.add(r.attempt.seed == 0 ? tr("standard patient") : tr("random patient {}", r.attempt.seed));
   const Json& anatomy = part_of(part_of(r.result, "assessment"), "anatomy");
   if (anatomy.is_object()) facts.add(text_in(anatomy, "title"));
