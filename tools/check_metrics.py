@@ -207,6 +207,17 @@ def metrics_of(hands, rate, start=0.0, marks=(), limits=(4, 15, 4)):
     return result
 
 
+def camera_of(eye, horizon, rate, start=0.0, first=None):
+    """Of the endoscope, from its own first motion unless `first` is a hand's."""
+    lens = low_pass(eye, rate)
+    if first is None:
+        first = next(i for i, v in enumerate(speed_of(lens, rate)) if v > MOVING)
+    tilt = np.sort(np.abs(horizon[first:][horizon[first:] != 1000]))
+    return {"path_m": np.linalg.norm(np.diff(lens[first:], axis=0), axis=1).sum(),
+            "horizon_mean_deg": tilt.mean() if len(tilt) else None,
+            "horizon_p95_deg": tilt[math.ceil(0.95 * len(tilt)) - 1] if len(tilt) else None}
+
+
 # --- motion files ---
 
 def tangents(points, t):
@@ -392,15 +403,22 @@ def check_trace(trace, metrics):
     with open(metrics) as file:
         theirs = json.load(file)
     c = Comparison()
-    c.tree("trace", theirs, metrics_of(hands, rate, float(rows[0]["t_s"]), marks))
+    start = float(rows[0]["t_s"])
+    ours = metrics_of(hands, rate, start, marks) if hands else {}
+    if "scope.horizon_deg" in rows[0]:
+        first = round((ours["from_s"] - start) * rate) if hands else None
+        ours["camera"] = camera_of(column("scope", "eye_x_m", "eye_y_m", "eye_z_m"), column("scope", "horizon_deg")[:, 0],
+                                   rate, start, first)
+    c.tree("trace", theirs, ours)
     return c.finish(f"trace of {len(hands)} hands, {len(rows)} samples")
 
 
 def check_sample(test_program):
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([test_program, "--gtest_filter=Metrics.AreTheSameFromAStoredTrace"], check=True,
+        subprocess.run([test_program, "--gtest_filter=Metrics.AreTheSameFromAStoredTrace:Metrics.OfTheEndoscopeAreTheSameFromAStoredTrace"], check=True,
                        env={**os.environ, "TROCAR_METRICS_SAMPLE": folder}, stdout=subprocess.DEVNULL)
-        return check_trace(os.path.join(folder, "trace.csv"), os.path.join(folder, "metrics.json"))
+        return max(check_trace(os.path.join(folder, name + ".csv"), os.path.join(folder, name + ".json"))
+                   for name in ("trace", "camera"))
 
 
 def main(arguments):

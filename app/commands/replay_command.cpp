@@ -59,7 +59,11 @@ int replay(ReplayChoice o, bool json) {
   const bool window =
       !json && !o.headless && !o.replay.verify && o.replay.shots.empty() && o.replay.video.empty() && o.data.empty();
   if (window) {
-    PlayerOptions player{o.replay.file, exercise, o.log, {1280, 800}, o.replay.look.eyes};
+    PlayerOptions player;
+    player.file = o.replay.file;
+    player.exercise = exercise;
+    player.log = o.log;
+    player.eyes = o.replay.look.eyes;
     if (!o.size.empty()) player.size = o.replay.size;
     run_player(recording, player);
     return core::kDone;

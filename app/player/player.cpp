@@ -10,6 +10,7 @@
 
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 
 #include "player/player_parts.hpp"
 #include "shell/display_panel.hpp"
@@ -24,41 +25,50 @@ namespace {
 
 constexpr double kPlayingRate = 62, kRestingRate = 25;  // [pictures/s] at most
 
+bool draws_on_processors() { return render::GlContext::adopt_current()->draws_on_processors(); }
+
+training::Steps steps_of(const attempt::Lesson& lesson) {
+  const std::unique_ptr<training::Monitor> monitor = lesson.monitor();
+  return monitor ? monitor->steps() : training::Steps();
+}
+
 Window open_window(const PlayerOptions& options) {
   try {
     return Window("Trocar: " + fs::path(options.file).filename().string(), options.size,
                   options.eyes.mode == render::StereoMode::quad_buffer);
   } catch (const core::EnvironmentLacks& lacks) {
-    throw core::EnvironmentLacks(fmt::format(
-        "{}\nA recording without a window: trocar replay {} with --shots DIR, --video FILE, --verify or --headless",
-        lacks.what(), options.file));
+    throw core::EnvironmentLacks(
+        tr("{}\nWithout a window: trocar replay {} with --shots DIR, --video FILE, --verify or --headless",
+           lacks.what(), options.file));
   }
 }
 
 }  // namespace
 
-Player::Player(Window& window, const attempt::Lesson& lesson, const sim::Recording& recording,
+Player::Player(Window& window, render::Backend& backend, const attempt::Lesson& lesson, const sim::Recording& recording,
                const PlayerOptions& options, EventLog& log)
     : m_window(window),
       m_lesson(lesson),
       m_recording(recording),
       m_options(options),
       m_log(log),
-      m_context(render::GlContext::adopt_current()),
-      m_backend(render::make_gl_backend(*m_context)),
-      m_view(lesson.model, *m_backend),
-      m_governor(render::Governor::Limits{}, render::first_level(m_context->draws_on_processors())),
+      m_backend(backend),
+      m_view(lesson.model, m_backend),
+      m_governor(render::Governor::Limits{}, render::first_level(draws_on_processors())),
       m_footage(lesson.model, recording.keyframes),
       m_reel(lesson, recording, attempt::Reel::Options{}),
       m_line(m_reel.last()),
+      m_captions(recording.result_json, steps_of(lesson)),
       m_around(view::orbit_around(lesson.model)),
       m_panes(lesson.model) {
-  if (lesson.model.wet.there || !lesson.model.cuttables.empty()) m_backend->prepare_liquids();
+  if (lesson.model.wet.there || !lesson.model.cuttables.empty()) m_backend.prepare_liquids();
+  m_playing = options.inside;
 }
 
-void Player::run() {
+PlayerEnd Player::run() {
   log_camera();
-  while (!m_window.wants_to_close() && !m_quit && !attempt::interrupted()) picture();
+  while (!m_window.wants_to_close() && !m_end && !attempt::interrupted()) picture();
+  return m_end.value_or(PlayerEnd::closed);
 }
 
 void Player::lay_out() {
@@ -74,20 +84,31 @@ void Player::lay_out() {
   m_governor.load_becomes(m_panes.load());
 }
 
+void Player::draw_captions() {
+  if (!m_show_captions || overlay()) return;
+  const attempt::Caption caption = m_captions.at(now());
+  draw_caption(caption, m_options.note, m_panes.first().area);
+  if (caption == m_caption) return;
+  m_caption = caption;
+  m_log.event("caption", {{"tick", now()}, {"step", caption.step}, {"hint", caption.hint}, {"doing", caption.doing}});
+}
+
 void Player::draw_overlays() {
   if (m_film) {
     const double share = double(m_film->next) / double(m_film->plan.pictures());
-    if (!draw_film_progress(m_film->video->path(), share) || m_window.keys().back) end_film("no film: cancelled");
+    if (!draw_film_progress(m_film->video->path(), share) || m_window.keys().back)
+      end_film(tr("Video export cancelled."));
     return;
   }
   if (m_menu) {
-    const PlayerChoice choice = draw_player_menu();
+    const PlayerChoice choice = draw_player_menu(m_options);
     if (choice != PlayerChoice::none) m_menu = false;
     if (choice == PlayerChoice::film) start_film();
     if (choice == PlayerChoice::display) m_display = true;
     if (choice == PlayerChoice::views) m_views = true;
     if (choice == PlayerChoice::help) m_help = true;
-    if (choice == PlayerChoice::quit) m_quit = true;
+    if (choice == PlayerChoice::quit) m_end = m_options.inside ? PlayerEnd::back : PlayerEnd::closed;
+    if (choice == PlayerChoice::now_you) m_end = PlayerEnd::now_you;
     if (choice == PlayerChoice::picture) m_picture_wanted = true;
   }
   if (m_display && draw_display(m_view.parts(), m_styles)) m_display = false;
@@ -105,7 +126,7 @@ void Player::picture() {
   listen(commands);
   std::uint64_t wanted = now();
   draw_bar({m_found, now(), m_reel.known_until(), m_reel.differs_from(), m_playing, endoscope(),
-            m_layout.layout != Layout::one, m_speed},
+            m_layout.layout != Layout::one, m_speed, m_show_captions, m_options.inside, m_options.now_you},
            m_line, m_bar.width, m_bar.y, m_bar.height, commands, wanted);
   if (m_film) {
     film_on();
@@ -123,6 +144,7 @@ void Player::picture() {
     show_scene(state);
     show_elsewhere();
     m_panes.write_over(true);
+    draw_captions();
   }
   draw_player_panel(
       {m_lesson, m_recording, m_found, state, now(), m_line.last(), m_reel.known_until(), m_reel.replays(), m_exact,
@@ -137,16 +159,24 @@ void Player::picture() {
   if (!m_film) log_shown(state);
 }
 
+PlayerEnd play_inside(Window& window, render::Backend& backend, const attempt::Lesson& lesson,
+                      const sim::Recording& recording, PlayerOptions options, EventLog& log) {
+  options.inside = true;
+  ui::set_middle(0);
+  window.capture_pointer(false);
+  return Player(window, backend, lesson, recording, options, log).run();
+}
+
 namespace {
 
 using LoadingLesson = std::future<std::unique_ptr<attempt::Lesson>>;
 
-/// Says that the scene is read and compiled until it is. Null: nobody wants to see it any more.
+/// Shows that the scene is read and compiled until it is. Null: the window was closed.
 std::unique_ptr<attempt::Lesson> wait_for(LoadingLesson& lesson, Window& window) {
   while (lesson.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready) {
     if (window.wants_to_close() || attempt::interrupted()) return nullptr;  // the lesson may come, nobody waits for it
     window.begin_picture();
-    draw_waiting("Preparing the scene", -1);
+    draw_waiting(tr("Preparing the scene"), -1);
     window.draw_panels();
     window.show();
   }
@@ -169,7 +199,9 @@ void run_player(const sim::Recording& recording, PlayerOptions options) {
   log.event("preparing", {{"exercise", options.exercise}});
   const std::unique_ptr<attempt::Lesson> lesson = wait_for(loading, window);
   if (!lesson) return;
-  Player player(window, *lesson, recording, options, log);
+  const std::unique_ptr<render::GlContext> context = render::GlContext::adopt_current();
+  const std::unique_ptr<render::Backend> backend = render::make_gl_backend(*context);
+  Player player(window, *backend, *lesson, recording, options, log);
   player.run();
   if (!log.failure().empty()) throw core::EnvironmentLacks(log.failure());
 }

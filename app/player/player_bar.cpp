@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/pictures/camera_choice.hpp>
 
@@ -122,7 +123,7 @@ void tell_marks(const std::vector<const attempt::TimelineMark*>& marks, std::uin
     ImGui::TextUnformatted(fmt::format("{}  {}", attempt::clock_text(marks[i]->tick), marks[i]->text).c_str());
     ImGui::PopStyleColor();
   }
-  if (marks.size() > kMost) ImGui::TextUnformatted(fmt::format("and {} more", marks.size() - kMost).c_str());
+  if (marks.size() > kMost) ImGui::TextUnformatted(tr("and {} more", marks.size() - kMost).c_str());
   ImGui::EndTooltip();
 }
 
@@ -169,30 +170,55 @@ void space(float width) {
   ImGui::SameLine();
 }
 
+void draw_time_buttons(const BarContent& c, PlayerCommands& commands) {
+  commands.to_start |= small_button("|<", tr("Start (Home)"));
+  commands.previous_step |= small_button(tr("< step"), tr("Previous step (Shift Page Up)"));
+  commands.previous_mark |= small_button(tr("< mark"), tr("Previous mark (Page Up)"));
+  if (small_button("<", tr("One picture back (Left)"))) commands.ticks -= int(attempt::kFrameTicks);
+  const std::string play = fmt::format("{}###play", c.playing ? tr("Pause") : tr(" Play "));
+  commands.toggle_play |= small_button(play.c_str(), tr("Play, pause (Space)"), c.playing);
+  if (small_button(">", tr("One picture forward (Right)"))) commands.ticks += int(attempt::kFrameTicks);
+  commands.next_mark |= small_button(tr("mark >"), tr("Next mark (Page Down)"));
+  commands.next_step |= small_button(tr("step >"), tr("Next step (Shift Page Down)"));
+  commands.to_end |= small_button(">|", tr("End (End)"));
+}
+
+void draw_speed_buttons(const BarContent& c, PlayerCommands& commands) {
+  constexpr double kOffered[] = {0.5, 1, 2, 4};
+  commands.slower |= small_button("-", tr("Slower (Down)"));
+  bool offered = false;
+  for (const double speed : kOffered) {
+    const std::string label = fmt::format("{:g}x", speed);
+    if (small_button(label.c_str(), tr("Speed {}", label).c_str(), c.speed == speed)) commands.speed = speed;
+    offered |= c.speed == speed;
+  }
+  if (!offered) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(fmt::format("({:g}x)", c.speed).c_str());
+    ImGui::SameLine();
+  }
+  commands.faster |= small_button("+", tr("Faster (Up)"));
+}
+
 void draw_buttons(const BarContent& c, float scale, PlayerCommands& commands) {
-  commands.to_start |= small_button("|<", "start (Home)");
-  commands.previous_mark |= small_button("< mark", "last mark (Page Up)");
-  if (small_button("<", "a picture back (Left)")) commands.ticks -= int(attempt::kFrameTicks);
-  commands.toggle_play |= small_button(c.playing ? "Pause###play" : " Play ###play", "play, pause (Space)", c.playing);
-  if (small_button(">", "a picture on (Right)")) commands.ticks += int(attempt::kFrameTicks);
-  commands.next_mark |= small_button("mark >", "next mark (Page Down)");
-  commands.to_end |= small_button(">|", "end (End)");
+  draw_time_buttons(c, commands);
   space(8 * scale);
-  commands.slower |= small_button("-", "slower (Down)");
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(fmt::format("x{:g}", c.speed).c_str());
-  ImGui::SameLine();
-  commands.faster |= small_button("+", "faster (Up)");
-  space(8 * scale);
-  commands.film |= small_button("film", "film of the visible time (X)");
+  draw_speed_buttons(c, commands);
   ImGui::NewLine();
-  if (small_button("endoscope", "through the endoscope (1)", c.endoscope)) commands.preset = 0;
+  if (small_button(tr("Endoscope"), tr("Endoscope view (1)"), c.endoscope)) commands.preset = 0;
   int number = 1;
   for (const pictures::CameraPreset& preset : pictures::kCameraPresets) {
     if (small_button(preset.name, preset.meaning)) commands.preset = number;
     ++number;
   }
-  commands.inset |= small_button("both", "small picture on, off (V)", c.inset);
+  commands.inset |= small_button(tr("Both"), tr("Small picture on, off (V)"), c.inset);
+  space(8 * scale);
+  commands.captions |= small_button(tr("Captions"), tr("Captions on, off (T)"), c.captions);
+  commands.film |= small_button(tr("Export"), tr("Export this section as video (X)"));
+  space(8 * scale);
+  if (c.now_you)
+    commands.now_you |= small_button(tr("Now you"), tr("Do the same exercise with the same patient"), true);
+  if (c.inside) commands.leave |= small_button(tr("Back"), tr("Back to Trocar"));
   ImGui::NewLine();
 }
 

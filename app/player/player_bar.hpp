@@ -15,6 +15,7 @@ struct BarContent {
   std::uint64_t differs_from = attempt::Reel::kNowhere;
   bool playing = false, endoscope = true, inset = true;
   double speed = 1;
+  bool captions = true, inside = false, now_you = false;
 };
 
 inline constexpr float kBarHeight = 164;  ///< times the display's scale [px]

@@ -47,6 +47,8 @@ void Player::obey(const PlayerCommands& c) {
   obey_cameras(c);
   if (c.picture) m_picture_wanted = true;
   if (c.film) start_film();
+  if (c.leave) m_end = PlayerEnd::back;
+  if (c.now_you) m_end = PlayerEnd::now_you;
 }
 
 void Player::obey_times(const PlayerCommands& c) {
@@ -68,6 +70,16 @@ void Player::obey_times(const PlayerCommands& c) {
     if (const attempt::TimelineMark* mark = attempt::next_mark(m_found.marks, now())) seek(mark->tick);
   if (c.previous_mark)
     if (const attempt::TimelineMark* mark = attempt::previous_mark(m_found.marks, now())) seek(mark->tick);
+  using Kind = attempt::TimelineMark::Kind;
+  if (c.next_step) {
+    if (const attempt::TimelineMark* mark = attempt::next_mark(m_found.marks, now(), Kind::step)) seek(mark->tick);
+  }
+  if (c.previous_step) {
+    const attempt::TimelineMark* mark = attempt::previous_mark(m_found.marks, now(), Kind::step);
+    seek(mark ? mark->tick : 0);
+  }
+  if (c.speed > 0) m_speed = c.speed;
+  if (c.captions) m_show_captions = !m_show_captions;
   if (c.faster) m_speed = attempt::next_speed(m_speed, true);
   if (c.slower) m_speed = attempt::next_speed(m_speed, false);
   if (c.zoom_in) m_line.zoom(0.5, m_now);

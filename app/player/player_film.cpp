@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 
 #include "player/player_parts.hpp"
 
@@ -38,11 +39,11 @@ void Player::save_picture(const sim::State& state) {
     const Area& area = m_panes.first().area;
     render::Frame frame = m_view.frame(state, options);
     fit_to(area, frame);
-    render::draw_frame(*m_backend, frame, render::Target::off_screen(int(area.width), int(area.height)));
-    render::Image image = m_backend->read_pixels();
+    render::draw_frame(m_backend, frame, render::Target::off_screen(int(area.width), int(area.height)));
+    render::Image image = m_backend.read_pixels();
     if (options.analysis.on()) m_legend.paint(legend_of(options.analysis), image);
     render::write_png(file.string(), image);
-    m_message = "saved " + file.string();
+    m_message = tr("Saved {}", file.string());
     m_log.event("picture", {{"file", file.string()}, {"tick", now()}, {"exact", m_exact}});
   } catch (const core::EnvironmentLacks& lacks) {
     m_message = lacks.what();
@@ -90,19 +91,19 @@ void Player::film_on() {
     fit_to({0, 0, float(job.size.width), float(job.size.height)}, frame);
     const auto draw_at = [&](std::uint64_t clock) {
       frame.tick = clock;
-      render::draw_frame(*m_backend, frame, render::Target::off_screen(job.size.width, job.size.height));
+      render::draw_frame(m_backend, frame, render::Target::off_screen(job.size.width, job.size.height));
     };
     for (std::uint64_t i = 0; !job.settled && i < kSettling; ++i) draw_at(i * kSettlingStep);
     job.settled = true;
     draw_at(kSettling * kSettlingStep + tick - job.plan.from);
-    render::Image image = m_backend->read_pixels();
+    render::Image image = m_backend.read_pixels();
     if (job.view.analysis.on()) m_legend.paint(legend_of(job.view.analysis), image);
     job.video->add(image);
-    if (job.video->broken()) return end_film("no film: ffmpeg gave up; is the disk full?");
+    if (job.video->broken()) return end_film(tr("No video: ffmpeg stopped. Check that the disk has free space."));
     if (++job.next < job.plan.pictures()) continue;
     const std::string path = job.video->path();
     const bool good = job.video->finish();
-    end_film(good ? "saved " + path : "no film: ffmpeg could not write it");
+    end_film(good ? tr("Saved {}", path) : tr("No video: ffmpeg could not write {}.", path));
     if (good) m_log.event("film", {{"file", path}});
   }
 }

@@ -93,10 +93,13 @@ void obey_key(TypedKey typed, PlayerCommands& c) {
       c.to_end = true;
       break;
     case GLFW_KEY_PAGE_UP:
-      c.previous_mark = true;
+      (typed.mods & GLFW_MOD_SHIFT ? c.previous_step : c.previous_mark) = true;
       break;
     case GLFW_KEY_PAGE_DOWN:
-      c.next_mark = true;
+      (typed.mods & GLFW_MOD_SHIFT ? c.next_step : c.next_mark) = true;
+      break;
+    case GLFW_KEY_T:
+      c.captions = !c.captions;
       break;
     case GLFW_KEY_UP:
       c.faster = true;

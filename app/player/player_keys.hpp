@@ -13,7 +13,11 @@ namespace trocar::app {
 
 struct PlayerCommands {
   bool toggle_play = false, to_start = false, to_end = false, next_mark = false, previous_mark = false;
+  bool next_step = false, previous_step = false;  ///< marks of steps only
   bool faster = false, slower = false;
+  double speed = 0;                                          ///< this one; 0: as it is
+  bool captions = false;                                     ///< on, off
+  bool leave = false, now_you = false;                       ///< of a player within the trainer
   bool zoom_in = false, zoom_out = false, show_all = false;  ///< of the timeline
   bool swap = false, inset = false, next_preset = false;     ///< of the pictures
   bool next_layout = false, second_window = false, moved_by_pointer = false;
@@ -45,27 +49,29 @@ struct PlayerHelpLine {
   const char *action, *keys, *mouse, *pad;
 };
 inline constexpr PlayerHelpLine kPlayerHelp[] = {
-    {"play, pause", "Space", "button", "A"},
-    {"to any moment", "", "drag on the timeline", "left stick"},
-    {"step by a picture (1/25 s)", "Left, Right", "buttons", "cross left, right"},
-    {"step by a tick (1 ms)", ", .", "", "the same with LT held"},
-    {"step by a second", "Shift Left, Right", "", ""},
-    {"start, end", "Home, End", "buttons", ""},
-    {"last, next mark", "PgUp, PgDn", "click on it; buttons", "LB, RB"},
-    {"slower, faster", "Down, Up", "buttons", "cross down, up"},
-    {"show less or more of the time", "+ -", "wheel on the timeline", ""},
-    {"show all of it", "0", "right click there", "right stick pressed"},
-    {"exchange the first two pictures", "C", "double click: it comes first", "Y"},
-    {"small picture on, off", "V", "button", "X"},
-    {"one picture, two, small one, four", "F2", "menu: Views", "menu: Views"},
-    {"endoscope, front, side, above, surgeon", "1 2 3 4 5", "buttons", "B: the next one"},
-    {"a second window, for a second screen", "F3", "menu: Views", "menu: Views"},
-    {"turn the outside camera, or the one last dragged", "W A S D", "drag", "right stick"},
-    {"shift it", "I J K L", "right drag", "right stick with LT held"},
-    {"nearer, farther", "E Q", "wheel", "RT; with LT held"},
-    {"save the picture", "F12", "menu", "left stick pressed"},
-    {"film of the visible time", "X", "button", "menu"},
-    {"help; menu", "F1; Esc", "", "back; start"},
+    {"Play, pause", "Space", "button", "A"},
+    {"Go to any moment", "", "drag on the timeline", "left stick"},
+    {"Previous, next step", "Shift PgUp, PgDn", "buttons", ""},
+    {"Previous, next mark", "PgUp, PgDn", "click on it; buttons", "LB, RB"},
+    {"One picture back, forward (1/25 s)", "Left, Right", "buttons", "cross left, right"},
+    {"One tick back, forward (1 ms)", ", .", "", "the same with LT held"},
+    {"One second back, forward", "Shift Left, Right", "", ""},
+    {"Start, end", "Home, End", "buttons", ""},
+    {"Slower, faster", "Down, Up", "buttons", "cross down, up"},
+    {"Captions on, off", "T", "button", ""},
+    {"Zoom the timeline", "+ -", "wheel on the timeline", ""},
+    {"Show the whole timeline", "0", "right click there", "right stick pressed"},
+    {"Swap the first two pictures", "C", "double click", "Y"},
+    {"Small picture on, off", "V", "button", "X"},
+    {"One picture, two, a small one, four", "F2", "menu: Views", "menu: Views"},
+    {"Endoscope, front, side, above, surgeon", "1 2 3 4 5", "buttons", "B: the next one"},
+    {"A second window, for a second screen", "F3", "menu: Views", "menu: Views"},
+    {"Rotate the outside camera, or the one last dragged", "W A S D", "drag", "right stick"},
+    {"Shift it", "I J K L", "right drag", "right stick with LT held"},
+    {"Closer, further away", "E Q", "wheel", "RT; with LT held"},
+    {"Save the picture", "F12", "menu", "left stick pressed"},
+    {"Export this section as video", "X", "button", "menu"},
+    {"Help; menu", "F1; Esc", "", "back; start"},
 };
 
 }  // namespace trocar::app

@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <trocar/attempt/hand_names.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/core/tick.hpp>
 
 #include "player/player_keys.hpp"
@@ -14,16 +15,15 @@ namespace {
 
 void draw_where(const PlayerPanelContent& c) {
   ui::title(attempt::clock_text(c.now));
-  ui::text("of " + attempt::clock_text(c.last), ui::kGrey);
+  ui::text(tr("of {}", attempt::clock_text(c.last)), ui::kGrey);
   if (c.exact)
-    ui::text("exact: done again from the inputs", ui::kBlue);
+    ui::text(tr("Exact replay"), ui::kBlue);
   else if (!c.replays || c.differs)
-    ui::text("from keyframes, ten a second", ui::kOrange);
+    ui::text(tr("Keyframes, 10 per second"), ui::kOrange);
   else if (c.way_to_go > core::kTicksPerSecond)
-    ui::text(fmt::format("keyframes; {:.1f} s of the recording until exact", double(c.way_to_go) * core::kTick),
-             ui::kGrey);
+    ui::text(tr("Keyframes; exact replay in {:.1f} s of the recording", double(c.way_to_go) * core::kTick), ui::kGrey);
   else
-    ui::text("keyframes; the exact picture follows", ui::kGrey);
+    ui::text(tr("Keyframes; the exact picture follows"), ui::kGrey);
 }
 
 void warn(const std::string& text) {
@@ -34,28 +34,28 @@ void warn(const std::string& text) {
 /// What keeps this from being the whole recording, exactly.
 void draw_caveats(const PlayerPanelContent& c) {
   if (!c.replays && !c.recording.inputs.empty())
-    warn("Made with another version of the physics or scene: only its keyframes are shown, nothing is done again.");
+    warn(tr("Recorded with another version of the physics or scene: only its keyframes can be shown."));
   if (!c.recording.damage.empty())
-    warn(fmt::format("The file is damaged ({}). Shown is what is sound.", c.recording.damage));
+    warn(tr("The file is damaged ({}). Only the undamaged part is shown.", c.recording.damage));
   else if (c.recording.interrupted)
-    warn("The attempt was interrupted: it plays up to its last sound second.");
+    warn(tr("The attempt was interrupted. The recording ends early."));
   if (!c.found.difference.empty()) warn(c.found.difference);
   if (c.complete || c.last == 0) return;
   const float share = float(double(c.known_until) / double(c.last));
-  ImGui::ProgressBar(share, {-1, 0}, fmt::format("looked through: {:.0f} %", 100 * double(share)).c_str());
+  ImGui::ProgressBar(share, {-1, 0}, tr("Loading {:.0f} %", 100 * double(share)).c_str());
 }
 
 void draw_guide(const PlayerPanelContent& c) {
-  if (c.found.steps.empty()) return ui::text("free practice", ui::kGrey);
+  if (c.found.steps.empty()) return ui::text(tr("Free practice"), ui::kGrey);
   const attempt::GuideState* guide = c.found.guide_at(c.now);
-  if (!guide || (!c.complete && c.replays && c.now > c.known_until))
-    return ui::text("not looked through yet", ui::kGrey);
+  if (!guide || (!c.complete && c.replays && c.now > c.known_until)) return ui::text(tr("Still loading"), ui::kGrey);
   for (std::size_t i = 0; i < c.found.steps.size() && i < guide->done.size(); ++i) {
     const bool done = guide->done[i] == attempt::GuideState::kDone,
                missed = guide->done[i] == attempt::GuideState::kMissed;
     const bool now = int(i) == guide->current && !missed && !done;
     ui::mark(done ? ui::Mark::done : missed ? ui::Mark::warning : now ? ui::Mark::now : ui::Mark::open);
-    ui::text(c.found.steps[i].name + (missed ? ", missed" : ""), done || now ? ui::kWhite : ui::kGrey);
+    ui::text(missed ? tr("{} (missed)", c.found.steps[i].name) : c.found.steps[i].name,
+             done || now ? ui::kWhite : ui::kGrey);
     if (now && !c.found.steps[i].hint.empty()) ui::text(c.found.steps[i].hint, ui::kGrey);
   }
 }
@@ -64,7 +64,7 @@ void draw_errors(const PlayerPanelContent& c) {
   bool any = false;
   for (const attempt::TimelineMark& m : c.found.marks) {
     if (m.kind != attempt::TimelineMark::Kind::error || m.tick > c.now) continue;
-    if (!any) ui::heading("Errors until now");
+    if (!any) ui::heading(tr("Errors so far"));
     any = true;
     ui::mark(ui::Mark::error);
     ui::text(fmt::format("{}  {}", attempt::clock_text(m.tick), m.text));
@@ -77,14 +77,14 @@ void draw_tools(const PlayerPanelContent& c) {
     const interactions::ToolState& tool = c.state.tools[std::size_t(h)];
     std::string text =
         attempt::hand_name(model, h) + ": " + attempt::in_words(attempt::held_by(model, c.state, h).name);
-    if (tool.holds > 0) text += ", holds";
+    if (tool.holds > 0) text += tr(", grasping");
     const std::string flow = attempt::flow_in_words(c.state, h);
     text += attempt::has_valves(model, c.state, h) ? (flow.empty() ? "" : ", " + flow)
-                                                   : fmt::format(", {:.0f} % open", 100 * tool.aperture);
+                                                   : tr(", {:.0f} % open", 100 * tool.aperture);
     const double pull = attempt::pull_on(c.state, h);
-    if (pull >= 0.05) text += fmt::format(", pull {:.1f} N", pull);
+    if (pull >= 0.05) text += tr(", pull {:.1f} N", pull);
     const double push = attempt::push_at_trocar(model, c.state, h);
-    if (push >= 0.05) text += fmt::format(", {:.1f} N at the trocar", push);
+    if (push >= 0.05) text += tr(", {:.1f} N at the trocar", push);
     ui::text(text);
   }
   if (const std::string lens = attempt::lens_in_words(c.lesson.model, c.state); !lens.empty())
@@ -108,43 +108,61 @@ void draw_player_panel(const PlayerPanelContent& c, float left, float width, flo
   ui::text(c.lesson.title.empty() ? c.lesson.name : c.lesson.title);
   draw_where(c);
   draw_caveats(c);
-  ui::heading("Steps");
+  ui::heading(tr("Steps"));
   draw_guide(c);
   draw_errors(c);
-  ui::heading("Instruments");
+  ui::heading(tr("Instruments"));
   draw_tools(c);
   if (!c.message.empty()) {
-    ui::heading("Last");
+    ui::heading(tr("Last action"));
     ui::text(c.message);
   }
-  ui::heading("F1 help   Esc menu");
+  ui::heading(tr("F1 help   Esc menu"));
   ImGui::End();
   ImGui::PopStyleVar();
 }
 
+void draw_caption(const attempt::Caption& caption, const std::string& note, const Area& area) {
+  if (caption == attempt::Caption{} && note.empty()) return;
+  constexpr float kShare = 0.8f;  // of the picture's width
+  ImGui::SetNextWindowPos({area.x + 0.5f * area.width, area.y + area.height - 10 * ui::scale()}, ImGuiCond_Always,
+                          {0.5f, 1});
+  ImGui::SetNextWindowSizeConstraints({kShare * area.width, 0}, {kShare * area.width, 0.5f * area.height});
+  ImGui::SetNextWindowBgAlpha(0.72f);
+  ImGui::Begin("caption", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus);
+  if (!note.empty()) ui::text(note, ui::kOrange);
+  if (!caption.step.empty()) ui::text(caption.step, ui::kBlue);
+  if (!caption.hint.empty()) ui::text(caption.hint);
+  if (!caption.doing.empty()) ui::text(caption.doing, ui::kGrey);
+  ImGui::End();
+}
+
 void draw_player_help() {
   ui::begin_middle("player help", 900);
-  ui::title("Looking at a recording");
+  ui::title(tr("Player: keys and buttons"));
   if (ImGui::BeginTable("keys", 4, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
-    for (const char* head : {"", "keyboard", "mouse", "gamepad"}) ImGui::TableSetupColumn(head);
+    for (const char* head : {"", tr("Keyboard"), tr("Mouse"), tr("Gamepad")}) ImGui::TableSetupColumn(head);
     ImGui::TableHeadersRow();
     for (const PlayerHelpLine& h : kPlayerHelp) {
       ImGui::TableNextRow();
       for (const char* cell : {h.action, h.keys, h.mouse, h.pad}) {
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(cell);
+        ImGui::TextUnformatted(*cell ? tr(cell) : cell);
       }
     }
     ImGui::EndTable();
   }
-  ui::text(
-      "On the timeline: a dot is something that happened, a square a step that was done, a triangle an error, a cross "
-      "damage. The lighter part has been done again exactly.",
-      ui::kGrey);
+  ui::text(tr("On the timeline, a dot marks an event, a square a completed step, a triangle an error, a cross damage. "
+              "The lighter "
+              "part has been replayed exactly."),
+           ui::kGrey);
   ImGui::End();
 }
 
-PlayerChoice draw_player_menu() {
+PlayerChoice draw_player_menu(const PlayerOptions& options) {
   PlayerChoice choice = PlayerChoice::none;
   ui::begin_middle("player menu", 360);
   const auto entry = [&choice](const char* label, PlayerChoice c, bool primary = false) {
@@ -153,25 +171,26 @@ PlayerChoice draw_player_menu() {
     look.primary = primary;
     if (ui::button(label, look)) choice = c;
   };
-  entry("Back to the recording", PlayerChoice::resume, true);
-  entry("Save the picture", PlayerChoice::picture);
-  entry("Film of the visible time", PlayerChoice::film);
-  entry("Display", PlayerChoice::display);
-  entry("Views", PlayerChoice::views);
-  entry("Keys and buttons", PlayerChoice::help);
-  entry("Quit", PlayerChoice::quit);
+  entry(tr("Resume"), PlayerChoice::resume, true);
+  if (options.now_you) entry(tr("Now you"), PlayerChoice::now_you);
+  entry(tr("Save picture"), PlayerChoice::picture);
+  entry(tr("Export this section as video"), PlayerChoice::film);
+  entry(tr("Display"), PlayerChoice::display);
+  entry(tr("Views"), PlayerChoice::views);
+  entry(tr("Keys and buttons"), PlayerChoice::help);
+  entry(options.inside ? tr("Back") : tr("Quit"), PlayerChoice::quit);
   ImGui::End();
   return choice;
 }
 
 bool draw_film_progress(const std::string& path, double share) {
   ui::begin_middle("film", 520);
-  ui::title("Making a film");
+  ui::title(tr("Exporting the video"));
   ui::text(path, ui::kGrey);
   ImGui::ProgressBar(float(share), {480 * ui::scale(), 0});
   ui::ButtonLook look;
   look.primary = true;
-  const bool cancelled = ui::button("Cancel", look);
+  const bool cancelled = ui::button(tr("Cancel"), look);
   ImGui::End();
   return !cancelled;
 }

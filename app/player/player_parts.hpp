@@ -8,6 +8,7 @@
 #include <memory>
 
 #include <trocar/attempt/footage.hpp>
+#include <trocar/attempt/playback/captions.hpp>
 #include <trocar/pictures/camera_choice.hpp>
 #include <trocar/pictures/film_plan.hpp>
 #include <trocar/pictures/legend_drawing.hpp>
@@ -52,16 +53,17 @@ struct FilmJob {
 class Player {
  public:
   /// @param options.eyes  as this window can show them
-  Player(Window& window, const attempt::Lesson& lesson, const sim::Recording& recording, const PlayerOptions& options,
-         EventLog& log);
+  Player(Window& window, render::Backend& backend, const attempt::Lesson& lesson, const sim::Recording& recording,
+         const PlayerOptions& options, EventLog& log);
 
-  /// Until it is closed, or the program shall end.
-  void run();
+  /// Until it is left or closed, or the program shall end.
+  PlayerEnd run();
 
  private:
   void picture();
   void lay_out();
   void draw_overlays();
+  void draw_captions();
 
   void listen(PlayerCommands& commands);
   void read_pointer(PlayerCommands& commands);
@@ -98,8 +100,7 @@ class Player {
   const sim::Recording& m_recording;
   const PlayerOptions& m_options;
   EventLog& m_log;
-  std::unique_ptr<render::GlContext> m_context;
-  std::unique_ptr<render::Backend> m_backend;
+  render::Backend& m_backend;
   view::SceneView m_view;
   render::Governor m_governor;
   Drawn m_drawn;
@@ -109,6 +110,8 @@ class Player {
   attempt::Footage m_footage;
   attempt::Reel m_reel;
   attempt::Timeline m_line;
+  const attempt::Captions m_captions;
+  attempt::Caption m_caption;  ///< as shown
   attempt::Findings m_found;
   std::uint64_t m_found_version = 0;
   PadReader m_pad;
@@ -116,7 +119,9 @@ class Player {
   double m_now = 0;  ///< [ticks]
   double m_speed = 1;
   bool m_playing = false, m_exact = false;
-  bool m_help = false, m_menu = false, m_display = false, m_views = false, m_quit = false, m_picture_wanted = false;
+  bool m_help = false, m_menu = false, m_display = false, m_views = false, m_picture_wanted = false;
+  bool m_show_captions = true;
+  std::optional<PlayerEnd> m_end;         ///< it is being left
   std::vector<view::PartStyle> m_styles;  ///< of the scene's parts
   int m_preset = 1;
   view::Orbit m_around;

@@ -52,14 +52,14 @@ void Player::draw_scene(const sim::State& state, const render::Quality& quality,
   m_picture_clock += m_playing ? std::uint64_t(1000 * m_window.picture_time()) : kExposureStep;
   const Panes::Pane& first = m_panes.first();
   const int width = int(first.area.width), height = int(first.area.height);
-  m_panes.draw_others({m_view, *m_backend, state, m_picture_clock, quality, m_styles}, all);
+  m_panes.draw_others({m_view, m_backend, state, m_picture_clock, quality, m_styles}, all);
   render::Frame frame = m_view.frame(state, view_of_first(quality));
   frame.tick = m_picture_clock;
   fit_to(first.area, frame);
-  if (!m_options.eyes.on()) return render::draw_frame(*m_backend, frame, m_first.target(width, height));
+  if (!m_options.eyes.on()) return render::draw_frame(m_backend, frame, m_first.target(width, height));
   const render::StereoPair pair = pictures::eyes_of(m_options.eyes, frame);
-  render::draw_frame(*m_backend, pair.left, m_first.target(width, height));
-  render::draw_frame(*m_backend, pair.right, m_first_other.target(width, height));
+  render::draw_frame(m_backend, pair.left, m_first.target(width, height));
+  render::draw_frame(m_backend, pair.right, m_first_other.target(width, height));
 }
 
 /// The second window, as it is wanted; closing it is wanting none.
@@ -81,14 +81,14 @@ void Player::show_elsewhere() {
 /// The window once more for the other eye, then both on one screen. Other panes, panels and menus lie on it.
 void Player::draw_other_eye() {
   const render::Target whole = render::Target::window(m_window.width(), m_window.height());
-  m_backend->keep_eye(render::Eye::left, whole);
+  m_backend.keep_eye(render::Eye::left, whole);
   if (!m_film) {
     m_first_other.lay(window_target(m_panes.first().area, m_window.height()));
     m_panes.lay_others(m_window.height(), false);
     m_window.draw_panels_again();
   }
-  m_backend->keep_eye(render::Eye::right, whole);
-  m_backend->combine(*m_options.eyes.mode, whole);
+  m_backend.keep_eye(render::Eye::right, whole);
+  m_backend.combine(*m_options.eyes.mode, whole);
 }
 
 }  // namespace trocar::app

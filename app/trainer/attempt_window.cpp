@@ -25,6 +25,7 @@
 #include "shell/display_panel.hpp"
 #include "shell/layout_panel.hpp"
 #include "shell/ui.hpp"
+#include "trainer/demonstrator.hpp"
 #include "trainer/guidance.hpp"
 #include "trainer/panel.hpp"
 #include "trainer/rack.hpp"
@@ -160,7 +161,10 @@ Choice AttemptWindow::run() {
   const auto goes_on = [&] {
     return choice != Choice::restart && choice != Choice::start_screen && choice != Choice::quit;
   };
-  while (goes_on() && !m_stage.wants_to_close()) picture(live, choice);
+  while (goes_on() && !m_stage.wants_to_close()) {
+    picture(live, choice);
+    if (std::exchange(m_watch, false)) watch();
+  }
   if (!m_over) end(live, Ending::left);
   return m_stage.wants_to_close() ? Choice::quit : choice;
 }
@@ -522,7 +526,10 @@ void AttemptWindow::draw_over(const attempt::Snapshot& now, Choice& choice) {
   if (m_stage.overlay() != TrainerWindow::Overlay::none) return;
   const bool gamepad = m_stage.window.gamepads().present();
   if (m_over) {
-    choice = draw_result(m_result, mode_text(), m_stage.options.store != nullptr, m_stage.reports.say());
+    choice = draw_result(
+        {m_summary, mode_text(), m_log.attempt().trainee, m_stage.options.store != nullptr,
+         !m_log.attempt().recording.empty(), m_watch_failure.empty() ? m_stage.reports.say() : m_watch_failure},
+        m_name_on_report);
   } else if (m_hint) {
     if (draw_hint(m_stage.equipment, gamepad, m_pilot->leads_both(), m_hint_again) == Choice::resume) {
       m_hint = false;
@@ -547,7 +554,8 @@ void AttemptWindow::draw_over(const attempt::Snapshot& now, Choice& choice) {
   if (choice == Choice::views) m_views = true;
   if (choice == Choice::settings) m_stage.open(TrainerWindow::Overlay::settings);
   if (choice == Choice::help) m_stage.open(TrainerWindow::Overlay::help);
-  if (choice == Choice::report) m_stage.reports.open(m_stage.options.store, m_log.attempt().uuid);
+  if (choice == Choice::watch) m_watch = true;
+  if (choice == Choice::report) m_stage.reports.open(m_stage.options.store, m_log.attempt().uuid, m_name_on_report);
 }
 
 void AttemptWindow::draw_the_rack(const attempt::Snapshot& now) {
@@ -584,11 +592,31 @@ void AttemptWindow::end(attempt::Live& live, Ending ending) {
   if (m_crew.team()) m_crew.team()->end(attempt::message::kFinished);
   if (m_age.known()) m_result["hand_to_picture_ms"] = {{"mean", 1000 * m_age.mean()}, {"most", 1000 * m_age.most()}};
   m_log.end(m_result, left ? AttemptState::aborted : AttemptState::finished);
+  summarise_result();
   m_stage.log.event("end", {{"interrupted", left}, {"passed", m_result["passed"]}, {"ticks", m_result["ticks"]}});
   if (ending == Ending::came_to_its_end) m_stage.sound.play(Tone::finished);
   if (!m_log.attempt().recording.empty()) core::log::info("recording: {}", m_log.attempt().recording);
   m_over = true;
   m_rack = m_paused = m_hint = false;
+}
+
+/// The attempt's recording, from its start; then the result again.
+void AttemptWindow::watch() {
+  std::string failure;
+  play_recording(m_stage, m_lesson, m_log.attempt().recording, false, failure);
+  m_watch_failure = failure.empty() ? "" : tr("The recording cannot be shown: {}", failure);
+  m_stage.window.set_title(window_title(m_lesson));
+}
+
+/// For the window that follows: with this person's earlier attempts, and what comes next.
+void AttemptWindow::summarise_result() {
+  training::Standing standing;
+  if (m_stage.options.store && counts())
+    standing = training::read_standing(*m_stage.options.store, m_log.attempt().trainee, m_lesson.name);
+  m_summary = summarise(m_result, standing);
+  if (!counts()) return;
+  const bool passed = m_summary.verdict == ResultSummary::Verdict::passed;
+  m_summary.next = next_training(attempt::list_exercises(attempt::scenes_folder()), m_lesson.name, passed);
 }
 
 }  // namespace trocar::app

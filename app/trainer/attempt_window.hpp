@@ -19,6 +19,7 @@
 #include "trainer/force_feel.hpp"
 #include "trainer/pause.hpp"
 #include "trainer/picture_age.hpp"
+#include "trainer/result_summary.hpp"
 #include "trainer/trainer_window.hpp"
 
 namespace trocar::app {
@@ -64,6 +65,8 @@ class AttemptWindow {
   void draw_over(const attempt::Snapshot& now, Choice& choice);
   void draw_the_rack(const attempt::Snapshot& now);
   void end(attempt::Live& live, Ending ending);
+  void summarise_result();
+  void watch();
   bool counts() const;
   LayoutChoice layout() const;
   std::string screen_name() const;
@@ -89,6 +92,9 @@ class AttemptWindow {
   PullWarning m_pull_warning;
   std::string m_told_warning, m_told_views, m_told_waits, m_why_paused;
   Json m_result;
+  ResultSummary m_summary;
+  bool m_name_on_report = false, m_watch = false;
+  std::string m_watch_failure;
   bool m_hint = false, m_hint_again = false, m_paused = false, m_rack = false, m_over = false;
   bool m_display = false, m_views = false;
   PauseMenu m_pause_menu;

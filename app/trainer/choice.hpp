@@ -3,6 +3,6 @@
 
 namespace trocar::app {
 
-enum class Choice { none, resume, restart, finish, settings, display, views, help, report, start_screen, quit };
+enum class Choice { none, resume, restart, finish, settings, display, views, help, report, watch, start_screen, quit };
 
 }  // namespace trocar::app

@@ -18,9 +18,10 @@ namespace trocar::app {
 class ReportOpener {
  public:
   /// Nothing happens while another page is being made, or without a store.
-  void open(const training::Store* store, const std::string& attempt);
+  /// @param names  the page says whose attempt it is
+  void open(const training::Store* store, const std::string& attempt, bool names = false);
   std::string poll();                               ///< the page's path when it has just been finished, else empty
-  const std::string& say() const { return m_say; }  ///< "making the report ...", where it is, or why there is none
+  const std::string& say() const { return m_say; }  ///< "Making the report ...", where it is, or why there is none
 
  private:
   pid_t m_child = 0;  ///< makes the page; it goes on by itself if the window closes

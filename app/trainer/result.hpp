@@ -3,13 +3,21 @@
 
 #include <string>
 
-#include <trocar/core/json.hpp>
-
 #include "trainer/choice.hpp"
+#include "trainer/result_summary.hpp"
 
 namespace trocar::app {
 
-/// After the attempt. `report`: there is a page to open; `say`: how far it is, or empty
-Choice draw_result(const Json& result, const std::string& mode, bool report, const std::string& say);
+/// After an attempt.
+struct ResultScreen {
+  const ResultSummary& summary;
+  std::string mode;        ///< "demonstration"; empty: an attempt that counts
+  std::string trainee;     ///< whose name can stand on the report
+  bool report = false;     ///< there is a page to open
+  bool recording = false;  ///< there is a recording to watch
+  std::string say;         ///< how far the report is, or what failed; empty: nothing
+};
+/// @param name_on_report  the trainee's choice
+Choice draw_result(const ResultScreen& screen, bool& name_on_report);
 
 }  // namespace trocar::app

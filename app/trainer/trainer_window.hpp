@@ -72,6 +72,7 @@ class TrainerWindow {
   /// Overlays, ImGui, F12, the finished picture. `name` of the screen is for the log.
   void end_picture(const std::string& name, const std::filesystem::path& pictures);
 
+  void log_screen_again() { m_logged.clear(); }  ///< something else was in the window
   void apply_settings();
   void keep_settings();  ///< writes the file; a fault is told once on stderr
 

@@ -17,6 +17,7 @@
 #include "start/start_screen.hpp"
 #include "start/thumbnails.hpp"
 #include "trainer/attempt_window.hpp"
+#include "trainer/demonstrator.hpp"
 
 namespace trocar::app {
 
@@ -113,7 +114,9 @@ class Trainer {
       const StartChoice choice = start_screen();
       if (choice == StartChoice::quit) return m_result;
       const attempt::Lesson& lesson = *m_shelf.poll();
-      if (train(lesson, plan_for(choice, lesson)) == Choice::quit) return m_result;
+      const bool demonstration = choice == StartChoice::demonstrate;
+      if (demonstration && m_demonstrator.play(m_stage, lesson) != PlayerEnd::now_you) continue;
+      if (train(lesson, plan_for(demonstration ? StartChoice::start : choice, lesson)) == Choice::quit) return m_result;
     }
   }
 
@@ -138,13 +141,10 @@ class Trainer {
   attempt::AttemptPlan plan_for(StartChoice choice, const attempt::Lesson& lesson) const {
     attempt::AttemptPlan plan;
     plan.trainee = m_stage.settings.trainee;
-    plan.mode = choice == StartChoice::familiarise   ? AttemptMode::familiarisation
-                : choice == StartChoice::demonstrate ? AttemptMode::demonstration
-                : lesson.exercise                    ? AttemptMode::assessed
-                                                     : AttemptMode::free_practice;
-    plan.input = choice == StartChoice::demonstrate           ? "demo"
-                 : touched(m_stage.window.gamepads().state()) ? "gamepad"
-                                                              : "mouse";
+    plan.mode = choice == StartChoice::familiarise ? AttemptMode::familiarisation
+                : lesson.exercise                  ? AttemptMode::assessed
+                                                   : AttemptMode::free_practice;
+    plan.input = touched(m_stage.window.gamepads().state()) ? "gamepad" : "mouse";
     return plan;
   }
 
@@ -182,6 +182,7 @@ class Trainer {
   Preview m_preview;
   ExerciseFacts m_facts;
   const attempt::Lesson* m_shown = nullptr;  ///< whose facts these are
+  Demonstrator m_demonstrator;
   Json m_result;
 };
 
@@ -303,6 +304,9 @@ StartAnswer Trainer::draw() {
   const StartPage page = m_memory.page;
   if (m_stage.overlay() == TrainerWindow::Overlay::none)
     answer = draw_start(content(lesson != nullptr), m_memory, m_stage.window.keys().back);
+  if (answer.choice == StartChoice::demonstrate && lesson) m_demonstrator.ask(*lesson);
+  if (answer.choice == StartChoice::demonstrate) answer.choice = StartChoice::none;
+  if (m_demonstrator.draw(lesson)) answer.choice = StartChoice::demonstrate;
   take_answer(answer);
   m_stage.end_picture(name_of(page), attempt::data_folder() / "start");
   if (!lesson) answer.choice = answer.choice == StartChoice::quit ? StartChoice::quit : StartChoice::none;

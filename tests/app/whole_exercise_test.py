@@ -271,7 +271,7 @@ def operate(eyes, hands):
         eyes.operating = False
     end = eyes.happened("end")[-1]
     hands.let_go()
-    hands.press("Open the report", 60)
+    hands.press("Open report", 60)
     page = eyes.wait("the report", lambda: eyes.happened("report"), 300)[-1]["file"]
     if "terilisation" not in open(page, encoding="utf-8").read():
         raise Failed(f"{page} is no report")

@@ -174,7 +174,7 @@ def operate(eyes, hands, folder):
     end = eyes.happened("end")[-1]
     if end["passed"] is not None:
         raise Failed(f"a familiarisation was judged: {end}")
-    hands.press("Start screen")
+    hands.press("Back")
 
     # An attempt with a score, ended early: result and report.
     open_exercise(eyes, hands, *EXERCISE)
@@ -190,12 +190,12 @@ def operate(eyes, hands, folder):
     eyes.on("result")
     if eyes.happened("end")[-1]["passed"] is not False:
         raise Failed("an attempt that was hardly begun is not 'not passed'")
-    hands.press("Open the report")
+    hands.press("Open report")
     page = eyes.wait("the report", lambda: eyes.happened("report"), 120)[-1]["file"]
     text = open(page, encoding="utf-8").read()
     if "<html" not in text or "terilisation" not in text:
         raise Failed(f"{page} is no report")
-    hands.press("Again")
+    hands.press("Restart")
 
     # Unplugged in the middle: the exercise holds on and says so. The window is closed in the middle: nothing is lost.
     eyes.on("exercise")

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/reports/export.hpp>
+#include <trocar/reports/labels.hpp>
 #include <trocar/reports/report_page.hpp>
 #include <trocar/reports/report_svg.hpp>
 #include <trocar/training/metrics/trace.hpp>
@@ -27,7 +28,14 @@ constexpr const char* kResult = R"({
     "steps": [{"name": "Survey", "step": "survey", "done": true, "at_s": 12},
               {"name": "Left: Cut", "step": "cut", "side": "left", "done": true, "at_s": 130},
               {"name": "Right: Cut", "step": "cut", "side": "right", "done": false}],
-    "errors": [{"code": "A1.3", "meaning": "too <near> & deep", "points": 5.5, "fail": false, "at_s": 100}]},
+    "elements": {"left": "Left", "right": "Right", "target_6": "disc 6"},
+    "details": [{"side": "", "lost_mL": 2.5}, {"side": "target_6", "clipped": [{"on": "tube", "angle_deg": 12.25}]},
+                {"side": "right"}],
+    "thresholds": {"blind_speed_mm_s": {"value": 5, "source": "ours"}, "blind_s": {"value": 0.2, "source": "ours"},
+                   "pinch_impulse_N_s": {"value": 300, "source": "ours"}, "lost_mL": {"value": 10, "source": "ours"},
+                   "near_mm": {"from": 40, "to": 60, "source": "ours"}, "seen_share": {"value": 0.8, "source": "ours"}},
+    "errors": [{"code": "A1.3", "meaning": "too <near> & deep", "hint": "draw the tip back", "points": 5.5,
+                "fail": false, "at_s": 100}]},
   "metrics": {"hands": [{"name": "left_lateral", "path_m": 0.4}, {"name": "right_lateral", "path_m": 0.5}],
               "both": {"name": "all", "path_m": 0.9, "forces": {"pull": {"max_N": 1.5, "limit_N": 4}}},
               "bimanual": {"path_ratio": 0.8}},
@@ -83,7 +91,7 @@ std::size_t count(const std::string& text, const std::string& what) {
 
 TEST(ReportPage, ShowsTheScoreWithEveryComponentAndTheirSum) {
   const std::string page = reports::report_html(report());
-  for (const char* text : {"63.5", "23.5", "-5.5", "81.5", "70.6", "29.4", "pass mark 80", "left out"})
+  for (const char* text : {"63.5", "23.5", "-5.5", "81.5", "70.6", "29.4", "pass mark 80", "not scored"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
   EXPECT_NE(page.find(">Passed<"), std::string::npos);
 }
@@ -106,6 +114,75 @@ TEST(ReportPage, NamesNobodyUnlessAsked) {
   const std::string page = reports::report_html(r);
   EXPECT_EQ(page.find("Grace"), std::string::npos);
   EXPECT_EQ(page.find("/home/"), std::string::npos) << "a path is a name, too";
+}
+
+TEST(ReportPage, SaysForEachErrorWhatWouldHaveBeenBetter) {
+  EXPECT_NE(reports::report_html(report()).find("Better: draw the tip back"), std::string::npos);
+}
+
+TEST(ReportPage, NamesLimitsInWordsWithTheirUnits) {
+  const std::string page = reports::report_html(report());
+  for (const char* text :
+       {"Speed of a tip out of view</td><td>5 mm/s<", "Time a tip may move out of view</td><td>0.2 s<",
+        "force times time</td><td>300 N s<", "Blood lost</td><td>10 mL<", "Distance from the lens</td><td>40 to 60 mm<",
+        "Share seen</td><td>80 %<"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+}
+
+TEST(ReportPage, HasNoEmptyHeadingsAndTitlesInsteadOfNames) {
+  const std::string page = reports::report_html(report());
+  EXPECT_EQ(page.find("<h3></h3>"), std::string::npos);
+  EXPECT_NE(page.find("Blood lost: 2.5 mL"), std::string::npos);
+  EXPECT_NE(page.find("<h3>Disc 6</h3>"), std::string::npos);
+  EXPECT_NE(page.find("<td>12.3°</td>"), std::string::npos);
+  EXPECT_EQ(page.find("<h3>Right</h3>"), std::string::npos) << "nothing was measured of it";
+  EXPECT_EQ(page.find("target_6"), std::string::npos);
+}
+
+TEST(ReportPage, SaysFirstThatNoExpertsHaveConfirmedTheLimits) {
+  const std::string page = reports::report_html(report());
+  EXPECT_LT(page.find("No expert group has confirmed"), page.find("<main>"));
+}
+
+TEST(ReportPage, LeavesOutRowsThatNothingWasMeasuredFor) {
+  reports::Report r = report();
+  const std::string with_hands = reports::report_html(r);
+  EXPECT_NE(with_hands.find("Instrument path length</th>"), std::string::npos);
+  EXPECT_EQ(with_hands.find("Idle time"), std::string::npos) << "no hand has this figure";
+  EXPECT_EQ(with_hands.find("Horizon error"), std::string::npos);
+  r.trace.reset();
+  r.history.clear();
+  r.result["metrics"] = {{"hands", Json::array()},
+                         {"both", {{"path_m", 0}}},
+                         {"camera", {{"path_m", 0.25}, {"horizon_mean_deg", 2.5}, {"on_target_share", 0.4}}}};
+  const std::string camera = reports::report_html(r);
+  EXPECT_EQ(camera.find("Instrument path length</th>"), std::string::npos);
+  EXPECT_NE(camera.find("Endoscope path length</th><td>mm</td><td class=\"n\">250<"), std::string::npos);
+  EXPECT_NE(camera.find("Horizon error, mean"), std::string::npos);
+  EXPECT_NE(camera.find("Time on target</th><td>%</td><td class=\"n\">40<"), std::string::npos);
+}
+
+TEST(Labels, DeriveTheUnitFromTheNamesEnding) {
+  EXPECT_EQ(reports::label_of("collision_speed_mm_s").unit, "mm/s");
+  EXPECT_EQ(reports::label_of("dry_mL_min").unit, "mL/min");
+  EXPECT_EQ(reports::label_of("my_own_limit_mm").title, "My own limit");
+  EXPECT_EQ(reports::label_of("my_own_limit_mm").unit, "mm");
+  EXPECT_EQ(reports::quantity(12, reports::label_of("clip_angle_deg")), "12°");
+  EXPECT_EQ(reports::quantity(0.345, reports::label_of("seen_share")), "34.5 %");
+  EXPECT_EQ(reports::plain_number(-52), "-52");
+  EXPECT_EQ(reports::plain_number(0.1), "0.1");
+  EXPECT_EQ(reports::plain_number(1000), "1000");
+}
+
+TEST(Timelines, GiveLongNamesOfLanesRoom) {
+  reports::Timeline t;
+  t.length = 10;
+  t.bars = {{"The uterine tube on the left side", "Cut", 0, 5}};
+  const std::string drawing = svg(t);
+  EXPECT_NE(drawing.find(">The uterine tube on the left side<"), std::string::npos);
+  const std::size_t text = drawing.find(">The uterine tube");
+  const std::size_t x = drawing.rfind("x=\"", text);
+  EXPECT_GT(std::stod(drawing.substr(x + 3)), 180) << "its end: 33 letters of about 6 px lie left of it";
 }
 
 TEST(ReportPage, NeedsNoNetwork) {
@@ -134,7 +211,7 @@ TEST(ReportPage, DrawsPathsSpeedsForcesAndTheirLimits) {
 
 TEST(ReportPage, ShowsTheLearningCurveAndTheSpreadOfEarlierAttempts) {
   const std::string page = reports::report_html(report());
-  EXPECT_NE(page.find("before (2)"), std::string::npos);
+  EXPECT_NE(page.find("Before (2)"), std::string::npos);
   EXPECT_NE(page.find("1750 (1500 to 2000)"), std::string::npos) << "path of both [mm]: median and range";
   EXPECT_NE(page.find("From 40 at first to 81.5 now, 3 attempts."), std::string::npos);
   reports::Report first = report();
@@ -147,7 +224,7 @@ TEST(ReportPage, ComparesWithTheScriptedSurgeon) {
   EXPECT_NE(reports::report_html(r).find("--compare demo"), std::string::npos);
   r.scripted = attempt(9, "scripted surgeon", 99, 0.31);
   const std::string page = reports::report_html(r);
-  EXPECT_NE(page.find("scripted surgeon</th>"), std::string::npos);
+  EXPECT_NE(page.find("Demonstration</th>"), std::string::npos);
   EXPECT_NE(page.find(">310<"), std::string::npos) << "its path [mm]";
 }
 

@@ -292,8 +292,55 @@ TEST(Metrics, AreTheSameFromAStoredTrace) {
   EXPECT_EQ(metrics_json(trace), metrics_json(trace_from_csv(to_csv(trace), "x")));
   if (const char* folder = std::getenv("TROCAR_METRICS_SAMPLE")) {  // for tools/check_metrics.py
     std::ofstream(std::string(folder) + "/trace.csv") << to_csv(trace);
-    std::ofstream(std::string(folder) + "/metrics.json") << metrics_json(trace);
+    std::ofstream(std::string(folder) + "/trace.json") << metrics_json(trace);
   }
+}
+
+/// An endoscope that rests for a second, then moves 60 mm and back while its picture tilts.
+Trace endoscope() {
+  Trace trace;
+  for (int i = 0; i < 400; ++i) {
+    const double t = std::max(0, i - 50) / 50.0;
+    trace.scope.push_back(rounded(
+        TraceScope{{0.06 * std::sin(0.5 * t), 0.01 * t, -0.1}, {0, 0, -1}, i % 7 == 0 ? 1000.0 : 8 * std::sin(t)}));
+  }
+  return trace;
+}
+
+TEST(Metrics, OfTheEndoscopeAreTheSameFromAStoredTrace) {
+  const Trace trace = endoscope();
+  EXPECT_EQ(metrics_json(trace), metrics_json(trace_from_bytes(to_bytes(trace), "x")));
+  EXPECT_EQ(metrics_json(trace), metrics_json(trace_from_csv(to_csv(trace), "x")));
+  if (const char* folder = std::getenv("TROCAR_METRICS_SAMPLE")) {
+    std::ofstream(std::string(folder) + "/camera.csv") << to_csv(trace);
+    std::ofstream(std::string(folder) + "/camera.json") << metrics_json(trace);
+  }
+}
+
+TEST(Metrics, OfTheEndoscopeFollowItsPathItsHorizonAndItsTargets) {
+  MetricsOptions options;
+  options.camera = {0.4, 2, {3, 5}};
+  const Metrics m = metrics_of(endoscope(), options);
+  EXPECT_NEAR(m.from, 1, 0.1);
+  EXPECT_GT(m.camera.path, 0.07);
+  EXPECT_LT(m.camera.path, 0.2);
+  EXPECT_NEAR(m.camera.horizon_mean, 8 * 2 / 3.14, 0.6);
+  EXPECT_GT(m.camera.horizon_p95, 7.5);
+  EXPECT_LE(m.camera.horizon_p95, 8);
+  EXPECT_EQ(m.camera.on_target, 0.4);
+  EXPECT_EQ(m.camera.lens_touches, 2);
+  EXPECT_EQ(m.camera.target_mean, 4);
+  EXPECT_EQ(m.camera.target_longest, 5);
+  EXPECT_TRUE(m.hands.empty());
+}
+
+TEST(Metrics, WithoutAHorizonTheEndoscopeHasOnlyAPath) {
+  Trace trace = endoscope();
+  for (TraceScope& s : trace.scope) s.horizon = TraceScope::kNoHorizon;
+  const Metrics m = metrics_of(trace);
+  EXPECT_TRUE(std::isnan(m.camera.horizon_mean));
+  EXPECT_TRUE(std::isnan(m.camera.horizon_p95));
+  EXPECT_GT(m.camera.path, 0.07);
 }
 
 TEST(Metrics, SensorNoiseBarelyLengthensThePath) {

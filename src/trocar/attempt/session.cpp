@@ -241,6 +241,41 @@ Json Session::result(bool interrupted) const {
   return r;
 }
 
+namespace {
+
+/// Is this error made by touching something with the lens?
+bool is_lens_touch(const training::Penalty& penalty) {
+  const scene::JsonMember* on = penalty.part.value.find("on");
+  const scene::JsonMember* event = on ? on->value.find("event") : nullptr;
+  return event && event->value.text == "lens_touched";
+}
+
+/// What the exercise tells of the endoscope. @param from  when its clock began [s]
+training::CameraWatch camera_watch(const training::Exercise& exercise, const training::Monitor& monitor, double from) {
+  training::CameraWatch watch;
+  watch.on_target = monitor.on_target_share();
+  const auto counts = [&](const training::Penalty& p) { return is_lens_touch(p); };
+  if (std::any_of(exercise.penalties.begin(), exercise.penalties.end(), counts)) {
+    watch.lens_touches = 0;
+    for (const training::ErrorMade& e : monitor.errors()) {
+      const training::Penalty* penalty = exercise.penalty(e.code);
+      if (penalty && is_lens_touch(*penalty)) ++watch.lens_touches;
+    }
+  }
+  std::vector<double> times;
+  for (const training::StepStatus& step : monitor.steps())
+    if (step.done && !step.side.empty()) times.push_back(step.at);
+  std::sort(times.begin(), times.end());
+  double before = std::max(0.0, from);
+  for (const double at : times) {
+    watch.target_seconds.push_back(std::max(0.0, at - before));
+    before = at;
+  }
+  return watch;
+}
+
+}  // namespace
+
 /// Motion is measured up to the last step that was done; an attempt that is not finished, to its end. Forces are held
 /// against the limits that its errors are held against.
 training::MetricsOptions Session::metrics_options() const {
@@ -250,6 +285,8 @@ training::MetricsOptions Session::metrics_options() const {
     pull = m_lesson.exercise->limit("pull_limit_N", pull);
     pinch = m_lesson.exercise->limit("pinch_limit_N", pinch);
   }
+  if (m_monitor && m_lesson.exercise && m_lesson.model.hands.empty())
+    options.camera = camera_watch(*m_lesson.exercise, *m_monitor, m_exercise_from);
   if (!m_monitor || !m_monitor->finished() || m_exercise_from < 0) return options;
   options.end = 0;
   for (const training::StepStatus& step : m_monitor->steps()) options.end = std::max(options.end, step.at);

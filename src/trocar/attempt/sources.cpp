@@ -13,6 +13,13 @@
 
 namespace trocar::attempt {
 
+namespace {
+
+constexpr std::uint64_t kNoteEvery = 20;  // ticks
+constexpr std::size_t kMostNoted = 5000;
+
+}  // namespace
+
 bool ReplaySource::next(const sim::State& state, sim::Input& input) {
   if (state.tick >= m_inputs.size()) return false;
   input = m_inputs[state.tick];
@@ -27,6 +34,17 @@ bool SurgeonSource::next(const sim::State& state, sim::Input& input) {
 
 void SurgeonSource::after(const sim::State& state, const sim::StepReport& report) {
   m_expert->after(m_model, state, report);
+  if (state.tick % kNoteEvery == 0) note_doing(state.tick);
+}
+
+/// For the player's captions. A pause between two skills belongs to the one before.
+void SurgeonSource::note_doing(std::uint64_t tick) {
+  std::string goal = m_expert->goal(), skill = m_expert->doing();
+  if (m_performed.size() >= kMostNoted || skill == "think" || m_expert->done()) return;
+  if (goal == m_goal && skill == m_skill) return;
+  m_goal = std::move(goal);
+  m_skill = std::move(skill);
+  m_performed.push_back({{"tick", tick}, {"goal", m_goal}, {"skill", m_skill}});
 }
 
 Json SurgeonSource::describe() const {
@@ -34,6 +52,7 @@ Json SurgeonSource::describe() const {
            {{"doing", m_expert->doing()},
             {"done", m_expert->done()},
             {"gave_up", m_expert->gave_up()},
+            {"performed", m_performed},
             {"difficulties", m_expert->difficulties()}}}};
 }
 

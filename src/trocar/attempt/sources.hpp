@@ -60,8 +60,12 @@ class SurgeonSource : public InputSource {
   Json describe() const override;
 
  private:
+  void note_doing(std::uint64_t tick);
+
   const sim::Model& m_model;
   std::unique_ptr<training::Expert> m_expert;
+  Json m_performed = Json::array();  ///< goal and skill from a tick on
+  std::string m_goal, m_skill;       ///< as noted last
 };
 
 /// How a hand of a motion file comes into the scene: a rotation and a shift, scale 1.

@@ -83,6 +83,18 @@ const TimelineMark* previous_mark(const std::vector<TimelineMark>& marks, std::u
   return here == marks.begin() ? nullptr : &*std::prev(here);
 }
 
+const TimelineMark* next_mark(const std::vector<TimelineMark>& marks, std::uint64_t tick, TimelineMark::Kind kind) {
+  for (const TimelineMark& m : marks)
+    if (m.tick > tick && m.kind == kind) return &m;
+  return nullptr;
+}
+
+const TimelineMark* previous_mark(const std::vector<TimelineMark>& marks, std::uint64_t tick, TimelineMark::Kind kind) {
+  for (auto m = marks.rbegin(); m != marks.rend(); ++m)
+    if (m->tick < tick && m->kind == kind) return &*m;
+  return nullptr;
+}
+
 std::string clock_text(std::uint64_t tick) {
   return fmt::format("{}:{:02}.{:03}", tick / 60'000, tick / 1000 % 60, tick % 1000);
 }

@@ -58,6 +58,9 @@ void sort_marks(std::vector<TimelineMark>& marks);
 /// The first mark after `tick`, or the last one before it; null where there is none. `marks` sorted.
 const TimelineMark* next_mark(const std::vector<TimelineMark>& marks, std::uint64_t tick);
 const TimelineMark* previous_mark(const std::vector<TimelineMark>& marks, std::uint64_t tick);
+/// The same among the marks of one kind.
+const TimelineMark* next_mark(const std::vector<TimelineMark>& marks, std::uint64_t tick, TimelineMark::Kind kind);
+const TimelineMark* previous_mark(const std::vector<TimelineMark>& marks, std::uint64_t tick, TimelineMark::Kind kind);
 
 /// "1:02.345"
 std::string clock_text(std::uint64_t tick);

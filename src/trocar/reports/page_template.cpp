@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/reports/page_template.hpp>
 
 namespace trocar::reports {
@@ -12,7 +13,8 @@ using Text = std::string_view;
 
 /// A mark between braces, and what stands before it.
 struct Tag {
-  char kind = 0;  ///< '#', '^', '/', '>', '!', '{' (as it is), 'v' (a value), 0: there is none, only text
+  char kind =
+      0;  ///< '#', '^', '/', '>', '!', '_' (translated), '{' (as it is), 'v' (a value), 0: there is none, only text
   Text before, name;
 };
 
@@ -50,10 +52,10 @@ Tag next_tag(Text& rest, bool begins) {
   rest.remove_prefix(close + closing.size());
   if (raw) {
     tag.kind = '{';
-  } else if (!tag.name.empty() && Text("#^/>!").find(tag.name[0]) != Text::npos) {
+  } else if (!tag.name.empty() && Text("#^/>!_").find(tag.name[0]) != Text::npos) {
     tag.kind = tag.name[0];
     tag.name.remove_prefix(1);
-    take_line(tag.before, rest, begins);
+    if (tag.kind != '_') take_line(tag.before, rest, begins);
   }
   tag.name = trimmed(tag.name);
   return tag;
@@ -121,10 +123,13 @@ void fill_into(std::string& out, Text page, Scopes& scopes) {
   for (Text rest = page; !rest.empty();) {
     const Tag tag = next_tag(rest, rest.data() == page.data());
     out += tag.before;
-    const Json* value = tag.kind == 0 || tag.kind == '!' || tag.kind == '>' ? nullptr : look_up(scopes, tag.name);
+    const Json* value = Text("!>_").find(tag.kind) != Text::npos || tag.kind == 0 ? nullptr : look_up(scopes, tag.name);
     switch (tag.kind) {
       case 'v':
         out += escaped(as_text(value));
+        break;
+      case '_':
+        out += escaped(tr(std::string(tag.name).c_str()));
         break;
       case '{':
         out += as_text(value);

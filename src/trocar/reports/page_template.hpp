@@ -7,6 +7,7 @@
 //   {{^name}} .. {{/name}}  once, where the section above would not come
 //   {{.}}                   the element itself
 //   {{>file.html}}          another template, filled from where it stands
+//   {{_ words }}            the words in the reader's language, escaped
 //   {{! words }}            nothing
 // Section marks, comments and templates that stand alone on a line leave no line behind.
 //

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <trocar/core/hash.hpp>
+#include <trocar/core/text.hpp>
+#include <trocar/reports/labels.hpp>
 #include <trocar/reports/report_data.hpp>
 #include <trocar/reports/report_metrics.hpp>
 #include <trocar/reports/report_motion.hpp>
@@ -26,15 +28,10 @@ bool true_in(const Json& object, const char* key) {
 
 std::string points(double p) { return fmt::format("{:.1f}", std::fabs(p) < 0.05 ? 0.0 : p); }
 
-/// "clip_distance_mm" -> "clip distance [mm]"
-std::string words(std::string key) {
-  std::string unit;
-  const std::size_t last = key.rfind('_');
-  for (const char* known : {"mm", "deg", "s", "N"})
-    if (last != std::string::npos && key.substr(last + 1) == known) unit = fmt::format(" [{}]", known);
-  if (!unit.empty()) key.resize(last);
-  std::replace(key.begin(), key.end(), '_', ' ');
-  return key + unit;
+/// The title of a set's element as the exercise's file gives it: "Disc 6" for "target_6".
+std::string element_title(const Report& r, const std::string& name) {
+  const std::string title = text_in(part_of(part_of(r.result, "assessment"), "elements"), name.c_str());
+  return in_plain_words(title.empty() ? name : title, true);
 }
 
 // --- what it was, and how it ended ---
@@ -46,19 +43,21 @@ struct Verdict {
 Verdict verdict_of(const Report& r) {
   switch (r.attempt.state) {
     case training::AttemptState::interrupted:
-      return {"", "Interrupted"};
+      return {"", tr("Interrupted")};
     case training::AttemptState::running:
-      return {"", "Still running"};
+      return {"", tr("Still running")};
     case training::AttemptState::aborted:
-      return {"", "Ended before it was done"};
+      return {"", tr("Ended early")};
     case training::AttemptState::finished:
       break;
   }
-  if (r.result.contains("failure")) return {"", "The simulation failed"};
+  if (r.result.contains("failure")) return {"", tr("The simulation failed")};
   const Json& passed = part_of(r.result, "passed");
   if (!passed.is_boolean())
-    return {"", r.attempt.mode == training::AttemptMode::familiarisation ? "Familiarisation" : "Practice"};
-  return passed.get<bool>() ? Verdict{"passed", "Passed"} : Verdict{"failed", "Not passed"};
+    return {"", r.attempt.mode == training::AttemptMode::familiarisation ? tr("Familiarisation")
+                : r.attempt.mode == training::AttemptMode::demonstration ? tr("Demonstration")
+                                                                         : tr("Practice")};
+  return passed.get<bool>() ? Verdict{"passed", tr("Passed")} : Verdict{"failed", tr("Not passed")};
 }
 
 /// What a page says in a row, with dots between.
@@ -75,16 +74,22 @@ class Dotted {
   Json m_list = Json::array();
 };
 
+const char* mode_in_words(const Report& r) {
+  if (r.attempt.mode == training::AttemptMode::familiarisation) return tr("familiarisation, no score");
+  if (r.attempt.mode == training::AttemptMode::demonstration) return tr("demonstration");
+  return part_of(r.result, "passed").is_boolean() ? tr("with score") : tr("free practice");
+}
+
 Json facts(const Report& r) {
   Dotted facts;
-  if (r.attempt.number > 0) facts.add(fmt::format("Attempt {}", r.attempt.number));
+  if (r.attempt.number > 0) facts.add(tr("Attempt {}", r.attempt.number));
   if (r.names && !r.attempt.trainee.empty()) facts.add(r.attempt.trainee);
   facts.add(r.attempt.exercise);
-  facts.add(name_of(r.attempt.mode));
-  facts.add(r.attempt.seed == 0 ? "anatomy as drawn" : fmt::format("anatomy {}", r.attempt.seed));
+  facts.add(mode_in_words(r));
+  facts.add(r.attempt.seed == 0 ? tr("standard patient") : tr("random patient {}", r.attempt.seed));
   const Json& anatomy = part_of(part_of(r.result, "assessment"), "anatomy");
   if (anatomy.is_object()) facts.add(text_in(anatomy, "title"));
-  if (!r.attempt.input.empty()) facts.add("by " + r.attempt.input.substr(0, r.attempt.input.find(':')));
+  if (!r.attempt.input.empty()) facts.add(tr("input: {}", r.attempt.input.substr(0, r.attempt.input.find(':'))));
   if (!r.attempt.started.empty()) facts.add(r.attempt.started);
   return std::move(facts).list();
 }
@@ -99,10 +104,10 @@ Json verdict(const Report& r) {
   }
   const bool timed = r.result.contains("exercise_seconds");
   out["time"] = minutes(timed ? real_in(r.result, "exercise_seconds") : r.attempt.seconds);
-  out["time_is"] = timed ? "min:s" : "min:s simulated";
+  out["time_is"] = timed ? tr("min:s duration") : tr("min:s simulated");
   if (const Json& errors = part_of(part_of(r.result, "assessment"), "errors"); errors.is_array()) {
     out["errors"] = std::to_string(errors.size());
-    out["errors_are"] = errors.size() == 1 ? "error" : "errors";
+    out["errors_are"] = errors.size() == 1 ? tr("error") : tr("errors");
   }
   return out;
 }
@@ -122,27 +127,27 @@ Json score(const Report& r) {
   if (!s.is_object()) return nullptr;
   if (!s.contains("total")) return {{"note", text_in(s, "note")}};
   const Json &got = part_of(s, "points"), &most = part_of(s, "points_at_most");
-  const std::pair<const char*, const char*> kParts[] = {
-      {"quality", "steps done, weighted as the exercise says"},
-      {"time", "full marks at the expert's time, none at the longest allowed; none before the exercise is done"},
-      {"motion", "motion against a reference group"}};
+  struct Part {
+    const char *key, *title, *what;
+  };
+  const Part kParts[] = {
+      {"quality", tr("Quality"), tr("share of the steps that were completed, weighted by the exercise")},
+      {"time", tr("Time bonus"),
+       tr("all points at the expert time, none at the longest time; none before the last step is completed")},
+      {"motion", tr("Motion"), tr("not scored: there is no reference group yet")}};
   Json rows = Json::array();
   double sum = 0;
-  for (const auto& [key, what] : kParts) {
+  for (const auto& [key, title, what] : kParts) {
     if (got.is_object() && got.contains(key)) {
       sum += real_in(got, key);
-      rows.push_back(
-          score_row(key, fmt::format("{:.0f} %", 100 * real_in(s, key)), real_in(got, key), real_in(most, key), what));
+      rows.push_back(score_row(title, fmt::format("{:.0f} %", 100 * real_in(s, key)), real_in(got, key),
+                               real_in(most, key), what));
     } else if (s.contains(key) && s[key].is_null()) {
-      rows.push_back({{"name", key},
-                      {"reached", "–"},
-                      {"points", "–"},
-                      {"most", "–"},
-                      {"how", fmt::format("{}: left out, there is no reference group yet", what)}});
+      rows.push_back({{"name", title}, {"reached", "–"}, {"points", "–"}, {"most", "–"}, {"how", what}});
     }
   }
   const double penalties = real_in(s, "penalties"), total = real_in(s, "total");
-  rows.push_back(score_row("penalties", "", -penalties, 0, "points of all errors, below"));
+  rows.push_back(score_row(tr("Errors"), "", -penalties, 0, tr("points of all errors, see below")));
   const bool clamped = std::fabs(sum - penalties - total) > 0.05;
   return {{"table", {{"rows", rows}, {"total", points(total)}, {"sum", clamped ? points(sum - penalties) : ""}}},
           {"failed_by_error", true_in(s, "failed_by_error")}};
@@ -150,7 +155,7 @@ Json score(const Report& r) {
 
 // --- steps and errors ---
 
-Json steps(const Json& list) {
+Json steps(const Report& r, const Json& list) {
   if (!list.is_array() || list.empty()) return nullptr;
   std::vector<double> times;
   for (const Json& s : list)
@@ -160,11 +165,11 @@ Json steps(const Json& list) {
   for (const Json& s : list) {
     const bool done = true_in(s, "done"), missed = true_in(s, "missed");
     Json row{{"name", text_in(s, "name")},
-             {"side", text_in(s, "side")},
+             {"side", element_title(r, text_in(s, "side"))},
              {"class", done ? "good-text" : "bad-text"},
-             {"done", done     ? "✓ yes"
-                      : missed ? "✗ missed"
-                               : "✗ no"}};
+             {"done", done     ? tr("✓ yes")
+                      : missed ? tr("✗ missed")
+                               : tr("✗ no")}};
     if (done) {
       const double t = real_in(s, "at_s");
       const auto here = std::lower_bound(times.begin(), times.end(), t);
@@ -188,30 +193,28 @@ Json timeline(const Report& r, const Json& step_list, const Json& error_list) {
   double before = 0;  // a step may be done before an instrument moved
   for (const auto& [at, s] : done) {
     const std::string side = text_in(*s, "side");
-    std::string name = text_in(*s, "step");
-    if (name.empty()) name = text_in(*s, "name");
-    t.bars.push_back({side.empty() ? "steps" : side + " side", name, before, at});
+    t.bars.push_back({side.empty() ? tr("Steps") : element_title(r, side), text_in(*s, "name"), before, at});
     before = at;
   }
   if (error_list.is_array())
     for (const Json& e : error_list)
-      t.errors.push_back(
-          {real_in(e, "at_s"),
-           fmt::format("{} at {}: {}", text_in(e, "code"), minutes(real_in(e, "at_s")), text_in(e, "meaning")), true});
+      t.errors.push_back({real_in(e, "at_s"),
+                          tr("{} at {}: {}", text_in(e, "code"), minutes(real_in(e, "at_s")), text_in(e, "meaning")),
+                          true});
   const Json& moments = part_of(r.result, "moments");
   if (moments.is_array())
     for (const Json& m : moments) {
       const std::string what = text_in(m, "what");
       if (what == "step-done" || what == "error") continue;
       const double at = real_in(m, "tick") * sim::kTick;
-      if (at >= 0) t.events.push_back({at, fmt::format("{} at {}", text_in(m, "text"), minutes(at)), false});
+      if (at >= 0) t.events.push_back({at, tr("{} at {}", text_in(m, "text"), minutes(at)), false});
     }
   if (t.bars.empty() && t.errors.empty() && t.events.empty()) return nullptr;
   for (const PlotMark& m : t.errors) t.length = std::max(t.length, m.x);
   return svg(t);
 }
 
-Json errors(const Json& list) {
+Json errors(const Report& r, const Json& list) {
   if (!list.is_array()) return nullptr;
   Json rows = Json::array();
   double sum = 0;
@@ -220,8 +223,9 @@ Json errors(const Json& list) {
     rows.push_back({{"code", text_in(e, "code")},
                     {"meaning", text_in(e, "meaning")},
                     {"detail", text_in(e, "detail")},
+                    {"better", text_in(e, "hint")},
                     {"fail", true_in(e, "fail")},
-                    {"side", text_in(e, "side")},
+                    {"side", element_title(r, text_in(e, "side"))},
                     {"at", minutes(real_in(e, "at_s"))},
                     {"points", points(real_in(e, "points"))}});
   }
@@ -230,17 +234,13 @@ Json errors(const Json& list) {
 
 // --- what was measured of each side, and against which thresholds ---
 
-std::string shown(const Json& v) {
+std::string shown(const Json& v, const Label& label) {
   if (v.is_string()) return v.get<std::string>();
-  if (v.is_boolean()) return v.get<bool>() ? "yes" : "no";
-  if (v.is_number_float()) return fmt::format("{:.4g}", v.get<double>());
-  if (v.is_object()) {
-    std::string out;
-    for (const auto& [key, value] : v.items())
-      out += fmt::format("{}{} {}", out.empty() ? "" : ", ", key, shown(value));
-    return out;
-  }
-  return v.is_null() ? "–" : v.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (v.is_boolean()) return v.get<bool>() ? tr("yes") : tr("no");
+  if (v.is_number()) return quantity(v.get<double>(), label);
+  if (v.is_object() && v.contains("from") && v.contains("to") && v["from"].is_number() && v["to"].is_number())
+    return quantity(v["from"].get<double>(), v["to"].get<double>(), label);
+  return v.is_null() || v.is_structured() ? "–" : v.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 /// Rows of objects with (mostly) the same keys, for table.html.
@@ -250,10 +250,10 @@ Json table(const Json& rows, const std::string& caption) {
     for (const auto& [key, value] : row.items())
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
   Json columns = Json::array(), lines = Json::array();
-  for (const std::string& key : keys) columns.push_back(words(key));
+  for (const std::string& key : keys) columns.push_back(label_of(key).title);
   for (const Json& row : rows) {
     Json cells = Json::array();
-    for (const std::string& key : keys) cells.push_back(row.contains(key) ? shown(row[key]) : "");
+    for (const std::string& key : keys) cells.push_back(row.contains(key) ? shown(row[key], label_of(key)) : "");
     lines.push_back({{"cells", cells}});
   }
   return {{"caption", caption}, {"columns", columns}, {"lines", lines}};
@@ -263,7 +263,7 @@ bool is_table(const Json& v) {
   return v.is_array() && !v.empty() && std::all_of(v.begin(), v.end(), [](const Json& x) { return x.is_object(); });
 }
 
-Json sides(const Json& list) {
+Json sides(const Report& r, const Json& list) {
   if (!is_table(list)) return nullptr;
   Json out = Json::array();
   for (const Json& side : list) {
@@ -271,14 +271,20 @@ Json sides(const Json& list) {
     Dotted facts;
     for (const auto& [key, value] : side.items()) {
       if (key == "side") continue;
+      const Label label = label_of(key);
       if (is_table(value))
-        tables.push_back(table(value, key));
+        tables.push_back(table(value, label.title));
       else if (!value.is_array())
-        facts.put({{"name", words(key)}, {"value", shown(value)}});
+        facts.put({{"name", label.title}, {"value", shown(value, label)}});
     }
-    out.push_back({{"side", text_in(side, "side")}, {"facts", std::move(facts).list()}, {"tables", tables}});
+    Json all = std::move(facts).list();
+    if (all.empty() && tables.empty()) continue;
+    out.push_back({{"side", element_title(r, text_in(side, "side"))},
+                   {"has_facts", !all.empty()},
+                   {"facts", all},
+                   {"tables", tables}});
   }
-  return {{"list", out}};
+  return out.empty() ? Json() : Json{{"list", out}};
 }
 
 Json thresholds(const Json& assessment) {
@@ -286,14 +292,13 @@ Json thresholds(const Json& assessment) {
   if (!t.is_object() || t.empty()) return nullptr;
   Json rows = Json::array();
   for (const auto& [key, v] : t.items()) {
-    const std::string value = v.contains("value")  ? shown(v["value"])
-                              : v.contains("from") ? shown(v["from"]) + " to " + shown(part_of(v, "to"))
-                                                   : shown(v);
-    rows.push_back({{"name", words(key)}, {"value", value}, {"source", text_in(v, "source")}});
+    const Label label = label_of(key);
+    const std::string value = v.contains("value") ? shown(v["value"], label) : shown(v, label);
+    rows.push_back({{"name", label.title}, {"value", value}, {"source", text_in(v, "source")}});
   }
   const Json& later = part_of(assessment, "not_assessed");
   return {{"rows", rows},
-          {"not_assessed", is_table(later) ? table(later, "Errors that are not looked for yet") : Json()}};
+          {"not_assessed", is_table(later) ? table(later, tr("Errors that are not detected yet")) : Json()}};
 }
 
 // --- pictures, notices, foot ---
@@ -309,7 +314,8 @@ Json moments(const Report& r) {
 Json notices(const Json& result) {
   const Json& list = part_of(result, "notices");
   if (!list.is_array() || list.empty()) return nullptr;
-  return {{"count", fmt::format("{} {}", list.size(), list.size() == 1 ? "thing was" : "things were")}};
+  return {{"count", list.size() == 1 ? std::string(tr("There was one message about storing this attempt."))
+                                     : tr("There were {} messages about storing this attempt.", list.size())}};
 }
 
 Json foot(const Report& r) {
@@ -338,10 +344,10 @@ Json page_data(const Report& r) {
           {"failure", text_in(r.result, "failure")},
           {"score", score(r)},
           {"timeline", timeline(r, part_of(a, "steps"), part_of(a, "errors"))},
-          {"steps", steps(part_of(a, "steps"))},
-          {"errors", errors(part_of(a, "errors"))},
+          {"steps", steps(r, part_of(a, "steps"))},
+          {"errors", errors(r, part_of(a, "errors"))},
           {"pictures", moments(r)},
-          {"sides", sides(part_of(a, "details"))},
+          {"sides", sides(r, part_of(a, "details"))},
           {"motion", motion_data(r)},
           {"metrics", metrics_data(r)},
           {"learning", learning_data(r)},

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/reports/export.hpp>
+#include <trocar/reports/labels.hpp>
 #include <trocar/reports/report_data.hpp>
 #include <trocar/reports/report_metrics.hpp>
 #include <trocar/reports/report_svg.hpp>
@@ -21,35 +23,44 @@ struct Row {
 };
 
 constexpr Row kRows[] = {
-    {"path_m", "path length", "mm", 1000, "less"},
-    {"economy", "economy of motion", "", 1, "more"},
-    {"depth_m", "travel along the shaft", "mm", 1000, "less"},
-    {"depth_reversals_near_target", "reversals near a target", "", 1, "less"},
-    {"angular_path_rad", "turning", "rad", 1, "less"},
-    {"ldlj", "smoothness, LDLJ", "", 1, "closer to 0"},
-    {"sparc", "smoothness, SPARC", "", 1, "closer to 0"},
-    {"movements", "movements", "", 1, "less"},
-    {"idle_fraction", "idle", "%", 100, ""},
-    {"mean_speed_m_per_s", "mean speed", "mm/s", 1000, ""},
-    {"peak_speed_m_per_s", "peak speed", "mm/s", 1000, ""},
-    {"forces/pull/max_N", "largest pull", "N", 1, "less"},
-    {"forces/pull/rms_N", "pull, root mean square", "N", 1, ""},
-    {"forces/pull/impulse_Ns", "pull, over time", "N s", 1, "less"},
-    {"forces/pull/above_limit_s", "pull above its limit", "s", 1, "less"},
-    {"forces/pinch/max_N", "largest pinch", "N", 1, "less"},
-    {"forces/pinch/above_limit_s", "pinch above its limit", "s", 1, "less"},
-    {"forces/contact/max_N", "largest contact", "N", 1, "less"},
-    {"forces/contact/impulse_Ns", "contact, over time", "N s", 1, "less"},
+    {"path_m", "Instrument path length", "mm", 1000, "lower"},
+    {"economy", "Economy of motion", "", 1, "higher"},
+    {"depth_m", "Travel along the shaft", "mm", 1000, "lower"},
+    {"depth_reversals_near_target", "Reversals near a target", "", 1, "lower"},
+    {"angular_path_rad", "Rotation", "rad", 1, "lower"},
+    {"ldlj", "Smoothness, log dimensionless jerk", "", 1, "closer to 0"},
+    {"sparc", "Smoothness, spectral arc length", "", 1, "closer to 0"},
+    {"movements", "Number of movements", "", 1, "lower"},
+    {"idle_fraction", "Idle time", "%", 100, ""},
+    {"mean_speed_m_per_s", "Mean speed", "mm/s", 1000, ""},
+    {"peak_speed_m_per_s", "Peak speed", "mm/s", 1000, ""},
+    {"forces/pull/max_N", "Largest pull", "N", 1, "lower"},
+    {"forces/pull/rms_N", "Pull, root mean square", "N", 1, ""},
+    {"forces/pull/impulse_Ns", "Pull, force times time", "N s", 1, "lower"},
+    {"forces/pull/above_limit_s", "Time with pull above its limit", "s", 1, "lower"},
+    {"forces/pinch/max_N", "Largest pinch", "N", 1, "lower"},
+    {"forces/pinch/above_limit_s", "Time with pinch above its limit", "s", 1, "lower"},
+    {"forces/contact/max_N", "Largest contact force", "N", 1, "lower"},
+    {"forces/contact/impulse_Ns", "Contact, force times time", "N s", 1, "lower"},
 };
 constexpr Row kWhole[] = {
-    {"exercise_seconds", "time", "s", 1, "less"},
-    {"metrics/bimanual/path_ratio", "shorter path to longer", "", 1, ""},
-    {"metrics/bimanual/simultaneous_fraction", "both hands moving", "%", 100, "more"},
-    {"metrics/bimanual/speed_correlation", "correlation of speeds", "", 1, ""},
+    {"exercise_seconds", "Duration", "s", 1, "lower"},
+    {"metrics/camera/path_m", "Endoscope path length", "mm", 1000, "lower"},
+    {"metrics/camera/horizon_mean_deg", "Horizon error, mean", "°", 1, "lower"},
+    {"metrics/camera/horizon_p95_deg", "Horizon error, 95th percentile", "°", 1, "lower"},
+    {"metrics/camera/on_target_share", "Time on target", "%", 100, "higher"},
+    {"metrics/camera/lens_touches", "Lens touches", "", 1, "lower"},
+    {"metrics/camera/seconds_per_target", "Time per target, mean", "s", 1, "lower"},
+    {"metrics/camera/slowest_target_s", "Time per target, longest", "s", 1, "lower"},
+    {"metrics/bimanual/path_ratio", "Shorter path to longer path", "", 1, ""},
+    {"metrics/bimanual/simultaneous_fraction", "Both hands moving", "%", 100, "higher"},
+    {"metrics/bimanual/speed_correlation", "Correlation of speeds", "", 1, ""},
 };
 
+constexpr const char* kNothing = "–";
+
 std::string number(std::optional<double> v, double scale) {
-  if (!v || !std::isfinite(*v)) return "–";
+  if (!v || !std::isfinite(*v)) return kNothing;
   const double x = *v * scale;
   if (x == std::round(x) && std::fabs(x) < 1e6) return fmt::format("{:.0f}", x);
   return std::fabs(x) >= 100  ? fmt::format("{:.0f}", x)
@@ -59,13 +70,12 @@ std::string number(std::optional<double> v, double scale) {
 
 /// Median and range of the attempts before this one.
 std::string spread(std::vector<double> values, double scale) {
-  if (values.empty()) return "–";
+  if (values.empty()) return kNothing;
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   const double median = n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
   if (n == 1) return number(median, scale);
-  return fmt::format("{} ({} to {})", number(median, scale), number(values.front(), scale),
-                     number(values.back(), scale));
+  return tr("{} ({} to {})", number(median, scale), number(values.front(), scale), number(values.back(), scale));
 }
 
 struct Earlier {
@@ -78,7 +88,7 @@ struct Earlier {
   }
 };
 
-/// A row of the table: each hand's, all together, what there was before, the scripted surgeon's.
+/// A row of the table: each hand's, all together, what there was before, the demonstration's.
 class Rows {
  public:
   Rows(const Report& report, const Earlier& earlier, const std::optional<Json>& scripted, std::size_t hands)
@@ -93,7 +103,10 @@ class Rows {
     cells.push_back(number(number_in(m_report.result, pointer), row.scale));
     if (!m_earlier.results.empty()) cells.push_back(spread(m_earlier.all(pointer), row.scale));
     if (m_scripted) cells.push_back(number(number_in(*m_scripted, pointer), row.scale));
-    m_rows.push_back({{"name", row.name}, {"unit", row.unit}, {"cells", cells}, {"better", row.better}});
+    const bool empty = std::all_of(cells.begin(), cells.end(), [](const Json& c) { return c == "" || c == kNothing; });
+    if (empty) return;  // this scene has nothing to measure for it
+    m_rows.push_back(
+        {{"name", tr(row.name)}, {"unit", row.unit}, {"cells", cells}, {"better", *row.better ? tr(row.better) : ""}});
   }
   Json list() && { return std::move(m_rows); }
 
@@ -113,8 +126,8 @@ struct Curve {
 Json curve(const Report& r, const Curve& c, int emphasised) {
   Plot p;
   p.id = c.id;
-  p.title = fmt::format("{} over attempts", c.title);
-  p.x_label = "attempt";
+  p.title = tr("{} over attempts", c.title);
+  p.x_label = tr("Attempt");
   p.y_label = *c.unit ? fmt::format("{} [{}]", c.title, c.unit) : c.title;
   p.points = p.whole_x = true;
   p.emphasised = emphasised;
@@ -129,9 +142,9 @@ Json curve(const Report& r, const Curve& c, int emphasised) {
     last = c.values[i];
   }
   if (!std::isfinite(first)) return nullptr;
-  p.description = fmt::format("From {:.4g} at first to {:.4g} now, {} attempts.", first, last, c.values.size());
+  p.description = tr("From {:.4g} at first to {:.4g} now, {} attempts.", first, last, c.values.size());
   if (std::string_view(c.id) == "curve-score")
-    if (const auto mark = number_in(r.result, "/assessment/score/pass_mark")) p.levels = {{*mark, "pass mark"}};
+    if (const auto mark = number_in(r.result, "/assessment/score/pass_mark")) p.levels = {{*mark, tr("Pass mark")}};
   p.series.push_back(std::move(s));
   return {{"drawing", svg(p)}, {"title", c.title}};
 }
@@ -147,23 +160,34 @@ Json metrics_data(const Report& r) {
   if (r.scripted) scripted = result_of(*r.scripted);
   Json hands = Json::array();
   if (const Json& list = part_of(r.result["metrics"], "hands"); list.is_array())
-    for (const Json& hand : list) hands.push_back(text_in(hand, "name"));
+    for (const Json& hand : list) hands.push_back(in_plain_words(text_in(hand, "name"), true));
 
   Rows rows(r, earlier, scripted, hands.size());
   for (const Row& row : kWhole) rows.add(row, std::string("/") + row.key, false);
-  for (const Row& row : kRows) rows.add(row, std::string("/metrics/both/") + row.key, true);
-  if (scripted) rows.add({"", "score", "of 100", 1, "more"}, "/assessment/score/total", false);
+  if (!hands.empty())  // without instruments all of these would be 0
+    for (const Row& row : kRows) rows.add(row, std::string("/metrics/both/") + row.key, true);
+  if (scripted) rows.add({"", "Score", "of 100 points", 1, "higher"}, "/assessment/score/total", false);
   return {{"hands", hands},
           {"before", earlier.results.empty() ? "" : std::to_string(earlier.results.size())},
           {"scripted", scripted ? std::to_string(r.scripted->number) : ""},
           {"rows", std::move(rows).list()}};
 }
 
+namespace {
+
+bool has_hands(const Json& result) {
+  const Json& hands = part_of(part_of(result, "metrics"), "hands");
+  return hands.is_array() && !hands.empty();
+}
+
+}  // namespace
+
 Json learning_data(const Report& r) {
   if (r.history.size() < 2) return nullptr;
   const double none = std::numeric_limits<double>::quiet_NaN();
-  Curve curves[] = {
-      {"curve-score", "score", "", {}}, {"curve-time", "time", "s", {}}, {"curve-path", "path length", "mm", {}}};
+  Curve curves[] = {{"curve-score", tr("Score"), tr("points"), {}},
+                    {"curve-time", tr("Duration"), "s", {}},
+                    {"curve-path", tr("Instrument path length"), "mm", {}}};
   int here = -1;
   for (std::size_t i = 0; i < r.history.size(); ++i) {
     const training::Attempt& a = r.history[i];
@@ -173,7 +197,8 @@ Json learning_data(const Report& r) {
     const Json::json_pointer finished("/assessment/finished");
     const bool whole = result.contains(finished) && result[finished] == true;
     curves[1].values.push_back(whole ? number_in(result, "/exercise_seconds").value_or(none) : none);
-    curves[2].values.push_back(whole ? 1000 * number_in(result, "/metrics/both/path_m").value_or(none) : none);
+    curves[2].values.push_back(
+        whole && has_hands(result) ? 1000 * number_in(result, "/metrics/both/path_m").value_or(none) : none);
     if (a.uuid == r.attempt.uuid) here = int(i);
   }
   Json drawn = Json::array();

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
+#include <trocar/reports/labels.hpp>
 #include <trocar/reports/report_motion.hpp>
 #include <trocar/reports/report_svg.hpp>
 #include <trocar/training/metrics/metrics.hpp>
@@ -20,6 +22,8 @@ constexpr std::size_t kPathPoints = 1500;  // of a path on the page
 constexpr double kLeastShown = 0.1;        // [N] forces below are not worth a curve
 
 double size_of(Vec3d v) { return length(v); }
+
+std::string hand_title(const Trace& trace, std::size_t hand) { return in_plain_words(trace.hands[hand].name, true); }
 
 /// Every so many samples, so that no path has more than kPathPoints.
 std::size_t stride_of(const Trace& trace) { return trace.size() / kPathPoints + 1; }
@@ -49,21 +53,21 @@ Json views(const Trace& trace, const Box& box) {
     double sign;
   };
   static constexpr View kViews[] = {
-      {"view-front", "From in front of the patient", "patient's left", "cranial", &Vec3d::x, &Vec3d::y, 1},
-      {"view-feet", "From the patient's feet", "patient's left", "anterior", &Vec3d::x, &Vec3d::z, 1},
-      {"view-side", "From the patient's left", "cranial", "anterior", &Vec3d::y, &Vec3d::z, 1}};
+      {"view-front", "From the front", "patient's left", "cranial", &Vec3d::x, &Vec3d::y, 1},
+      {"view-feet", "From the feet", "patient's left", "anterior", &Vec3d::x, &Vec3d::z, 1},
+      {"view-side", "From the left", "cranial", "anterior", &Vec3d::y, &Vec3d::z, 1}};
   Json out = Json::array();
   for (const View& v : kViews) {
     Projection p;
     p.id = v.id;
-    p.title = v.title;
-    p.description = "Paths of the instruments' tips, seen along one axis.";
-    p.right = v.right;
-    p.up = v.up;
+    p.title = tr(v.title);
+    p.description = tr("Paths of the instrument tips, seen along one axis.");
+    p.right = tr(v.right);
+    p.up = tr(v.up);
     p.low[0] = box.low.*v.x, p.high[0] = box.high.*v.x;
     p.low[1] = box.low.*v.y, p.high[1] = box.high.*v.y;
     for (std::size_t h = 0; h < trace.hands.size(); ++h) {
-      Series s{trace.hands[h].name, {}, {}, int(h % 6)};
+      Series s{hand_title(trace, h), {}, {}, int(h % 6)};
       for (std::size_t i = 0; i < trace.size(); i += stride_of(trace)) {
         const Vec3d tip = mm(trace.hands[h].samples[i].tip);
         s.x.push_back(v.sign * tip.*v.x);
@@ -71,7 +75,7 @@ Json views(const Trace& trace, const Box& box) {
       }
       p.paths.push_back(std::move(s));
     }
-    out.push_back({{"drawing", svg(p)}, {"title", v.title}});
+    out.push_back({{"drawing", svg(p)}, {"title", tr(v.title)}});
   }
   return out;
 }
@@ -118,19 +122,19 @@ std::vector<PlotMark> error_marks(const Json& result) {
 std::string speeds(const Report& r, const std::vector<double>& t) {
   Plot p;
   p.id = "speed";
-  p.title = "Speed of each instrument's tip";
-  p.x_label = "time since the start [s]";
-  p.y_label = "speed [mm/s]";
+  p.title = tr("Speed of each instrument tip");
+  p.x_label = tr("Time since the start [s]");
+  p.y_label = tr("Speed [mm/s]");
   p.x_from = std::min(0.0, t.front());
   p.x_to = t.back();
   double fastest = 0;
   for (std::size_t h = 0; h < r.trace->hands.size(); ++h) {
-    Series s{r.trace->hands[h].name, t, training::filtered_motion(r.trace->hands[h], r.trace->rate).speed, int(h % 6)};
+    Series s{hand_title(*r.trace, h), t, training::filtered_motion(r.trace->hands[h], r.trace->rate).speed, int(h % 6)};
     for (double& v : s.y) fastest = std::max(fastest, v *= 1000);
     p.series.push_back(std::move(s));
   }
-  p.description = fmt::format("Up to {:.0f} mm/s. Smoothed at {:.0f} Hz.", fastest, training::kMotionCutoff);
-  p.levels = {{1000 * training::kMovingSpeed, "moving"}};
+  p.description = tr("Up to {:.0f} mm/s. Smoothed at {:.0f} Hz.", fastest, training::kMotionCutoff);
+  p.levels = {{1000 * training::kMovingSpeed, tr("moving")}};
   p.marks = error_marks(r.result);
   return svg(p);
 }
@@ -141,7 +145,7 @@ Json forces(const Report& r, const std::vector<double>& t) {
     double (*size)(const training::TraceSample&);
   };
   static constexpr Kind kKinds[] = {
-      {"pull", "Pull", "of held tissue on the jaws", [](const training::TraceSample& s) { return size_of(s.pull); }},
+      {"pull", "Pull", "of grasped tissue on the jaws", [](const training::TraceSample& s) { return size_of(s.pull); }},
       {"pinch", "Pinch", "between the jaws", [](const training::TraceSample& s) { return s.pinch; }},
       {"contact", "Contact", "of touched tissue on the instrument",
        [](const training::TraceSample& s) { return size_of(s.contact); }}};
@@ -149,15 +153,15 @@ Json forces(const Report& r, const std::vector<double>& t) {
   for (const Kind& k : kKinds) {
     Plot p;
     p.id = fmt::format("force-{}", k.key);
-    p.title = fmt::format("Force: {}, {}", k.title, k.what);
-    p.x_label = "time since the start [s]";
-    p.y_label = "force [N]";
+    p.title = tr("{}: force {}", tr(k.title), tr(k.what));
+    p.x_label = tr("Time since the start [s]");
+    p.y_label = tr("Force [N]");
     p.x_from = std::min(0.0, t.front());
     p.x_to = t.back();
     p.height = 160;
     double most = 0;
     for (std::size_t h = 0; h < r.trace->hands.size(); ++h) {
-      Series s{r.trace->hands[h].name, t, {}, int(h % 6)};
+      Series s{hand_title(*r.trace, h), t, {}, int(h % 6)};
       for (const training::TraceSample& sample : r.trace->hands[h].samples) s.y.push_back(k.size(sample));
       most = std::max(most, *std::max_element(s.y.begin(), s.y.end()));
       p.series.push_back(std::move(s));
@@ -166,11 +170,11 @@ Json forces(const Report& r, const std::vector<double>& t) {
       out.push_back({{"title", p.title}, {"none", fmt::format("{}", kLeastShown)}});
       continue;
     }
-    p.description = fmt::format("At most {:.2f} N.", most);
+    p.description = tr("At most {:.2f} N.", most);
     if (const auto limit = number_in(r.result, fmt::format("/metrics/both/forces/{}/limit_N", k.key)))
-      if (*limit < 4 * most) p.levels = {{*limit, fmt::format("limit {:.3g} N", *limit)}};
+      if (*limit < 4 * most) p.levels = {{*limit, tr("limit {:.3g} N", *limit)}};
     p.marks = error_marks(r.result);
-    out.push_back({{"name", k.title}, {"what", k.what}, {"drawing", svg(p)}});
+    out.push_back({{"name", tr(k.title)}, {"what", tr(k.what)}, {"drawing", svg(p)}});
   }
   return out;
 }
@@ -180,7 +184,8 @@ Json forces(const Report& r, const std::vector<double>& t) {
 Json motion_data(const Report& r) {
   if (!r.trace || double(r.trace->size()) < kFewest || r.trace->hands.empty()) return nullptr;
   std::vector<Series> hands;
-  for (std::size_t h = 0; h < r.trace->hands.size(); ++h) hands.push_back({r.trace->hands[h].name, {}, {}, int(h % 6)});
+  for (std::size_t h = 0; h < r.trace->hands.size(); ++h)
+    hands.push_back({hand_title(*r.trace, h), {}, {}, int(h % 6)});
   const Box box = box_of(*r.trace);
   const std::vector<double> t = times(*r.trace);
   return {{"legend", legend(hands)},

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/reports/page_template.hpp>
 #include <trocar/reports/report_svg.hpp>
 
@@ -83,6 +84,19 @@ std::string mark(double x, double y, const PlotMark& m) {
                              escaped(m.name));
 }
 
+/// Letters of a UTF-8 text.
+std::size_t letters(const std::string& text) {
+  return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+std::string first_letters(const std::string& text, std::size_t most) {
+  if (letters(text) <= most) return text;
+  std::size_t bytes = 0;
+  for (std::size_t seen = 0; bytes < text.size(); ++bytes)
+    if ((text[bytes] & 0xc0) != 0x80 && seen++ == most - 1) break;
+  return text.substr(0, bytes) + "…";
+}
+
 }  // namespace
 
 std::string minutes(double seconds) {
@@ -139,7 +153,7 @@ std::string svg(const Plot& p) {
   for (const Level& l : p.levels) y.take(l.y);
   if (p.x_from != p.x_to) x = {p.x_from, p.x_to};
   if (p.y_from != p.y_to) y = {p.y_from, p.y_to};
-  if (x.empty() || y.empty()) return "<p class=\"note\">Nothing to draw.</p>\n";
+  if (x.empty() || y.empty()) return "<p class=\"note\">" + escaped(tr("Nothing to draw.")) + "</p>\n";
   if (p.y_from == p.y_to) {
     y.take(0);
     y.high += (y.high - y.low) * 0.06;
@@ -186,27 +200,31 @@ std::string svg(const Plot& p) {
 }
 
 std::string svg(const Timeline& t) {
-  constexpr double kWidth = 760, kLane = 26, kName = 84;
+  constexpr double kWidth = 760, kLane = 26, kLetter = 6.2, kLeastName = 60, kMostName = 240;
   std::vector<std::string> lanes;
+  double longest = 0;  // a lane's name is never cut: the column is as wide as they are
   for (const TimelineBar& b : t.bars)
     if (std::find(lanes.begin(), lanes.end(), b.lane) == lanes.end()) lanes.push_back(b.lane);
+  for (const std::string& lane : lanes) longest = std::max(longest, double(letters(lane)));
+  const double kName = std::clamp(14 + kLetter * longest, kLeastName, kMostName);
+  const auto most = std::size_t((kMostName - 14) / kLetter);
   const double bars = double(lanes.size()) * kLane, height = kTop + bars + 2 * kLane + kBottom;
   const double length = std::max(1.0, t.length);
   const Frame f{0, length, 0, 1, kName, kWidth - kRight, kTop, kTop + bars + 2 * kLane};
 
-  std::string out = head("timeline", "Steps and errors over time",
-                         fmt::format("{} steps done and {} errors made in {}; the tables give each with its time.",
-                                     t.bars.size(), t.errors.size(), minutes(t.length)),
+  std::string out = head("timeline", tr("Steps and errors over time"),
+                         tr("{} steps completed and {} errors in {}. The tables list each with its time.",
+                            t.bars.size(), t.errors.size(), minutes(t.length)),
                          kWidth, height);
   for (const double v : ticks(0, length, 10, true)) {
     out += line(f.x(v), f.top, f.x(v), f.bottom, "grid");
     out += text(f.x(v), f.bottom + 16, "tick", "middle", minutes(v));
   }
-  out += text((f.left + f.right) / 2, height - 6, "label", "middle", "time since the start [min:s]");
+  out += text((f.left + f.right) / 2, height - 6, "label", "middle", tr("Time since the start [min:s]"));
   for (std::size_t i = 0; i < lanes.size(); ++i)
-    out += text(kName - 8, kTop + (double(i) + 0.65) * kLane, "tick", "end", lanes[i]);
-  out += text(kName - 8, kTop + bars + 0.65 * kLane, "tick", "end", "hands");
-  out += text(kName - 8, kTop + bars + 1.65 * kLane, "tick", "end", "errors") + "\n";
+    out += text(kName - 8, kTop + (double(i) + 0.65) * kLane, "tick", "end", first_letters(lanes[i], most));
+  out += text(kName - 8, kTop + bars + 0.65 * kLane, "tick", "end", tr("Events"));
+  out += text(kName - 8, kTop + bars + 1.65 * kLane, "tick", "end", tr("Errors")) + "\n";
   if (t.clock_from > 0 && t.clock_from < length)
     out += line(f.x(t.clock_from), f.top, f.x(t.clock_from), f.bottom, "clock");
   std::map<std::string, int> shade;
@@ -217,7 +235,7 @@ std::string svg(const Timeline& t) {
         "<rect class=\"bar b{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\"><title>{} ({} to {})"
         "</title></rect>",
         shade[b.lane]++ % 2, f.x(b.from), y + 3, wide, kLane - 6, escaped(b.name), minutes(b.from), minutes(b.to));
-    if (wide > 7.0 * double(b.name.size())) out += text(f.x(b.from) + 4, y + 0.65 * kLane, "in-bar", "start", b.name);
+    if (wide > 7.0 * double(letters(b.name))) out += text(f.x(b.from) + 4, y + 0.65 * kLane, "in-bar", "start", b.name);
     out += "\n";
   }
   for (const PlotMark& m : t.events) out += mark(f.x(std::clamp(m.x, 0.0, length)), kTop + bars + 8, m);

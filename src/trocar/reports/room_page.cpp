@@ -119,7 +119,7 @@ std::string plan_html(const RoomModel& model, const PortPlan& plan, const std::v
                    lines)},
        {"note",
         "Best are a manipulation angle of 60 degrees, equal azimuths and an elevation of 60 degrees (Hanna, Shimi and "
-        "Cuschieri 1997); how much a departure costs is ours."}});
+        "Cuschieri 1997); the cost of a departure is our estimate."}});
   return fill(page_text("design.html"),
               {{"title", fmt::format("{}: where to put ports", model.room().name)},
                {"lead",

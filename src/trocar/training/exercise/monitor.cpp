@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include <trocar/interactions/instrument/lever.hpp>
 #include <trocar/sim/stages/visibility.hpp>
@@ -37,7 +38,20 @@ void Monitor::update(const sim::Model& model, const sim::State& state, const sim
   m_rules->tick(moment, report);
   if (state.tick % kSampleEvery != 0) return;
   measure(model, state);
+  watch_target(moment);
   m_rules->sample(moment, kSample);
+}
+
+void Monitor::watch_target(const Moment& moment) {
+  const int step = current();
+  if (!m_tools.empty() || !m_moved || step < 0 || size_t(step) >= m_rules->steps().size()) return;
+  const Condition& when = m_rules->steps()[size_t(step)].when;
+  ++m_watched;
+  if (when.there() && when.holds(moment) == Truth::yes) ++m_on_target;
+}
+
+double Monitor::on_target_share() const {
+  return m_watched > 0 ? double(m_on_target) / double(m_watched) : std::numeric_limits<double>::quiet_NaN();
 }
 
 void Monitor::measure(const sim::Model& model, const sim::State& state) {

@@ -43,6 +43,9 @@ class Monitor {
   double seconds() const {
     return m_seconds;
   }  ///< since the first motion of an instrument, or of the lens where there is none
+  /// Share of the time since the first motion in which the conditions of the step to be done held; NaN: nothing was
+  /// watched. Only where there is nothing to control but the endoscope.
+  double on_target_share() const;
   Score score() const { return m_board->score(m_seconds); }
   const Rules& rules() const { return *m_rules; }
   const Scoreboard& board() const { return *m_board; }
@@ -53,6 +56,7 @@ class Monitor {
  private:
   void weigh_on_trocars(const sim::Model& model, const sim::State& state);
   void measure(const sim::Model& model, const sim::State& state);
+  void watch_target(const Moment& moment);
 
   std::unique_ptr<const Exercise> m_exercise;  ///< where it is, rules and board look at it
   std::unique_ptr<Scoreboard> m_board;
@@ -65,6 +69,7 @@ class Monitor {
   std::array<TrocarMean, sim::kMaxTools> m_trocar{};
   std::array<Vec3d, sim::kMaxTools> m_tip{};
   Vec3d m_lens;
+  std::uint64_t m_watched = 0, m_on_target = 0;  ///< samples
   std::uint64_t m_first_motion = 0;
   bool m_moved = false;
   double m_seconds = 0;

@@ -39,6 +39,7 @@ Json step_json(const StepStatus& s) {
 Json error_json(const ErrorMade& e) {
   Json j{{"code", e.code}, {"name", e.name}, {"meaning", e.meaning}};
   if (!e.detail.empty()) j["detail"] = e.detail;
+  if (!e.hint.empty()) j["hint"] = e.hint;
   if (!e.side.empty()) j["side"] = e.side;
   j["points"] = e.points;
   j["fail"] = e.fail;
@@ -60,6 +61,15 @@ Json limits_json(const Limits& limits) {
   return j;
 }
 
+/// Titles of the sets' elements by their names, for people: "target_6" is "disc 6".
+Json elements_json(const Sets& sets) {
+  Json j = Json::object();
+  for (const Set& set : sets)
+    for (const Element& e : set.elements)
+      if (!e.title.empty() && !j.contains(e.name)) j[e.name] = e.title;
+  return j;
+}
+
 }  // namespace
 
 std::string Monitor::result_json() const {
@@ -76,6 +86,7 @@ std::string Monitor::result_json() const {
   j["errors"] = Json::array();
   for (const ErrorMade& e : errors()) j["errors"].push_back(error_json(e));
   m_rules->tell(j);
+  j["elements"] = elements_json(m_rules->names().sets());
   if (!m_anatomy.empty()) j["anatomy"] = {{"variant", m_anatomy}, {"title", m_anatomy_title}};
   j["tools"] = Json::array();
   for (const ToolMetrics& t : m_tools)

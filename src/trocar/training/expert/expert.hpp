@@ -33,6 +33,8 @@ class Expert {
   virtual bool gave_up() const = 0;
   /// What it is doing, in words: "approach the tissue".
   virtual const char* doing() const = 0;
+  /// The goal that it works on, for people; empty: none.
+  virtual std::string goal() const { return {}; }
   /// What did not come off at first, when and why; the first hundred.
   virtual const std::vector<std::string>& difficulties() const = 0;
 };

@@ -20,8 +20,7 @@ class Performer final : public Expert {
   void after(const sim::Model& model, const sim::State& state, const sim::StepReport& report) override;
   bool done() const override { return m_done; }
   bool gave_up() const override { return m_gave_up; }
-  /// The goal that is worked on, for people; empty: none.
-  std::string goal() const { return m_goal ? m_goal->plan->name : std::string{}; }
+  std::string goal() const override { return m_goal ? m_goal->plan->name : std::string{}; }
   const char* doing() const override;
   const std::vector<std::string>& difficulties() const override { return m_difficulties; }
 

@@ -16,16 +16,50 @@ struct Window {
   }
 };
 
-Window window_of(const Trace& trace, const std::vector<Motion>& motions, double end) {
+/// @param speeds  of everything that moves
+Window window_of(const Trace& trace, const std::vector<std::span<const double>>& speeds, double end) {
   std::size_t last = trace.size();  // one past it
   if (end < trace.time(last - 1)) {
     const double index = std::floor((end - trace.start) * trace.rate + 1e-6);
     last = index >= 0 ? std::size_t(index) + 1 : 0;
   }
   for (std::size_t i = 0; i < last; ++i)
-    for (const Motion& m : motions)
-      if (m.speed[i] > kMovingSpeed) return {i, last - i};
+    for (const std::span<const double> speed : speeds)
+      if (speed[i] > kMovingSpeed) return {i, last - i};
   return {};
+}
+
+/// The value that 95 % of them do not exceed, by nearest rank.
+double percentile_95(std::vector<double> values) {
+  if (values.empty()) return kNoMetric;
+  std::sort(values.begin(), values.end());
+  return values[(95 * values.size() + 99) / 100 - 1];
+}
+
+/// Of the endoscope, within the window.
+CameraMetrics camera_metrics(const Trace& trace, const PointMotion& lens, const Window& window,
+                             const CameraWatch& watch) {
+  CameraMetrics m;
+  m.on_target = watch.on_target;
+  m.lens_touches = watch.lens_touches;
+  double sum = 0;
+  for (const double seconds : watch.target_seconds) sum += seconds;
+  if (!watch.target_seconds.empty()) {
+    m.target_mean = sum / double(watch.target_seconds.size());
+    m.target_longest = *std::max_element(watch.target_seconds.begin(), watch.target_seconds.end());
+  }
+  if (trace.scope.empty()) return m;
+  m.path = path_length(window.of(lens.place));
+  std::vector<double> tilts;
+  double total = 0;
+  for (const TraceScope& s : window.of(trace.scope)) {
+    if (s.horizon == TraceScope::kNoHorizon) continue;
+    tilts.push_back(std::fabs(s.horizon));
+    total += tilts.back();
+  }
+  if (!tilts.empty()) m.horizon_mean = total / double(tilts.size());
+  m.horizon_p95 = percentile_95(std::move(tilts));
+  return m;
 }
 
 /// Of one hand: window start, marks in the window, window end.
@@ -235,7 +269,14 @@ Metrics metrics_of(const Trace& trace, const MetricsOptions& options) {
   m.force_limits = options.force_limits;
   std::vector<Motion> motions;
   for (const TraceHand& hand : trace.hands) motions.push_back(filtered_motion(hand, trace.rate));
-  const Window window = trace.size() > 0 ? window_of(trace, motions, options.end) : Window{};
+  std::vector<Vec3d> eyes;
+  for (const TraceScope& s : trace.scope) eyes.push_back(s.eye);
+  const PointMotion lens = filtered_points(std::move(eyes), trace.rate);
+  std::vector<std::span<const double>> moving;
+  for (const Motion& motion : motions) moving.emplace_back(motion.speed);
+  if (trace.hands.empty() && !trace.scope.empty()) moving.emplace_back(lens.speed);  // nothing but the endoscope
+  const Window window = trace.size() > 0 ? window_of(trace, moving, options.end) : Window{};
+  m.camera = camera_metrics(trace, lens, window, options.camera);
   if (window.count < 2) {  // nothing moved
     for (const TraceHand& hand : trace.hands) {
       m.hands.emplace_back();
@@ -247,6 +288,10 @@ Metrics metrics_of(const Trace& trace, const MetricsOptions& options) {
   m.from = trace.time(window.first);
   m.to = trace.time(window.first + window.count - 1);
   m.time = m.to - m.from;
+  if (trace.hands.empty()) {
+    m.both.name = "both";
+    return m;
+  }
   Smoothness smoothness;
   std::vector<std::span<const double>> speeds;
   for (std::size_t h = 0; h < trace.hands.size(); ++h) {

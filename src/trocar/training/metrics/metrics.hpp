@@ -30,6 +30,13 @@ inline constexpr double kLeastForce = 0.01;      ///< less is no force: mean non
 
 enum ForceKind { kPull, kPinch, kContact, kForceKinds };
 
+/// What an exercise for the endoscope alone tells of it; NaN and none elsewhere.
+struct CameraWatch {
+  double on_target = kNoMetric;        ///< share of the time in which the current step's conditions held
+  double lens_touches = kNoMetric;     ///< a count
+  std::vector<double> target_seconds;  ///< for each target that was completed, in their order [s]
+};
+
 struct MetricsOptions {
   double end = kNoMetric;  ///< time of the final predicate, as in Trace::time [s]; NaN: the last sample
   /// Per hand, the points that the shortest way would lead through, first to last [m]. A hand without any is measured
@@ -38,7 +45,8 @@ struct MetricsOptions {
   /// Per hand, what it aimed at [m]; a hand without any takes the places of its marks.
   std::vector<std::vector<Vec3d>> targets;
   std::array<double, kForceKinds> force_limits{4, 15, 4};  ///< [N], see docs/guides/metrics.md
-  std::array<int, 2> pair{-1, -1};                         ///< hands compared; -1: the two with the longest paths
+  CameraWatch camera;
+  std::array<int, 2> pair{-1, -1};  ///< hands compared; -1: the two with the longest paths
 };
 
 /// All NaN where forces were not measured.
@@ -74,6 +82,14 @@ struct BimanualMetrics {
   double speed_correlation = kNoMetric;  ///< Pearson
 };
 
+/// Of the endoscope. NaN: not known.
+struct CameraMetrics {
+  double path = kNoMetric;                                     ///< of the lens [m]
+  double horizon_mean = kNoMetric, horizon_p95 = kNoMetric;    ///< how far the picture was turned, either way [deg]
+  double on_target = kNoMetric, lens_touches = kNoMetric;      ///< as CameraWatch
+  double target_mean = kNoMetric, target_longest = kNoMetric;  ///< time per target [s]
+};
+
 struct Metrics {
   double from = kNoMetric, to = kNoMetric;  ///< the window that all is measured in [s]
   double duration = 0;                      ///< of the whole trace [s]
@@ -83,6 +99,7 @@ struct Metrics {
   std::vector<HandMetrics> hands;
   HandMetrics both;  ///< all hands together
   BimanualMetrics bimanual;
+  CameraMetrics camera;
 };
 
 Metrics metrics_of(const Trace& trace, const MetricsOptions& options = {});

@@ -40,6 +40,18 @@ Json hand_json(const HandMetrics& h, const std::array<double, kForceKinds>& limi
   return j;
 }
 
+/// Null where nothing is known of the endoscope.
+Json camera_json(const CameraMetrics& c) {
+  if (std::isnan(c.path)) return nullptr;
+  return {{"path_m", known(c.path)},
+          {"horizon_mean_deg", known(c.horizon_mean)},
+          {"horizon_p95_deg", known(c.horizon_p95)},
+          {"on_target_share", known(c.on_target)},
+          {"lens_touches", count(c.lens_touches)},
+          {"seconds_per_target", known(c.target_mean)},
+          {"slowest_target_s", known(c.target_longest)}};
+}
+
 Json bimanual_json(const Metrics& m) {
   const BimanualMetrics& b = m.bimanual;
   Json pair = Json::array();
@@ -60,6 +72,7 @@ std::string metrics_json(const Metrics& m) {
   for (const HandMetrics& h : m.hands) j["hands"].push_back(hand_json(h, m.force_limits));
   j["both"] = hand_json(m.both, m.force_limits);
   j["bimanual"] = bimanual_json(m);
+  j["camera"] = camera_json(m.camera);
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -19,13 +19,22 @@ void filter_member(const numerics::LowPass& filter, std::vector<T>& values, Memb
   for (std::size_t i = 0; i < values.size(); ++i) values[i].*member = scratch[i];
 }
 
+std::vector<double> speeds(const std::vector<Vec3d>& place, double rate) {
+  const std::size_t n = place.size();
+  std::vector<double> speed(n);
+  for (std::size_t i = 0; i < n && n > 1; ++i) {
+    const std::size_t before = i > 0 ? i - 1 : 0, after = i + 1 < n ? i + 1 : n - 1;
+    speed[i] = length(place[after] - place[before]) * rate / double(after - before);
+  }
+  return speed;
+}
+
 Vec3d shaft_of(Quatd orientation) { return rotate(orientation, Vec3d{0, 0, -1}); }
 
 }  // namespace
 
 Motion filtered_motion(const TraceHand& hand, double rate) {
   Motion m;
-  const std::size_t n = hand.samples.size();
   for (const TraceSample& s : hand.samples) {
     m.tip.push_back(s.tip);
     Quatd q = normalised(s.orientation);
@@ -40,11 +49,18 @@ Motion filtered_motion(const TraceHand& hand, double rate) {
       filter_member(filter, m.orientation, member, scratch);
     for (Quatd& q : m.orientation) q = normalised(q);
   }
-  m.speed.resize(n);
-  for (std::size_t i = 0; i < n && n > 1; ++i) {
-    const std::size_t before = i > 0 ? i - 1 : 0, after = i + 1 < n ? i + 1 : n - 1;
-    m.speed[i] = length(m.tip[after] - m.tip[before]) * rate / double(after - before);
+  m.speed = speeds(m.tip, rate);
+  return m;
+}
+
+PointMotion filtered_points(std::vector<Vec3d> place, double rate) {
+  PointMotion m{std::move(place), {}};
+  if (kMotionCutoff < rate / 2) {
+    const numerics::LowPass filter = numerics::butterworth_low_pass(kFilterOrder, kMotionCutoff, rate);
+    std::vector<double> scratch;
+    for (const auto member : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) filter_member(filter, m.place, member, scratch);
   }
+  m.speed = speeds(m.place, rate);
   return m;
 }
 

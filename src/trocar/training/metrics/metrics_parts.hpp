@@ -16,6 +16,13 @@ struct Motion {
 };
 Motion filtered_motion(const TraceHand& hand, double rate);
 
+/// Points after the same filter, and how fast they move.
+struct PointMotion {
+  std::vector<Vec3d> place;
+  std::vector<double> speed;  ///< [m/s]
+};
+PointMotion filtered_points(std::vector<Vec3d> place, double rate);
+
 double path_length(std::span<const Vec3d> tip);
 /// Sum of the angles between neighbours; 2 atan2(|v|, |w|) of the turn between them, which is 2 acos(|q . q'|) without
 /// its loss of digits at small angles.

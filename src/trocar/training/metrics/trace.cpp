@@ -4,6 +4,7 @@
 #include <trocar/core/tick.hpp>
 #include <trocar/training/metrics/trace.hpp>
 #include <trocar/training/metrics/trace_channels.hpp>
+#include <trocar/training/observe/horizon.hpp>
 
 namespace trocar::training {
 namespace {
@@ -26,7 +27,9 @@ TraceSample sample_of(const sim::Model& model, const sim::State& state, std::siz
 TraceScope traced_scope(const sim::Model& model, const sim::State& state) {
   const kinematics::ScopeFrame frame =
       kinematics::scope_frame(model.scope.port, sim::pose_of(state.scope), model.scope.angle, double(state.scope.post));
-  return rounded(TraceScope{frame.eye, frame.forward});
+  const std::optional<double> horizon = horizon_of(model, state);
+  return rounded(
+      TraceScope{frame.eye, frame.forward, horizon ? *horizon * 180 / portable::pi : TraceScope::kNoHorizon});
 }
 
 /// Which mark an event makes; TraceMark::kinds: none.

@@ -40,7 +40,9 @@ struct TraceSample {
 
 /// The endoscope at one moment.
 struct TraceScope {
-  Vec3d eye, forward;  ///< [m], unit vector
+  static constexpr double kNoHorizon = 1000;
+  Vec3d eye, forward;           ///< [m], unit vector
+  double horizon = kNoHorizon;  ///< how far the picture is turned from upright [deg]; kNoHorizon: not known
   bool operator==(const TraceScope&) const = default;
 };
 

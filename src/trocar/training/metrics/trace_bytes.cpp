@@ -14,7 +14,7 @@
 namespace trocar::training {
 namespace {
 
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kFormat = 2;  // 1 has no horizon
 constexpr char kMagic[4] = {'T', 'R', 'C', 'T'};
 constexpr std::size_t kMaxText = 200;
 constexpr std::uint64_t kMaxRun = 1024;  // zeros that one entry stands for
@@ -117,7 +117,8 @@ class BytesReader {
     m_bytes = content;
     m_at = 4;
     const std::uint64_t format = integer(4);
-    if (format != kFormat) reject("expected format 1, got " + std::to_string(format));
+    if (format != kFormat && format != 1) reject("expected format 1 or 2, got " + std::to_string(format));
+    if (format == 1) m_scope_channels = kFirstScopeChannels;
   }
 
   std::uint64_t integer(int size) {
@@ -160,7 +161,7 @@ class BytesReader {
 
   void columns(Trace& trace, bool scope) {
     const std::uint64_t samples = count("samples", kMaxTraceSamples);
-    const std::uint64_t channels = trace.hands.size() * kHandChannels.size() + (scope ? kScopeChannels.size() : 0);
+    const std::uint64_t channels = trace.hands.size() * kHandChannels.size() + (scope ? m_scope_channels : 0);
     // Two bytes stand for at most kMaxRun values: nothing is allocated that the bytes cannot fill.
     if (samples * channels > (m_bytes.size() - m_at) * kMaxRun / 2) reject("expected more bytes for so many samples");
     if (channels == 0 && samples > 0) reject("expected no samples without hands and scope");
@@ -173,7 +174,7 @@ class BytesReader {
     }
     if (scope) {
       trace.scope.resize(samples);
-      for (const auto& channel : kScopeChannels) column(trace.scope, channel);
+      for (std::size_t c = 0; c < m_scope_channels; ++c) column(trace.scope, kScopeChannels[c]);
     }
   }
 
@@ -213,7 +214,7 @@ class BytesReader {
 
   std::span<const std::uint8_t> m_bytes;
   const std::string& m_name;
-  std::size_t m_at = 0;
+  std::size_t m_at = 0, m_scope_channels = kScopeChannels.size();
 };
 
 }  // namespace

@@ -79,14 +79,17 @@ inline const std::array<TraceChannel<TraceSample>, 16> kHandChannels = {
     channel<TraceSample>("instrument", kNumberSteps, [](auto& s) -> auto& { return s.instrument; }),
 };
 
-inline const std::array<TraceChannel<TraceScope>, 6> kScopeChannels = {
+inline const std::array<TraceChannel<TraceScope>, 7> kScopeChannels = {
     channel<TraceScope>("eye_x_m", kPlaceSteps, [](auto& s) -> auto& { return s.eye.x; }),
     channel<TraceScope>("eye_y_m", kPlaceSteps, [](auto& s) -> auto& { return s.eye.y; }),
     channel<TraceScope>("eye_z_m", kPlaceSteps, [](auto& s) -> auto& { return s.eye.z; }),
     channel<TraceScope>("forward_x", kPlaceSteps, [](auto& s) -> auto& { return s.forward.x; }),
     channel<TraceScope>("forward_y", kPlaceSteps, [](auto& s) -> auto& { return s.forward.y; }),
     channel<TraceScope>("forward_z", kPlaceSteps, [](auto& s) -> auto& { return s.forward.z; }),
+    channel<TraceScope>("horizon_deg", kLoadSteps, [](auto& s) -> auto& { return s.horizon; }),
 };
+/// What files of the first format have of them.
+inline constexpr std::size_t kFirstScopeChannels = 6;
 // clang-format on
 
 inline constexpr const char* kMarkNames[TraceMark::kinds] = {"grasped", "released", "slipped", "clipped",

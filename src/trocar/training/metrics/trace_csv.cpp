@@ -27,12 +27,12 @@ std::string plain(const std::string& name) {
   return result.empty() ? "_" : result;
 }
 
-std::string column_names(const Trace& trace, bool scope) {
+/// @param scope  how many of its channels there are
+std::string column_names(const Trace& trace, std::size_t scope) {
   std::string line = "t_s";
   for (const TraceHand& hand : trace.hands)
     for (const auto& channel : kHandChannels) line += ',' + plain(hand.name) + '.' + channel.name;
-  if (scope)
-    for (const auto& channel : kScopeChannels) line += std::string(",scope.") + channel.name;
+  for (std::size_t c = 0; c < scope; ++c) line += std::string(",scope.") + kScopeChannels[c].name;
   return line;
 }
 
@@ -166,7 +166,8 @@ class CsvReader {
   }
 
   void columns(std::string_view line) {
-    m_scope = line.find(",scope.eye_x_m") != std::string_view::npos;
+    const auto has = [line](std::string_view column) { return line.find(column) != std::string_view::npos; };
+    m_scope = !has(",scope.eye_x_m") ? 0 : has(",scope.horizon") ? kScopeChannels.size() : kFirstScopeChannels;
     const std::string expected = column_names(m_trace, m_scope);
     if (line == expected) return;
     std::size_t same = 0;  // up to the first name that differs
@@ -180,7 +181,7 @@ class CsvReader {
 
   void row(std::string_view line) {
     const std::vector<std::string_view> fields = words_of(line, ',');
-    const std::size_t wanted = 1 + m_trace.hands.size() * kHandChannels.size() + (m_scope ? kScopeChannels.size() : 0);
+    const std::size_t wanted = 1 + m_trace.hands.size() * kHandChannels.size() + m_scope;
     if (fields.size() != wanted) {
       ++m_rows;  // so that the next row's time is right
       return fault(1, fmt::format("expected {} fields, got {}", wanted, fields.size()));
@@ -207,9 +208,12 @@ class CsvReader {
         fault(1, "expected the number of an instrument of the trace");
       hand.samples.push_back(s);
     }
-    if (m_scope) {
+    if (m_scope > 0) {
       TraceScope s;
-      for (const auto& c : kScopeChannels) c.set(s, value_of(steps(c.decimals, c.most), c.scale));
+      for (std::size_t i = 0; i < m_scope; ++i) {
+        const auto& c = kScopeChannels[i];
+        c.set(s, value_of(steps(c.decimals, c.most), c.scale));
+      }
       m_trace.scope.push_back(s);
     }
     ++m_rows;
@@ -219,7 +223,7 @@ class CsvReader {
   const std::string& m_name;
   std::size_t m_at = 0, m_rows = 0;
   int m_line = 0;
-  bool m_scope = false;
+  std::size_t m_scope = 0;  ///< channels
   Trace m_trace;
   std::vector<core::Fault> m_faults;
 };
@@ -235,7 +239,7 @@ std::string to_csv(const Trace& trace) {
   for (const TraceMark& m : trace.marks)
     text +=
         fmt::format("# mark {} {} {}\n", kMarkNames[m.kind], plain(trace.hands[std::size_t(m.hand)].name), m.sample);
-  text += column_names(trace, !trace.scope.empty()) + '\n';
+  text += column_names(trace, trace.scope.empty() ? 0 : kScopeChannels.size()) + '\n';
   for (std::size_t i = 0; i < trace.size(); ++i) {
     const double time = trace.time(i);
     const bool nothing = time < 0 && time > -0.5 / kTimeScale;  // would be written as -0.000000

@@ -1,0 +1,14 @@
+// What an exercise comes to, as one number: all that its file says, with what it takes from other exercises and from
+// files of common rules. Where a file has changed so that the exercise is judged or shown otherwise, so has this.
+#pragma once
+
+#include <cstdint>
+
+#include <trocar/training/exercise/exercise.hpp>
+
+namespace trocar::training {
+
+/// Layout and comments of the files do not count.
+std::uint64_t hash_of(const Exercise& exercise);
+
+}  // namespace trocar::training
