@@ -138,9 +138,9 @@ TEST(Trace, CsvFaultsAreLocated) {
     text.replace(text.find(from), from.size(), to);
     return message_of([&] { trace_from_csv(text, "a.csv"); });
   };
-  EXPECT_EQ(with("# trocar trace 1", "x,y"), "a.csv:1:1: expected '# trocar trace 1', got 'x,y'");
+  EXPECT_EQ(with("# trocar trace 2", "x,y"), "a.csv:1:1: expected '# trocar trace 2', got 'x,y'");
   EXPECT_EQ(message_of([] { trace_from_csv("", "a.csv"); }),
-            "a.csv:1:1: expected '# trocar trace 1', got an empty file");
+            "a.csv:1:1: expected '# trocar trace 2', got an empty file");
   EXPECT_EQ(with("left.y_m", "left.y"),
             "a.csv:6:14: expected the columns that the comments announce, 'left.y_m', got 'left.y'");
   EXPECT_EQ(with("\n0.020000,0.0000000", "\n0.020000,0x10"),

@@ -73,6 +73,10 @@ void Reading::include(const fs::path& path, const core::Location& from, const Sh
   m_open.pop_back();
 }
 
+fs::path Reading::located(const fs::path& path) const {
+  return m_library && !(m_memory && m_memory->text_of(path)) ? m_library->located(path) : path;
+}
+
 void Reading::include_named(const JsonObject& o, const core::Location& at, const JsonValue& name,
                             const fs::path& folder, const Shape& shape, const Read& read) {
   const fs::path named(name.text);
@@ -81,7 +85,7 @@ void Reading::include_named(const JsonObject& o, const core::Location& at, const
   else if (m_library && !m_library->holds(folder / named))
     o.fault(at, m_library->refusal(name.text));
   else
-    include((folder / named).lexically_normal(), at, shape, read);
+    include(located((folder / named).lexically_normal()), at, shape, read);
 }
 
 void Reading::includes(const JsonObject& o, const char* key, const fs::path& folder, const Shape& shape,
@@ -191,7 +195,7 @@ Description read_scene(const fs::path& path, const MemoryFiles* memory) {
 FileKind kind_of_file(const fs::path& path, const MemoryFiles* memory) {
   std::vector<core::Fault> ignored;
   const JsonDocument document = load_json(path, ignored, memory);
-  const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
+  const auto has = [&](const char* key) { return document.find(key) != nullptr; };
   if (path.parent_path().filename() == "looks") return FileKind::look;
   if (has("scene")) return FileKind::exercise;
   if (has("like") || has("scope") || has("ports") || has("tools")) return FileKind::scene;
