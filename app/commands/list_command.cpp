@@ -71,7 +71,7 @@ Json files_in(const char* folder) {
     if (!faults.empty()) continue;
     Json entry{{"name", name}, {"title", ""}, {"path", path.string()}};
     for (const char* key : {"title", "kind"})
-      if (const scene::JsonMember* m = document.find(key)) entry[key] = core::printable(m->value.text);
+      if (const scene::JsonMember* m = document.root.find(key)) entry[key] = core::printable(m->value.text);
     list.push_back(std::move(entry));
   }
   return list;

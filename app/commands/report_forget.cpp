@@ -9,6 +9,7 @@
 #include <trocar/core/json.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/training/store/forgetting.hpp>
 
 #include "commands/command.hpp"
 #include "shell/settings.hpp"
@@ -49,7 +50,7 @@ std::vector<fs::path> pages_of(const Store& store, const std::string& trainee) {
 
 /// Lists what would go.
 int list_what_goes(const Store& store, const std::string& trainee, bool json) {
-  const Store::Forgotten goes = store.to_forget(trainee);
+  const Store::Forgotten goes = training::to_forget(store, trainee);
   const std::vector<fs::path> pages = pages_of(store, trainee);
   if (json) {
     print({{"trainee", trainee},
@@ -75,7 +76,7 @@ bool confirmed(const Store& store, const std::string& trainee) {
   if (!isatty(STDIN_FILENO) || !isatty(STDERR_FILENO))
     throw core::BadInput(
         {{{"--forget", 0, 0}, tr("expected --yes where no terminal can ask (--dry-run lists what would be deleted)")}});
-  const Store::Forgotten goes = store.to_forget(trainee);
+  const Store::Forgotten goes = training::to_forget(store, trainee);
   fmt::print(stderr, "{} ",
              tr("Delete {} of {}? This cannot be undone. Type yes:",
                 attempts_and_recordings(goes.attempts, goes.deleted.size()), trainee));
@@ -111,10 +112,10 @@ std::string no_attempts_of(const Store& store, const std::string& trainee) {
 
 int forget_trainee(Store& store, const ForgetChoice& choice, bool json) {
   const std::string& trainee = choice.trainee;
-  if (store.to_forget(trainee).attempts == 0) {
+  if (training::to_forget(store, trainee).attempts == 0) {
     forget_in_settings(settings_file(), trainee);
     if (json)
-      say_gone(store, trainee, store.to_forget(trainee), json);
+      say_gone(store, trainee, training::to_forget(store, trainee), json);
     else
       fmt::print("{}\n", no_attempts_of(store, trainee));
     return core::kGoalNotReached;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include <trocar/training/metrics/trace.hpp>
+#include <trocar/training/metrics/trace_csv.hpp>
 #include <trocar/training/store/store.hpp>
 
 namespace trocar::app {

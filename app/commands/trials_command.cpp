@@ -13,6 +13,7 @@
 #include <trocar/devices/motion_file.hpp>
 #include <trocar/reports/trials_page.hpp>
 #include <trocar/training/metrics/study.hpp>
+#include <trocar/training/metrics/trace_csv.hpp>
 
 #include "commands/command.hpp"
 
@@ -84,7 +85,7 @@ struct ReadTrials {
 /// A table that `trocar report --trace` wrote; one without a person counts as a person's of its own.
 void read_own(const fs::path& file, const std::string& text, ReadTrials& read) {
   training::TraceOrigin origin;
-  const training::Trace trace = training::trace_from_csv(text, file.string(), &origin);
+  const training::Trace trace = training::trace_from_csv(text, file.string(), origin);
   const std::string stem = file.stem().string();
   read.add(origin.person.empty() ? stem : origin.person, origin.trial.empty() ? stem : origin.trial, trace);
   read.own = true;

@@ -33,7 +33,7 @@ std::vector<scene::JsonDocument> layers_of(fs::path path) {
   std::vector<core::Fault> ignored;  // who opens the exercise is told
   while (layers.size() < kMostLayers) {
     layers.push_back(scene::load_json(path, ignored));
-    const scene::JsonMember* like = layers.back().find(scene::kLike);
+    const scene::JsonMember* like = layers.back().root.find(scene::kLike);
     if (!like) break;
     path = library.located((path.parent_path() / like->value.text).lexically_normal());
   }
@@ -42,7 +42,7 @@ std::vector<scene::JsonDocument> layers_of(fs::path path) {
 
 const scene::JsonValue* said_in(const std::vector<scene::JsonDocument>& layers, const char* key) {
   for (const scene::JsonDocument& layer : layers)
-    if (const scene::JsonMember* m = layer.find(key)) return &m->value;
+    if (const scene::JsonMember* m = layer.root.find(key)) return &m->value;
   return nullptr;
 }
 
@@ -62,7 +62,7 @@ ExerciseEntry entry_of(const std::string& name, const fs::path& path) {
   constexpr double kMostSeconds = 36000;
   const std::vector<scene::JsonDocument> layers = layers_of(path);
   ExerciseEntry entry{name, text_in(layers, "title"), path};
-  if (const scene::JsonMember* scene = layers.front().find("scene"))
+  if (const scene::JsonMember* scene = layers.front().root.find("scene"))
     entry.scene = scene::Library(path).located((path.parent_path() / scene->value.text).lexically_normal());
   entry.order = int(number_in(layers, "order", entry.order, entry.order));
   entry.group = text_in(layers, "group");

@@ -10,8 +10,9 @@
 namespace trocar::pictures {
 
 inline constexpr const char* kAnalysisHelp =
-    "quantities in colour: springs | strain | forces | pressure, one or more with commas, each with an optional "
-    ":RANGE (springs, strain: % at the ends of the scale; forces: mm of arrow per N; pressure: mmHg at its end)";
+    "of pictures and film, figures in colour: springs | strain | forces | pressure, one or more with commas; with "
+    ":RANGE "
+    "if wanted (springs, strain: % at the scale's ends; forces: mm of arrow per N; pressure: mmHg at its end)";
 
 /// What people choose from, in the order of the switches.
 struct AnalysisQuantity {

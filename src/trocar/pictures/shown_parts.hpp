@@ -16,7 +16,7 @@ namespace trocar::pictures {
 using ShownParts = std::vector<std::pair<std::string, view::PartStyle>>;
 
 inline constexpr const char* kShowHelp =
-    "how parts are drawn: PART=STYLE,... PART: a name in the scene, or organs | tubes | folds | vessels | walls | "
+    "of pictures and film: PART=STYLE,... PART: a name in the scene, or organs | tubes | folds | vessels | walls | "
     "instruments | clips | fluids; STYLE: shaded | transparent | wireframe | hidden";
 
 const char* name_of(view::PartStyle style);

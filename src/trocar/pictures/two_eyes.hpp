@@ -36,7 +36,7 @@ inline constexpr StereoName kStereoNames[] = {
 inline constexpr double kLeastBase = 0.5, kMostBase = 12, kLeastConvergence = 20, kMostConvergence = 500;  ///< [mm]
 
 inline constexpr const char* kStereoHelp =
-    "stereo pictures: off | side-by-side | top-bottom | rows | anaglyph, each with an optional :BASE,CONVERGENCE [mm]";
+    "of pictures and film: off | side-by-side | top-bottom | rows | anaglyph, with :BASE,CONVERGENCE [mm] if wanted";
 inline std::vector<std::string> stereo_names() {
   std::vector<std::string> names;
   for (const StereoName& s : kStereoNames) names.push_back(s.name);

@@ -195,7 +195,7 @@ Description read_scene(const fs::path& path, const MemoryFiles* memory) {
 FileKind kind_of_file(const fs::path& path, const MemoryFiles* memory) {
   std::vector<core::Fault> ignored;
   const JsonDocument document = load_json(path, ignored, memory);
-  const auto has = [&](const char* key) { return document.find(key) != nullptr; };
+  const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
   if (path.parent_path().filename() == "looks") return FileKind::look;
   if (has("scene")) return FileKind::exercise;
   if (has("like") || has("scope") || has("ports") || has("tools")) return FileKind::scene;

@@ -400,11 +400,6 @@ const JsonMember* JsonValue::find(std::string_view key) const {
   return nullptr;
 }
 
-const JsonMember* JsonDocument::find(std::string_view key) const {
-  const JsonMember* there = root.find(key);
-  return there ? there : before.find(key);
-}
-
 const std::string* MemoryFiles::text_of(const std::filesystem::path& path) const {
   std::error_code error;
   const auto found = find(over_disk ? std::filesystem::weakly_canonical(path, error) : path);
@@ -412,19 +407,15 @@ const std::string* MemoryFiles::text_of(const std::filesystem::path& path) const
 }
 
 JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults) {
-  JsonDocument document{std::move(file), {}, {}};
+  JsonDocument document{std::move(file), {}};
   Parser parser(text, document.file, faults);
   document.root = parser.document();
-  if (!parser.is_lost()) return document;
-  document.before = std::move(document.root);
-  document.root = JsonValue{};
-  document.root.kind = Kind::broken;
-  document.root.line = document.before.line, document.root.column = document.before.column;
+  if (parser.is_lost()) document.root.kind = Kind::broken;  // its members still tell the file's kind
   return document;
 }
 
 JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults, const MemoryFiles* memory) {
-  JsonDocument document{path.generic_string(), {}, {}};
+  JsonDocument document{path.generic_string(), {}};
   document.root.kind = Kind::broken;
   if (const std::string* text = memory ? memory->text_of(path) : nullptr)
     return parse_json(*text, document.file, faults);

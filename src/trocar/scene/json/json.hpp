@@ -5,7 +5,6 @@
 // leaves the structure readable (a number that is not finite, a bad word, a key given twice, a comma too many) and
 // stops only where the structure itself is lost. Grammar: RFC 8259, and comments as in C++. Limits: 16 MiB, 64 levels
 // of nesting, a million values, 256 keys in one object.
-// Of a text whose structure is lost the root is broken, so that readers say nothing more of it.
 //
 //   std::vector<core::Fault> faults;
 //   const JsonDocument document = load_json("scenes/tissues.json", faults);
@@ -51,11 +50,7 @@ struct JsonMember {
 
 struct JsonDocument {
   std::string file;  ///< as faults show it
-  JsonValue root;    ///< broken where the text has no readable value, or its structure was lost
-  JsonValue before;  ///< of a lost structure: what stood before that place; nothing but its kind can be told by it
-
-  /// A key of the root, also of one whose structure was lost after it.
-  const JsonMember* find(std::string_view key) const;
+  JsonValue root;    ///< broken where the text has no readable value
 };
 
 inline constexpr std::size_t kMaxJsonBytes = 16u << 20;

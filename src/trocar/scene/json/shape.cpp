@@ -328,7 +328,9 @@ const JsonValue* JsonObject::good(std::string_view key) const {
 }
 
 bool JsonObject::has(std::string_view key) const { return good(key) != nullptr; }
-bool JsonObject::names(std::string_view key) const { return m_value->find(key) != nullptr; }
+bool JsonObject::names(std::string_view key) const {
+  return m_value->kind != Kind::broken && m_value->find(key) != nullptr;
+}
 
 double JsonObject::number(std::string_view key, double fallback) const {
   const JsonValue* v = good(key);
@@ -416,7 +418,7 @@ std::vector<JsonObject> JsonObject::objects(std::string_view key) const {
 
 const std::vector<JsonValue>& JsonObject::values(std::string_view key) const {
   static const std::vector<JsonValue> none;
-  const JsonMember* member = m_value->find(key);
+  const JsonMember* member = m_value->kind == Kind::broken ? nullptr : m_value->find(key);
   return member ? member->value.items : none;
 }
 

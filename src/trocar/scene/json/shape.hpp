@@ -151,8 +151,8 @@ class JsonObject {
 /// The candidate nearest to `word` by edit distance, empty where none is near (for "did you mean").
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-/// `word` was expected to be one of `known`: "expected a known tissue, got "utreus" (did you mean "uterus"?); known:
-/// liver, uterus". A long list is shortened.
+/// `word` was expected to be one of `known`: "expected a known tissue (liver, uterus), got "utreus" (did you mean
+/// "uterus"?)".
 /// @param what  what such a name is called, without an article
 std::string unknown_name(std::string_view what, std::string_view word, const std::vector<std::string>& known);
 

@@ -99,18 +99,9 @@ std::vector<std::uint8_t> to_bytes(const Trace& trace);
 /// Memory is bounded by the bytes' number.  @throws core::BadInput, naming `name` and the byte
 Trace trace_from_bytes(std::span<const std::uint8_t> bytes, const std::string& name);
 
-/// Whose motion a CSV file holds; empty where it is not said.
-struct TraceOrigin {
-  std::string person, trial;
-  bool operator==(const TraceOrigin&) const = default;
-};
-
 /// Comment lines (#) with what is not a column, a line of column names with units, a line per sample.
-std::string to_csv(const Trace& trace, const TraceOrigin& origin = {});
-/// @param origin  filled where it is not null
+std::string to_csv(const Trace& trace);
 /// @throws core::BadInput, naming `name`, line and column
-Trace trace_from_csv(std::string_view text, const std::string& name, TraceOrigin* origin = nullptr);
-/// Does a text begin as such a file does?
-bool is_trace_csv(std::string_view text);
+Trace trace_from_csv(std::string_view text, const std::string& name);
 
 }  // namespace trocar::training

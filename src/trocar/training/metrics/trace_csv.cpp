@@ -13,6 +13,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/training/metrics/trace_channels.hpp>
+#include <trocar/training/metrics/trace_csv.hpp>
 
 namespace trocar::training {
 namespace {
@@ -262,10 +263,14 @@ std::string to_csv(const Trace& trace, const TraceOrigin& origin) {
   return text;
 }
 
-Trace trace_from_csv(std::string_view text, const std::string& name, TraceOrigin* origin) {
+std::string to_csv(const Trace& trace) { return to_csv(trace, TraceOrigin()); }
+
+Trace trace_from_csv(std::string_view text, const std::string& name) { return CsvReader(text, name).read(); }
+
+Trace trace_from_csv(std::string_view text, const std::string& name, TraceOrigin& origin) {
   CsvReader reader(text, name);
   Trace trace = reader.read();
-  if (origin) *origin = reader.origin();
+  origin = reader.origin();
   return trace;
 }
 

@@ -103,8 +103,6 @@ class Store {
     std::string not_overwritten;  ///< empty, or why the database file's free pages still hold what was there
   };
   Forgotten forget(const std::string& trainee);
-  /// What forget() would delete and leave now; deletes nothing.
-  Forgotten to_forget(const std::string& trainee) const;
 
   /// What people should be told: repairs, faults, what was taken in. Grows with every call that has something to say.
   const std::vector<std::string>& notices() const { return m_notices; }
