@@ -42,7 +42,7 @@ Compared press(const attempt::SolverPair& pair, double depth, double seconds) {
   attempt::PressSource source(model, plan);
   const std::string hands = fmt::format("{} at {} presses {:.1f} mm in", model.placed(std::size_t(plan.hand)).name,
                                         model.hands[std::size_t(plan.hand)].name, 1e3 * depth);
-  core::log::info("{}{}", hands, plan.clear ? "" : "; no way to it is clear, so other tissue is moved, too");
+  core::log::info("{}{}", hands, plan.clear ? "" : "; no path to it is clear, so other tissue moves too");
   return {attempt::compare_solvers(pair, source, seconds, [&] { return source.settled(); }), hands, source.describe()};
 }
 

@@ -171,7 +171,7 @@ int run(const Options& o, bool json) {
 void add_report(CLI::App& program, Chosen& chosen) {
   auto o = std::make_shared<Options>();
   CLI::App* c = add_command(program, chosen, "report", tr("Show how an attempt went; list, export and delete attempts"),
-                            "trocar report                      the latest attempt as a page\n"
+                            "trocar report\n"
                             "  trocar report --list\n"
                             "  trocar report 12 --out report --compare demo\n"
                             "  trocar report attempt.rec --trace motion.csv\n"

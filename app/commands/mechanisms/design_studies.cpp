@@ -67,7 +67,7 @@ void print_tolerance(const Json& r) {
   if (r["sensitivities"].size() > kShownEffects)
     fmt::print("  and {} with less\n", r["sensitivities"].size() - kShownEffects);
   if (!r["misfits"].empty())
-    fmt::print("  {} dimensions are left out: the loops would stand open if they changed alone\n", r["misfits"].size());
+    fmt::print("  {} dimensions are left out: changed alone, they would open a loop\n", r["misfits"].size());
 }
 
 /// A pose that no study can be about: told, not thrown.
@@ -219,7 +219,7 @@ int show_clearance(const Mechanism& m, const DesignOptions& o, bool json) {
   if (json) {
     print(out);
   } else {
-    fmt::print("{}: how near its own links come to each other\n", m.name);
+    fmt::print("{}: clearance between its links\n", m.name);
     print_clearance(out);
     tell_page(page);
   }
