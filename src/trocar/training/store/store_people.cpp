@@ -106,7 +106,7 @@ std::string overwrite_deleted(Database& db) {
 }  // namespace
 
 Store::Forgotten to_forget(const Store& store, const std::string& trainee) {
-  Forgotten out;
+  Store::Forgotten out;
   std::error_code error;
   const fs::path ours = fs::weakly_canonical(store.folder() / "recordings", error);
   const fs::path own = own_temporary_folder(), temporary = own.empty() ? own : fs::weakly_canonical(own, error);
