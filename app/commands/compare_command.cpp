@@ -148,7 +148,8 @@ void add_compare(CLI::App& program, Chosen& chosen) {
       ->capture_default_str()
       ->transform(whole_number(0, kLargestSeed));
   c->add_option("--out", o->out, tr("folder for figures, pictures and the page"))->capture_default_str();
-  c->add_flag("!--no-pictures", o->pictures, tr("only figures"));
+  c->add_flag_callback(
+      "--no-pictures", [o] { o->pictures = false; }, tr("only figures"));
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return compare(*o, chosen.json); }; });
 }
 

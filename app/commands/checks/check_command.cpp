@@ -95,7 +95,8 @@ Json check_one(const fs::path& path, double unit) {
   if (is_mechanism_file(path)) return describe_mechanism(path);
   std::vector<core::Fault> faults;
   const scene::JsonDocument document = scene::load_json(path, faults);
-  if (!faults.empty()) throw core::BadInput(scene::check_file(path));  // with what else is wrong beside the JSON
+  const bool lost = document.root.kind == scene::JsonValue::Kind::broken;  // what follows from that is no fault
+  if (!faults.empty()) throw core::BadInput(lost ? faults : scene::check_file(path));
   Json out{{"file", path.string()}};
   const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
   if (is_programme_file(document.root)) return describe_programme(path);
