@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <trocar/attempt/listing.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
-#include <trocar/scene/files/library.hpp>
 #include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/json/shape.hpp>
 
 #include "commands/command.hpp"

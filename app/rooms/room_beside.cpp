@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include <trocar/core/error.hpp>
-#include <trocar/scene/files/library.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/operating_room/room_file.hpp>
 
 #include "rooms/room_camera.hpp"

@@ -9,7 +9,7 @@
 #include <trocar/core/hash.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
-#include <trocar/scene/files/library.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/studies/handles.hpp>
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/lesson.hpp>
+#include <trocar/attempt/listing.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/printable.hpp>
@@ -15,6 +16,7 @@
 #include <trocar/core/user_folder.hpp>
 #include <trocar/scene/files/library.hpp>
 #include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/json/json.hpp>
 #include <trocar/scene/json/like.hpp>
 #include <trocar/training/exercise/exercise.hpp>
@@ -28,14 +30,13 @@ namespace {
 /// A file of an exercise, and below it those that it is like.
 std::vector<scene::JsonDocument> layers_of(fs::path path) {
   constexpr std::size_t kMostLayers = 16;
-  const scene::Library library(path);
   std::vector<scene::JsonDocument> layers;
   std::vector<core::Fault> ignored;  // who opens the exercise is told
   while (layers.size() < kMostLayers) {
     layers.push_back(scene::load_json(path, ignored));
     const scene::JsonMember* like = layers.back().root.find(scene::kLike);
     if (!like) break;
-    path = library.located((path.parent_path() / like->value.text).lexically_normal());
+    path = scene::located((path.parent_path() / like->value.text).lexically_normal());
   }
   return layers;
 }
@@ -63,7 +64,7 @@ ExerciseEntry entry_of(const std::string& name, const fs::path& path) {
   const std::vector<scene::JsonDocument> layers = layers_of(path);
   ExerciseEntry entry{name, text_in(layers, "title"), path};
   if (const scene::JsonMember* scene = layers.front().root.find("scene"))
-    entry.scene = scene::Library(path).located((path.parent_path() / scene->value.text).lexically_normal());
+    entry.scene = scene::located((path.parent_path() / scene->value.text).lexically_normal());
   entry.order = int(number_in(layers, "order", entry.order, entry.order));
   entry.group = text_in(layers, "group");
   const auto known = std::find(std::begin(training::kGroups), std::end(training::kGroups), entry.group);

@@ -5,13 +5,10 @@
 #include <string>
 #include <vector>
 
-#include <trocar/core/error.hpp>
-#include <trocar/scene/files/reader.hpp>
-
 namespace trocar::attempt {
 
-/// The folder `scenes` that comes with the program (scene::found_scenes_folder).
-/// @throws core::EnvironmentLacks if there is none
+/// The folder `scenes`: $TROCAR_SCENES, else beside the program (build/release/trocar, or PREFIX/bin with
+/// PREFIX/share/trocar), else where it was compiled.  @throws core::EnvironmentLacks if there is none
 std::filesystem::path scenes_folder();
 
 struct ExerciseEntry {
@@ -27,25 +24,20 @@ struct ExerciseEntry {
   double expert_time = 0, longest_time = 0, pass_mark = 0;  ///< [s], [s], of 100; 0: not known
   bool demonstrated = false;                                ///< the file has a demonstration
 };
-/// The exercise files in the folders of `scenes` and of the user's own scenes (scene::own_scenes_folder): in the order
-/// that their files say, then by name. Of two with one name the user's own.
+/// The exercise files in the folders of `scenes`: in the order that their files say, then by name.
 std::vector<ExerciseEntry> list_exercises(const std::filesystem::path& scenes);
 /// The same, and after them the scenes in which none of them is done.
 std::vector<ExerciseEntry> list_trainings(const std::filesystem::path& scenes);
-/// The scenes of both folders, by name; of two with one name the user's own.
-std::vector<scene::SceneEntry> list_all_scenes(const std::filesystem::path& scenes);
 
-/// What is wrong with an exercise's file and with where its scene is; empty: it can be begun.
-std::vector<core::Fault> faults_of(const ExerciseEntry& exercise);
-
-/// The file that EXERCISE means: a path, or a name under the user's own scenes or `scenes` ("gynaecology/EXERCISE", or
-/// "gynaecology" for the bare scene).  @throws core::BadInput with what is there
+/// The file that EXERCISE means: a path, or a name under `scenes` ("gynaecology/EXERCISE", or "gynaecology" for
+/// the bare scene).  @throws core::BadInput with what is there
 std::filesystem::path find_exercise(const std::string& name, const std::filesystem::path& scenes);
 
 /// Creates the folder and those above it.  @throws core::EnvironmentLacks
 void make_folder(const std::filesystem::path& folder);
 
-/// What Trocar keeps for this person (core::user_folder).
+/// What Trocar keeps for this person (settings, sessions, recordings, reports): $TROCAR_DATA, else
+/// $XDG_DATA_HOME/trocar, else ~/.local/share/trocar. Not made by this.
 std::filesystem::path data_folder();
 
 /// `path` itself if there is no such file, else "NAME-2.EXT", "NAME-3.EXT", ...

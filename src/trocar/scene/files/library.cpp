@@ -8,6 +8,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/user_folder.hpp>
 #include <trocar/scene/files/library.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/json/shape.hpp>
 
 namespace trocar::scene {
@@ -63,6 +64,16 @@ std::optional<fs::path> found_scenes_folder() {
   return programs_scenes_folder();
 }
 
+fs::path located(const fs::path& file) {
+  std::error_code error;
+  if (fs::exists(file, error)) return file;
+  const fs::path tree = tree_of(file);
+  const std::optional<fs::path> scenes = found_scenes_folder();
+  if (!scenes || tree.filename() != "scenes") return file;
+  const std::optional<fs::path> there = same_place(file, tree, *scenes);
+  return there && fs::exists(*there, error) ? *there : file;
+}
+
 fs::path own_scenes_folder() { return core::user_folder() / "scenes"; }
 
 std::optional<fs::path> named_in_scenes(const std::string& name, const char* folder) {
@@ -101,16 +112,6 @@ Library::Library(const fs::path& first) : m_folders{tree_of(first)} {
     if (end > 0) m_folders.push_back(resolved(rest.substr(0, end)));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
-}
-
-fs::path Library::located(const fs::path& file) const {
-  std::error_code error;
-  if (fs::exists(file, error) || m_folders.front().filename() != "scenes") return file;
-  for (const fs::path& other : m_folders) {
-    const std::optional<fs::path> there = same_place(file, m_folders.front(), other);
-    if (there && other.filename() == "scenes" && fs::exists(*there, error)) return *there;
-  }
-  return file;
 }
 
 bool Library::holds(const fs::path& file) const {

@@ -7,6 +7,7 @@
 #include <trocar/scene/files/look_file.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
 #include <trocar/scene/json/like.hpp>
 
@@ -41,6 +42,12 @@ std::vector<fs::path> sorted_entries(const fs::path& folder) {
   return paths;
 }
 
+/// A file that one on the disk names, also where it comes with the program.
+fs::path found(const fs::path& path, const MemoryFiles* memory) {
+  const bool in_memory = memory && memory->text_of(path);
+  return in_memory || !MemoryFiles::disk_too(memory) ? path : located(path);
+}
+
 }  // namespace
 
 void Reading::include(const fs::path& path, const core::Location& from, const Shape& shape, const Read& read) {
@@ -73,10 +80,6 @@ void Reading::include(const fs::path& path, const core::Location& from, const Sh
   m_open.pop_back();
 }
 
-fs::path Reading::located(const fs::path& path) const {
-  return m_library && !(m_memory && m_memory->text_of(path)) ? m_library->located(path) : path;
-}
-
 void Reading::include_named(const JsonObject& o, const core::Location& at, const JsonValue& name,
                             const fs::path& folder, const Shape& shape, const Read& read) {
   const fs::path named(name.text);
@@ -85,7 +88,7 @@ void Reading::include_named(const JsonObject& o, const core::Location& at, const
   else if (m_library && !m_library->holds(folder / named))
     o.fault(at, m_library->refusal(name.text));
   else
-    include(located((folder / named).lexically_normal()), at, shape, read);
+    include(found((folder / named).lexically_normal(), m_memory), at, shape, read);
 }
 
 void Reading::includes(const JsonObject& o, const char* key, const fs::path& folder, const Shape& shape,

@@ -96,8 +96,6 @@ class Reading {
   };
   void scene(const JsonObject& o, const std::filesystem::path& folder, std::vector<Layer>& layers);
   void scene_of(const std::vector<Layer>& layers);
-  /// A file that one on the disk names, wherever in the library it lies.
-  std::filesystem::path located(const std::filesystem::path& path) const;
   /// Reads the file that `o` names at `at`.
   void include_named(const JsonObject& o, const core::Location& at, const JsonValue& name,
                      const std::filesystem::path& folder, const Shape& shape, const Read& read);

@@ -8,6 +8,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/scene/files/library.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/json/like.hpp>
 #include <trocar/training/exercise/rule_files.hpp>
 #include <trocar/training/exercise/rules.hpp>
@@ -83,8 +84,7 @@ class ExerciseReader {
   }
   /// A file that a file names, wherever in the library it lies.
   fs::path located(const fs::path& file) const {
-    const fs::path path = file.lexically_normal();
-    return m_memory ? path : m_library.located(path);
+    return m_memory ? file.lexically_normal() : scene::located(file.lexically_normal());
   }
   bool below(const JsonObject& o, const fs::path& path) {
     const auto same = [&path](const Layer& l) { return l.path.lexically_normal() == path; };
@@ -130,7 +130,7 @@ class ExerciseReader {
     m_exercise.level = said("level").o.integer("level", 1);
     const Layer& where = said("scene");
     m_exercise.scene = where.path.parent_path() / where.o.text("scene");
-    if (!m_memory && where.o.has("scene")) m_exercise.scene = m_library.located(m_exercise.scene);
+    if (!m_memory && where.o.has("scene")) m_exercise.scene = scene::located(m_exercise.scene);
     if (!m_memory && where.o.has("scene") && !m_library.holds(m_exercise.scene))
       where.o.fault("scene", m_library.refusal(where.o.text("scene")));
   }
