@@ -62,6 +62,11 @@ part() {  # part NAME COMMAND...
 part "abuse, kills, exercises" tests
 part "fuzzing" tools/fuzz.sh "${TROCAR_FUZZ_SECONDS:-600}"
 part "determinism matrix" tools/determinism_matrix.sh
+packages() {  # installed in bare systems; that needs root and the network
+  [ "$(id -u)" = 0 ] || { echo "test: packages are tried as root only" >&2; return 77; }
+  tools/package.sh deb tarball && tools/try_package.sh deb && tools/try_package.sh tarball
+}
+part "packages" packages
 
 echo
 printf '%-26s %6d s  %s\n' "build" "$built" ""

@@ -7,6 +7,8 @@
 #   tools/setup.sh soak             the same and a second compiler
 #   tools/setup.sh docs             what tools/docs.sh needs: the site and the API
 #   tools/setup.sh dev              the same and formatter, linter, LLVM's standard library
+#   tools/setup.sh package          the same as build and what tools/package.sh needs
+#   tools/setup.sh try-package      what tools/try_package.sh needs
 #   tools/setup.sh --list JOB       only names the packages
 #
 # Does nothing, quickly, when everything is there. Exit 3: something is missing and cannot be installed from here.
@@ -62,6 +64,18 @@ docs=(
   doxygen              # the API below reference/api
 )
 
+package=(
+  dpkg-dev             # the package, and what it depends on (dpkg-shlibdeps)
+  lintian              # checks it
+  desktop-file-utils appstream  # check the desktop's files
+  patchelf             # the tarball's program finds its libraries beside it
+  binutils xz-utils    # the oldest glibc; the tarball
+)
+try_package=(
+  debootstrap          # bare systems in which packages are tried
+  xvfb ffmpeg python3-pil  # a screen for them, and pictures of it
+)
+
 list_only=false
 [ "${1:-}" = --list ] && { list_only=true; shift; }
 case "${1:-build}" in
@@ -71,7 +85,9 @@ case "${1:-build}" in
   soak) wanted=("${build[@]}" "${test[@]}" "${soak[@]}") ;;
   docs) wanted=("${docs[@]}") ;;
   dev) wanted=("${build[@]}" "${test[@]}" "${soak[@]}" "${dev[@]}") ;;
-  *) sed -n '2,12s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  package) wanted=("${build[@]}" "${package[@]}") ;;
+  try-package) wanted=("${try_package[@]}") ;;
+  *) sed -n '2,14s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
 esac
 if $list_only; then
   printf '%s\n' "${wanted[@]}"

@@ -15,6 +15,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/devices/box/box_thread.hpp>
 #include <trocar/devices/box/serving.hpp>
 #include <trocar/sim/recording/recording.hpp>
@@ -228,64 +229,71 @@ int monitor(const MonitorChoice& o, bool json) {
 
 void add_simulate(CLI::App& box, Chosen& chosen) {
   auto o = std::make_shared<SimulateChoice>();
-  CLI::App* c = add_command(box, chosen, "simulate", "A box of software at a pseudo-terminal that is found as PORT",
+  CLI::App* c = add_command(box, chosen, "simulate", tr("Simulate an instrument box at a pseudo-terminal"),
                             "trocar box simulate /tmp/box --exercise gynaecology/sterilisation");
-  c->add_option("port", o->port, "name of the link to the pseudo-terminal")->required();
-  c->add_option("--exercise", o->exercise,
-                "its hands do this exercise's demonstration (performed first); without: every channel waves slowly");
+  c->add_option("port", o->port, tr("name of the link to the pseudo-terminal"))->required();
+  c->add_option(
+      "--exercise", o->exercise,
+      tr("its hands repeat this exercise's demonstration, computed first; default: every channel moves slowly"));
   CLI::Option* motion =
-      c->add_option("--motion", o->motion, "its hands do FILE[#OPERATOR/TRIAL] in the exercise's scene");
-  CLI::Option* replay = c->add_option("--replay", o->replay, "its hands do what this recording's did");
-  CLI::Option* wave = c->add_flag("--wave", o->wave, "its hands wave slowly around where the scene places them");
+      c->add_option("--motion", o->motion, tr("its hands repeat FILE[#OPERATOR/TRIAL] in the exercise's scene"));
+  CLI::Option* replay = c->add_option("--replay", o->replay, tr("its hands repeat this recording"));
+  CLI::Option* wave = c->add_flag("--wave", o->wave, tr("its hands move slowly around their start positions"));
   motion->excludes(replay)->excludes(wave);
   replay->excludes(wave);
-  c->add_option("--seed", o->seed, "of the anatomy")->capture_default_str()->transform(whole_number(0, kLargestSeed));
-  c->add_option("--wiring", o->wiring, "the box's file; default: box.json in the data folder, or the built-in wiring");
-  CLI::Option* raw = c->add_flag("--raw", o->raw, "blocks of 76 bytes without frames");
-  c->add_flag("--framed", o->framed, "frames with checksums")->excludes(raw);
-  c->add_option("--baud", o->baud, "of the line; default: the wiring's")->check(CLI::Range(300, 4'000'000));
-  c->add_option("--hz", o->hz, "it sends so many blocks a second by itself; default: on request")
+  c->add_option("--seed", o->seed, tr("number of a random patient; 0: the standard patient"))
+      ->capture_default_str()
+      ->transform(whole_number(0, kLargestSeed));
+  c->add_option("--wiring", o->wiring,
+                tr("the box's file; default: box.json in the data folder, else the built-in wiring"));
+  CLI::Option* raw = c->add_flag("--raw", o->raw, tr("blocks of 76 bytes without frames"));
+  c->add_flag("--framed", o->framed, tr("frames with checksums"))->excludes(raw);
+  c->add_option("--baud", o->baud, tr("speed of the line [baud]; default: the wiring's"))
+      ->check(CLI::Range(300, 4'000'000));
+  c->add_option("--hz", o->hz, tr("blocks a second that it sends by itself; default: only on request"))
       ->check(CLI::Range(0.0, 5000.0));
-  c->add_option("--noise", o->noise, "of every channel, standard deviation in codes")->check(CLI::Range(0.0, 1000.0));
-  c->add_option("--drop", o->drop, "share of blocks that are lost")->check(CLI::Range(0.0, 1.0));
-  c->add_option("--corrupt", o->corrupt, "share of bytes that arrive as others")->check(CLI::Range(0.0, 1.0));
-  c->add_option("--latency", o->latency_ms, "that the line adds [ms]")->check(CLI::Range(0.0, 1000.0));
-  c->add_option("--port-drift", o->port_drift_mm, "how far its rubber ports wander; default: not")
+  c->add_option("--noise", o->noise, tr("noise of every channel, standard deviation [codes]"))
+      ->check(CLI::Range(0.0, 1000.0));
+  c->add_option("--drop", o->drop, tr("share of blocks that are lost"))->check(CLI::Range(0.0, 1.0));
+  c->add_option("--corrupt", o->corrupt, tr("share of bytes that are changed"))->check(CLI::Range(0.0, 1.0));
+  c->add_option("--latency", o->latency_ms, tr("delay of the line [ms]"))->check(CLI::Range(0.0, 1000.0));
+  c->add_option("--port-drift", o->port_drift_mm, tr("drift of its rubber ports [mm]; default: none"))
       ->check(number_between(0, 20, "mm"));
-  c->add_option("--port-stiffness", o->port_stiffness, "of its rubber ports, which give; default: rigid")
+  c->add_option("--port-stiffness", o->port_stiffness, tr("stiffness of its rubber ports [N/mm]; default: rigid"))
       ->check(number_between(0.1, 1000, "N/mm"));
-  c->add_option("--clock", o->clock,
-                "real: its hands move as time passes | requests: by a period a request, for who simulates slower")
+  c->add_option("--clock", o->clock, tr("real: its hands move in real time | requests: one period for each request"))
       ->capture_default_str()
       ->check(CLI::IsMember({"real", "requests"}));
-  c->add_option("--lead-in", o->lead_in, "its hands rest so long at first [s]")
+  c->add_option("--lead-in", o->lead_in, tr("time before its hands move [s]"))
       ->capture_default_str()
       ->check(CLI::Range(0.0, 60.0));
-  c->add_option("--seconds", o->seconds, "ends it after so long")->check(number_above(0, kLongestRun, "s"));
+  c->add_option("--seconds", o->seconds, tr("stop after this time [s]"))->check(number_above(0, kLongestRun, "s"));
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return simulate(*o, chosen.json); }; });
 }
 
 void add_monitor(CLI::App& box, Chosen& chosen) {
   auto o = std::make_shared<MonitorChoice>();
-  CLI::App* c = add_command(box, chosen, "monitor", "What a box sends: channels, rate, losses, latency",
+  CLI::App* c = add_command(box, chosen, "monitor", tr("Show what a box sends: channels, rate, losses, latency"),
                             "trocar box monitor /dev/ttyUSB0");
-  c->add_option("port", o->port, "a serial port")->required();
-  c->add_option("--wiring", o->wiring, "the box's file; default: box.json in the data folder, or the built-in wiring");
-  CLI::Option* raw = c->add_flag("--raw", o->raw, "blocks of 76 bytes without frames");
-  c->add_flag("--framed", o->framed, "frames with checksums")->excludes(raw);
-  c->add_option("--baud", o->baud, "of the line; default: the wiring's")->check(CLI::Range(300, 4'000'000));
-  c->add_flag("--all", o->all, "all 48 channels, not only those that are wired");
-  c->add_option("--hz", o->hz, "blocks a second that are asked for; default: the wiring's")
+  c->add_option("port", o->port, tr("a serial port"))->required();
+  c->add_option("--wiring", o->wiring,
+                tr("the box's file; default: box.json in the data folder, else the built-in wiring"));
+  CLI::Option* raw = c->add_flag("--raw", o->raw, tr("blocks of 76 bytes without frames"));
+  c->add_flag("--framed", o->framed, tr("frames with checksums"))->excludes(raw);
+  c->add_option("--baud", o->baud, tr("speed of the line [baud]; default: the wiring's"))
+      ->check(CLI::Range(300, 4'000'000));
+  c->add_flag("--all", o->all, tr("show all 48 channels, not only those that are wired"));
+  c->add_option("--hz", o->hz, tr("blocks a second that are requested; default: the wiring's"))
       ->check(CLI::Range(attempt::kLeastBoxRate, attempt::kMostBoxRate));
-  c->add_option("--seconds", o->seconds, "ends it after so long")->check(number_above(0, kLongestRun, "s"));
+  c->add_option("--seconds", o->seconds, tr("stop after this time [s]"))->check(number_above(0, kLongestRun, "s"));
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return monitor(*o, chosen.json); }; });
 }
 
 void add_file(CLI::App& box, Chosen& chosen) {
   auto file = std::make_shared<std::string>();
-  CLI::App* c = add_command(box, chosen, "file", "The wiring and calibration in use, as a file to be changed",
+  CLI::App* c = add_command(box, chosen, "file", tr("Print the wiring and calibration in use as a file"),
                             "trocar box file > ~/.local/share/trocar/box.json");
-  c->add_option("--wiring", *file, "checked and written anew; default: what is in use");
+  c->add_option("--wiring", *file, tr("a file that is checked and printed; default: the one in use"));
   c->callback([file, &chosen] {
     chosen.run = [file] {
       fmt::print("{}", attempt::box_file_text(attempt::load_wiring(*file)));
@@ -302,17 +310,17 @@ void add_calibrate(CLI::App& box, Chosen& chosen) {
     std::filesystem::path output = attempt::data_folder() / "box.json";
   };
   auto o = std::make_shared<CalibrateChoice>();
-  CLI::App* c =
-      add_command(box, chosen, "calibrate", "A window that asks what is wired where, and writes the box's file",
-                  "trocar box calibrate /dev/ttyUSB0");
-  c->add_option("port", o->port, "a serial port")->required();
+  CLI::App* c = add_command(box, chosen, "calibrate", tr("Calibrate a box in a window, and write its file"),
+                            "trocar box calibrate /dev/ttyUSB0");
+  c->add_option("port", o->port, tr("a serial port"))->required();
   c->add_option("--wiring", o->wiring,
-                "its line and filter are kept; default: box.json in the data folder, or built-in");
-  CLI::Option* raw = c->add_flag("--raw", o->raw, "blocks of 76 bytes without frames; default: what the box speaks");
-  c->add_flag("--framed", o->framed, "frames with checksums")->excludes(raw);
-  c->add_option("--baud", o->baud, "of the line; default: what the box speaks")->check(CLI::Range(300, 4'000'000));
-  c->add_option("--output", o->output, "where the file goes")->capture_default_str();
-  c->add_option("--log", o->log, "JSON lines of what happens in the window");
+                tr("a file whose line and filter are kept; default: box.json in the data folder, else built-in"));
+  CLI::Option* raw = c->add_flag("--raw", o->raw, tr("blocks of 76 bytes without frames; default: detected"));
+  c->add_flag("--framed", o->framed, tr("frames with checksums"))->excludes(raw);
+  c->add_option("--baud", o->baud, tr("speed of the line [baud]; default: detected"))
+      ->check(CLI::Range(300, 4'000'000));
+  c->add_option("--output", o->output, tr("the file that is written"))->capture_default_str();
+  c->add_option("--log", o->log, tr("write events of the window as JSON lines to this file"));
   c->callback([o, &chosen] {
     chosen.run = [o, &chosen] {
       const bool settled = o->raw || o->framed || o->baud != 0;
@@ -327,8 +335,7 @@ void add_calibrate(CLI::App& box, Chosen& chosen) {
 }  // namespace
 
 void add_box(CLI::App& program, Chosen& chosen) {
-  CLI::App* box =
-      program.add_subcommand("box", "An instrument box at a serial port: simulate one, look at one, calibrate it");
+  CLI::App* box = program.add_subcommand("box", tr("Simulate, show or calibrate an instrument box at a serial port"));
   box->require_subcommand(1);
   box->footer("Example:\n  trocar box simulate /tmp/box\n  trocar box monitor /tmp/box");
   add_simulate(*box, chosen);

@@ -7,6 +7,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/pictures/picture_size.hpp>
 
 namespace trocar::app {
@@ -15,7 +16,7 @@ CLI::App* add_command(CLI::App& program, Chosen& chosen, const std::string& name
                       const std::string& example) {
   CLI::App* command = program.add_subcommand(name, what);
   command->footer("Example:\n  " + example);
-  command->add_flag("--json", chosen.json, "print one JSON object on standard output");
+  command->add_flag("--json", chosen.json, tr("print one JSON object on standard output"));
   return command;
 }
 
@@ -54,10 +55,10 @@ int run_guarded(const Chosen& chosen) {
   } catch (const core::EnvironmentLacks& lacks) {
     return fail(chosen, core::kEnvironment, lacks.what(), Json::array());
   } catch (const std::bad_alloc&) {
-    return fail(chosen, core::kEnvironment, "not enough memory: use a coarser scene or a larger machine",
+    return fail(chosen, core::kEnvironment, tr("not enough memory: use a coarser scene or a larger machine"),
                 Json::array());
   } catch (const std::exception& error) {  // a fault of ours: nobody's input and nobody's machine
-    return fail(chosen, core::kGoalNotReached, fmt::format("trocar failed: {}", error.what()), Json::array());
+    return fail(chosen, core::kGoalNotReached, tr("trocar failed: {}", error.what()), Json::array());
   }
 }
 

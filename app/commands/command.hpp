@@ -30,6 +30,7 @@ void add_train(CLI::App& program, Chosen& chosen);
 void add_replay(CLI::App& program, Chosen& chosen);
 void add_check(CLI::App& program, Chosen& chosen);
 void add_list(CLI::App& program, Chosen& chosen);
+void add_help(CLI::App& program, Chosen& chosen);
 void add_facts(CLI::App& program, Chosen& chosen);
 void add_bench(CLI::App& program, Chosen& chosen);
 void add_gallery(CLI::App& program, Chosen& chosen);

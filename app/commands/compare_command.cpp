@@ -10,6 +10,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/reports/solver_report.hpp>
 #include <trocar/sim/recording/recording.hpp>
 
@@ -41,7 +42,7 @@ Compared press(const attempt::SolverPair& pair, double depth, double seconds) {
   attempt::PressSource source(model, plan);
   const std::string hands = fmt::format("{} at {} presses {:.1f} mm in", model.placed(std::size_t(plan.hand)).name,
                                         model.hands[std::size_t(plan.hand)].name, 1e3 * depth);
-  core::log::info("{}{}", hands, plan.clear ? "" : "; no way to it is clear, so other tissue is moved, too");
+  core::log::info("{}{}", hands, plan.clear ? "" : "; no path to it is clear, so other tissue moves too");
   return {attempt::compare_solvers(pair, source, seconds, [&] { return source.settled(); }), hands, source.describe()};
 }
 
@@ -132,21 +133,23 @@ int compare(const CompareChoice& o, bool json) {
 
 void add_compare(CLI::App& program, Chosen& chosen) {
   auto o = std::make_shared<CompareChoice>();
-  CLI::App* c = add_command(program, chosen, "compare", "One organ with both solvers under the same hands",
+  CLI::App* c = add_command(program, chosen, "compare", tr("Compare both solvers of an organ under the same hands"),
                             "trocar compare gynaecology --organ bladder --table");
-  c->add_option("exercise", o->exercise, "a scene or an exercise: a name that `trocar list` shows, or a path")
+  c->add_option("exercise", o->exercise, tr("a scene or an exercise: a name that `trocar list` shows, or a file"))
       ->required();
-  c->add_option("--organ", o->organ, "the organ that both solvers get")->required();
-  c->add_option("--hands", o->hands, "the hands of this recording; else an instrument presses the organ in");
-  c->add_option("--depth", o->depth_mm, "how far it presses in, in mm; default: 5 % of the organ's size")
+  c->add_option("--organ", o->organ, tr("the organ that both solvers compute"))->required();
+  c->add_option("--hands", o->hands, tr("a recording whose hands are used; default: an instrument presses the organ"));
+  c->add_option("--depth", o->depth_mm, tr("depth of the press [mm]; default: 5 % of the organ's size"))
       ->check(number_above(0, 100, "mm"));
-  c->add_flag("--table", o->table, "also press 5, 10 and 20 % of the organ's size in");
-  c->add_option("--seconds", o->seconds, "stop after so much simulated time")->check(number_above(0, kLongestRun, "s"));
-  c->add_option("--seed", o->seed, "vary the anatomy by this number; 0: as drawn, or as the recording has it")
+  c->add_flag("--table", o->table, tr("also press by 5, 10 and 20 % of the organ's size"));
+  c->add_option("--seconds", o->seconds, tr("stop after this simulated time [s]"))
+      ->check(number_above(0, kLongestRun, "s"));
+  c->add_option("--seed", o->seed, tr("number of a random patient; 0: the standard patient, or the recording's"))
       ->capture_default_str()
       ->transform(whole_number(0, kLargestSeed));
-  c->add_option("--out", o->out, "folder for figures, pictures and the page")->capture_default_str();
-  c->add_flag("!--no-pictures", o->pictures, "figures only");
+  c->add_option("--out", o->out, tr("folder for figures, pictures and the page"))->capture_default_str();
+  c->add_flag_callback(
+      "--no-pictures", [o] { o->pictures = false; }, tr("only figures"));
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return compare(*o, chosen.json); }; });
 }
 

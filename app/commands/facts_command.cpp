@@ -1,10 +1,11 @@
-// trocar facts: what exercises can be written with, and which of it a scene can answer.
+// trocar facts: the facts and events of exercise files, and which of them a scene has.
 #include <fmt/format.h>
 
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/training/events/catalogue.hpp>
@@ -36,10 +37,11 @@ void print_arguments(const Json& list) {
 void print_kinds(const char* heading, const Json& kinds) {
   fmt::print("{}\n", heading);
   for (const Json& k : kinds) {
-    fmt::print("  {:24} {}{}{}\n", k["name"].get<std::string>(),
-               k.contains("type") ? "[" + k["type"].get<std::string>() + bounds(k) + "] " : std::string(),
-               k["meaning"].get<std::string>(),
-               k.contains("lacks") ? " NOT HERE: it needs " + k["lacks"].get<std::string>() : std::string());
+    fmt::print(
+        "  {:24} {}{}{}\n", k["name"].get<std::string>(),
+        k.contains("type") ? "[" + k["type"].get<std::string>() + bounds(k) + "] " : std::string(),
+        k["meaning"].get<std::string>(),
+        k.contains("lacks") ? " (not in this scene: it needs " + k["lacks"].get<std::string>() + ")" : std::string());
     print_arguments(k["arguments"]);
     if (k.contains("attributes")) print_arguments(k["attributes"]);
   }
@@ -53,7 +55,7 @@ void print_names(const Json& names) {
   }
 }
 
-int tell(const std::string& scene, bool json) {
+int show_facts(const std::string& scene, bool json) {
   Json result;
   if (scene.empty()) {
     result = training::catalogue();
@@ -74,11 +76,13 @@ int tell(const std::string& scene, bool json) {
 }  // namespace
 
 void add_facts(CLI::App& program, Chosen& chosen) {
-  CLI::App* command = add_command(program, chosen, "facts", "List the facts and events that exercises are written with",
-                                  "trocar facts gynaecology");
+  CLI::App* command =
+      add_command(program, chosen, "facts", tr("List the facts and events that an exercise file can use"),
+                  "trocar facts gynaecology");
   auto scene = std::make_shared<std::string>();
-  command->add_option("scene", *scene, "a scene or an exercise: what it can answer, and the names in it");
-  command->callback([&chosen, scene] { chosen.run = [&chosen, scene] { return tell(*scene, chosen.json); }; });
+  command->add_option("scene", *scene,
+                      tr("a scene or an exercise: its names, and which facts and events it has; default: all"));
+  command->callback([&chosen, scene] { chosen.run = [&chosen, scene] { return show_facts(*scene, chosen.json); }; });
 }
 
 }  // namespace trocar::app

@@ -11,6 +11,7 @@
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/pictures/camera_choice.hpp>
 #include <trocar/pictures/pictures.hpp>
 #include <trocar/scene/files/reader.hpp>
@@ -293,12 +294,12 @@ int gallery(const Wanted& wanted, bool json) {
 
 void add_gallery(CLI::App& program, Chosen& chosen) {
   auto o = std::make_shared<Wanted>();
-  CLI::App* c = add_command(program, chosen, "gallery", "Write pictures of every scene to a folder",
-                            "trocar gallery pictures --size 1024x768");
-  c->add_option("folder", o->folder, "where the pictures go")->required();
-  c->add_option("--scene", o->scene, "only this one");
-  c->add_option("--only", o->only, "pictures whose name has this; the others are not drawn");
-  c->add_option("--size", o->size, "of pictures")->capture_default_str();
+  CLI::App* c = add_command(program, chosen, "gallery", tr("Write pictures of every scene to a folder"),
+                            "trocar gallery pictures --scene gynaecology --size 1024x768");
+  c->add_option("folder", o->folder, tr("folder for the pictures"))->required();
+  c->add_option("--scene", o->scene, tr("only this scene; default: all"));
+  c->add_option("--only", o->only, tr("only pictures whose name contains this"));
+  c->add_option("--size", o->size, tr("WIDTHxHEIGHT of pictures"))->capture_default_str();
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return gallery(*o, chosen.json); }; });
 }
 

@@ -6,6 +6,7 @@
 #include <trocar/attempt/team/member.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/pictures/headless.hpp>
 
 #include "commands/command.hpp"
@@ -71,15 +72,16 @@ int join(const JoinChoice& o, bool json) {
 
 void add_join(CLI::App& program, Chosen& chosen) {
   auto o = std::make_shared<JoinChoice>();
-  CLI::App* c = add_command(program, chosen, "join", "Lead the camera or a hand in somebody else's attempt",
+  CLI::App* c = add_command(program, chosen, "join", tr("Control the camera or an instrument in another attempt"),
                             "trocar join 192.168.1.20:4711 --role camera --token TOKEN");
-  c->add_option("at", o->at, "ADDRESS:PORT of the host: `trocar train EXERCISE --team camera` shows it")->required();
-  c->add_option("--role", o->role, "camera, assistant, left, right, or a trocar's name")->required();
-  c->add_option("--token", o->token, "what the host shows")->required()->envname(kTokenVariable);
-  c->add_option("--input", o->input, "mouse | gamepad (hands, by any device) | demo")->capture_default_str();
-  c->add_flag("--headless", o->headless, "no window");
-  c->add_option("--size", o->size, "of the window; default: as last time");
-  c->add_option("--log", o->log, "write what happens as JSON lines to this file");
+  c->add_option("at", o->at, tr("ADDRESS:PORT of the host: `trocar train EXERCISE --team camera` shows it"))
+      ->required();
+  c->add_option("--role", o->role, tr("camera, assistant, left, right, or a port's name"))->required();
+  c->add_option("--token", o->token, tr("the token that the host shows"))->required()->envname(kTokenVariable);
+  c->add_option("--input", o->input, tr("mouse | gamepad (hands, by any device) | demo"))->capture_default_str();
+  c->add_flag("--headless", o->headless, tr("no window"));
+  c->add_option("--size", o->size, tr("WIDTHxHEIGHT of the window; default: as last time"));
+  c->add_option("--log", o->log, tr("write events as JSON lines to this file"));
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return join(*o, chosen.json); }; });
 }
 

@@ -3,6 +3,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/script/session.hpp>
 
 #include "commands/command.hpp"
@@ -65,13 +66,14 @@ int model(const ModelChoice& o, bool json) {
 
 void add_model(CLI::App& program, Chosen& chosen) {
   auto o = std::make_shared<ModelChoice>();
-  CLI::App* c = add_command(program, chosen, "model", "Model organs and scenes, by hand or by a script",
-                            "trocar model --script docs/tutorials/uterus.json --shots pictures");
-  c->add_option("file", o->file, "a scene or an organ to open");
-  c->add_option("--script", o->script, "a file of steps to do without a window");
-  c->add_option("--shots", o->shots, "the folder for the script's pictures");
-  c->add_option("--log", o->log, "JSON lines of what happens in the window");
-  c->add_flag("--steps", o->list, "tell what steps there are");
+  CLI::App* c = add_command(program, chosen, "model", tr("Model organs and scenes, in a window or by a script"),
+                            "trocar model my_organ.json\n"
+                            "  trocar model --script docs/tutorials/uterus.json --shots pictures");
+  c->add_option("file", o->file, tr("a scene or an organ to open"));
+  c->add_option("--script", o->script, tr("a file of steps to do without a window"));
+  c->add_option("--shots", o->shots, tr("folder for the script's pictures"));
+  c->add_option("--log", o->log, tr("write events of the window as JSON lines to this file"));
+  c->add_flag("--steps", o->list, tr("list the steps that a script can have"));
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return model(*o, chosen.json); }; });
 }
 

@@ -6,6 +6,7 @@
 #include <trocar/attempt/solver_beside.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/text.hpp>
 
 #include "commands/command.hpp"
 #include "commands/number_options.hpp"
@@ -80,12 +81,12 @@ int precompute(const PrecomputeChoice& o, bool json) {
 
 void add_precompute(CLI::App& program, Chosen& chosen) {
   auto o = std::make_shared<PrecomputeChoice>();
-  CLI::App* c = add_command(program, chosen, "precompute", "Make the static solvers of a scene's organs beforehand",
+  CLI::App* c = add_command(program, chosen, "precompute", tr("Compute the static solvers of a scene's organs"),
                             "trocar precompute gynaecology --organ bladder");
-  c->add_option("exercise", o->exercise, "a scene or an exercise: a name that `trocar list` shows, or a path")
+  c->add_option("exercise", o->exercise, tr("a scene or an exercise: a name that `trocar list` shows, or a file"))
       ->required();
-  c->add_option("--organ", o->organs, "counts as static though its file says otherwise; may be said several times");
-  c->add_option("--seed", o->seed, "vary the anatomy by this number; 0: as drawn")
+  c->add_option("--organ", o->organs, tr("an organ that gets a static solver whatever its file says; repeatable"));
+  c->add_option("--seed", o->seed, tr("number of a random patient; 0: the standard patient"))
       ->capture_default_str()
       ->transform(whole_number(0, kLargestSeed));
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return precompute(*o, chosen.json); }; });

@@ -2,49 +2,59 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/scene/files/reader.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/shape.hpp>
 
 #include "commands/command.hpp"
+#include "commands/environment.hpp"
+#include "commands/help_texts.hpp"
 
 namespace trocar::app {
 namespace {
 
-constexpr int kMostThreads = 64;
-
 /// "trocar repot": the nearest command is named.
 void check_command(const CLI::App& program, const std::string& word) {
   std::vector<std::string> known;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
-    known.push_back(command->get_name());
+  for (const CLI::App* command : commands_of(program)) known.push_back(command->get_name());
   for (const std::string& name : known)
     if (name == word) return;
   throw core::BadInput({{{"trocar", 0, 0}, scene::unknown_name("command", word, known)}});
 }
 
-/// A variable that is set and wrong would otherwise be left aside without a word.
-void check_environment() {
-  const char* text = std::getenv("TROCAR_THREADS");
-  if (!text) return;
-  char* end = nullptr;
-  const long threads = std::strtol(text, &end, 10);
-  if (end == text || *end != 0 || threads < 1 || threads > kMostThreads)
-    throw core::BadInput({{{"TROCAR_THREADS", 0, 0},
-                           fmt::format("expected a whole number from 1 to {}, got '{}'", kMostThreads, text)}});
-}
-
 /// Results that nobody received are not delivered: the disk behind a redirection may be full.
 int delivered(int code) {
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
-  fmt::print(stderr, "cannot write to standard output: {}\n", std::strerror(errno ? errno : EIO));
+  fmt::print(stderr, "{}\n", tr("cannot write to standard output: {}", std::strerror(errno ? errno : EIO)));
   std::clearerr(stdout);
   return core::kEnvironment;
+}
+
+void add_commands(CLI::App& program, Chosen& chosen) {
+  add_train(program, chosen);
+  add_replay(program, chosen);
+  add_report(program, chosen);
+  add_list(program, chosen);
+  add_help(program, chosen);
+  add_model(program, chosen);
+  add_check(program, chosen);
+  add_facts(program, chosen);
+  add_gallery(program, chosen);
+  add_rehearse(program, chosen);
+  add_join(program, chosen);
+  add_trials(program, chosen);
+  add_mechanism(program, chosen);
+  add_room(program, chosen);
+  add_compare(program, chosen);
+  add_precompute(program, chosen);
+  add_box(program, chosen);
+  add_tracker(program, chosen);
+  add_bench(program, chosen);
+  add_thumbnail(program, chosen);
 }
 
 }  // namespace
@@ -54,32 +64,12 @@ int run_program(int argc, const char* const* argv) {
     const char* start[] = {"trocar", "train"};
     return run_program(2, start);
   }
-  CLI::App program{"Trocar: an open real-time trainer for endoscopic surgery", "trocar"};
+  CLI::App program{tr("Trocar: an open real-time trainer for endoscopic surgery"), "trocar"};
   program.require_subcommand(1);
   program.set_version_flag("--version", TROCAR_VERSION);
-  program.footer(
-      "Without any arguments: the start screen.\nExample:\n  trocar train gynaecology/sterilisation\n"
-      "Exit codes: 0 done, 1 goal not reached or verification failed, 2 bad input, 3 the environment lacks something");
+  program.footer(program_footer);
   Chosen chosen;
-  add_train(program, chosen);
-  add_replay(program, chosen);
-  add_check(program, chosen);
-  add_gallery(program, chosen);
-  add_list(program, chosen);
-  add_facts(program, chosen);
-  add_bench(program, chosen);
-  add_report(program, chosen);
-  add_trials(program, chosen);
-  add_precompute(program, chosen);
-  add_rehearse(program, chosen);
-  add_join(program, chosen);
-  add_model(program, chosen);
-  add_mechanism(program, chosen);
-  add_room(program, chosen);
-  add_compare(program, chosen);
-  add_box(program, chosen);
-  add_tracker(program, chosen);
-  add_thumbnail(program, chosen);
+  add_commands(program, chosen);
   const std::string first = argv[1];
   if (!first.empty() && first[0] != '-') {
     Chosen check;

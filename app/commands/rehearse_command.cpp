@@ -5,6 +5,7 @@
 #include <trocar/attempt/rehearsal/rehearsal.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/text.hpp>
 
 #include "commands/command.hpp"
 #include "commands/number_options.hpp"
@@ -40,10 +41,10 @@ int rehearse(const RehearseChoice& o, bool json) {
         "exercise's file:\n  {{\"seed\": {}, \"choices\": {}}}\n",
         r.score, r.lasted, r.attempts, r.seconds, o.seed, choices.dump());
   else
-    fmt::print(
-        "it did not come off in {} attempts ({:.0f} s simulated); the one that came farthest failed after "
-        "{:.0f} s: {}\n",
-        r.attempts, r.seconds, r.lasted, r.obstacle);
+    fmt::print("{}\n",
+               tr("The demonstration failed in all {} attempts ({:.0f} s simulated). The longest one failed after "
+                  "{:.0f} s: {}",
+                  r.attempts, r.seconds, r.lasted, r.obstacle));
   return r.passed ? core::kDone : core::kGoalNotReached;
 }
 
@@ -51,20 +52,20 @@ int rehearse(const RehearseChoice& o, bool json) {
 
 void add_rehearse(CLI::App& program, Chosen& chosen) {
   auto o = std::make_shared<RehearseChoice>();
-  CLI::App* c = add_command(program, chosen, "rehearse",
-                            "Try a demonstration in other ways where it goes wrong, until all of it comes off",
-                            "trocar rehearse cholecystectomy/operation --seed 3");
-  c->add_option("exercise", o->exercise, "a name that `trocar list` shows, or a path")->required();
-  c->add_option("--seed", o->seed, "of the anatomy; 0: as drawn")
+  CLI::App* c =
+      add_command(program, chosen, "rehearse", tr("Search for a perturbation with which the demonstration succeeds"),
+                  "trocar rehearse cholecystectomy/operation --seed 3");
+  c->add_option("exercise", o->exercise, tr("a name that `trocar list` shows, or a file"))->required();
+  c->add_option("--seed", o->seed, tr("number of a random patient; 0: the standard patient"))
       ->capture_default_str()
       ->transform(whole_number(0, kLargestSeed));
-  c->add_option("--points", o->patience.points, "that its errors may cost in all")
+  c->add_option("--points", o->patience.points, tr("most points that errors may cost in all"))
       ->capture_default_str()
       ->check(CLI::Range(0.0, 100.0));
-  c->add_option("--most-seconds", o->patience.seconds, "of simulated time, all attempts together")
+  c->add_option("--most-seconds", o->patience.seconds, tr("most simulated time of all attempts together [s]"))
       ->capture_default_str()
       ->check(number_above(0, kLongestRun, "s"));
-  c->add_flag("--at-first", o->patience.at_first, "a try that fails counts, though its goal may be tried again");
+  c->add_flag("--at-first", o->patience.at_first, tr("a failed try counts as a failure, even if it may be repeated"));
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return rehearse(*o, chosen.json); }; });
 }
 

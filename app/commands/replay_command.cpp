@@ -4,6 +4,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/pictures/analysis_choice.hpp>
 
 #include "commands/command.hpp"
@@ -78,37 +79,44 @@ int replay(ReplayChoice o, bool json) {
 
 void add_replay(CLI::App& program, Chosen& chosen) {
   auto o = std::make_shared<ReplayChoice>();
+  const char* film = tr("Pictures, film and data");
   CLI::App* c =
-      add_command(program, chosen, "replay", "Do a recording again: look at it, film it, verify it",
+      add_command(program, chosen, "replay", tr("Play a recording in a window, film it, or verify it"),
                   "trocar replay a.rec\n"
                   "  trocar replay a.rec --verify\n"
                   "  trocar replay a.rec --shots pictures --camera front\n"
                   "  trocar replay a.rec --video a.mp4 --camera free:120,30,250 --from 12 --to 20 --slow 0.25");
-  c->add_option("recording", o->replay.file, "a recording (train --record)")->required();
+  c->add_option("recording", o->replay.file, tr("a recording (train --record)"))->required();
   c->add_flag("--verify", o->replay.verify,
-              "compare the model's and every state's hash; exit 1 where they differ or the recording has no end");
-  c->add_option("--exercise", o->exercise, "where the recording's exercise is now, if it was a path that moved");
-  c->add_option("--shots", o->replay.shots, "write pictures to this folder");
-  c->add_option("--video", o->replay.video, "write a film, H.264 (needs ffmpeg)");
-  c->add_option("--data", o->data, pictures::kDataHelp);
-  c->add_option("--data-rate", o->replay.data.rate, "frames per simulated second")
-      ->capture_default_str()
-      ->check(number_between(pictures::kLeastDataRate, pictures::kMostDataRate, "frames a second"));
+              tr("compare the hashes of the model and of every state; exit 1 where they differ or the recording has no "
+                 "end"));
+  c->add_option("--exercise", o->exercise, tr("the recording's exercise, where its file has moved"));
+  c->add_flag("--headless", o->headless, tr("no window"));
+  c->add_option("--size", o->size, tr("WIDTHxHEIGHT of pictures (default: 800x600) or of the window"));
+  c->add_option("--log", o->log, tr("write events of the window as JSON lines to this file"));
+  c->add_option("--shots", o->replay.shots, tr("write pictures to this folder"))->group(film);
+  c->add_option("--video", o->replay.video, tr("write a film, H.264 (needs ffmpeg)"))->group(film);
   c->add_option("--camera", o->camera,
-                "of pictures and film: endoscope | front | side | above | surgeon | free:YAW,PITCH,DISTANCE [deg, mm]")
-      ->capture_default_str();
-  c->add_option("--stereo", o->stereo, pictures::kStereoHelp)->capture_default_str();
-  c->add_option("--show", o->show, pictures::kShowHelp);
-  c->add_option("--analysis", o->analysis, pictures::kAnalysisHelp);
-  c->add_option("--from", o->replay.from, "first moment of pictures and film [s]")
-      ->check(number_between(0, kLongestRecording, "s"));
-  c->add_option("--to", o->replay.to, "last moment [s]; the end if not given")
-      ->check(number_between(0, kLongestRecording, "s"));
-  c->add_option("--slow", o->replay.speed, "speed of the film: 0.25 takes four times as long")
-      ->check(number_between(pictures::kSlowest, pictures::kFastest, ""));
-  c->add_option("--size", o->size, "of pictures (800x600 if not given) or window");
-  c->add_flag("--headless", o->headless, "no window, whatever else is asked for");
-  c->add_option("--log", o->log, "window: write events as JSON lines to this file");
+                tr("endoscope | front | side | above | surgeon | free:YAW,PITCH,DISTANCE [deg, deg, mm]"))
+      ->capture_default_str()
+      ->group(film);
+  c->add_option("--stereo", o->stereo, tr(pictures::kStereoHelp))->capture_default_str()->group(film);
+  c->add_option("--show", o->show, tr(pictures::kShowHelp))->group(film);
+  c->add_option("--analysis", o->analysis, tr(pictures::kAnalysisHelp))->group(film);
+  c->add_option("--from", o->replay.from, tr("first moment of pictures and film [s]; default: the start"))
+      ->check(number_between(0, kLongestRecording, "s"))
+      ->group(film);
+  c->add_option("--to", o->replay.to, tr("last moment [s]; default: the end"))
+      ->check(number_between(0, kLongestRecording, "s"))
+      ->group(film);
+  c->add_option("--slow", o->replay.speed, tr("speed of the film: 0.25 takes four times as long; default: 1"))
+      ->check(number_between(pictures::kSlowest, pictures::kFastest, ""))
+      ->group(film);
+  c->add_option("--data", o->data, tr(pictures::kDataHelp))->group(film);
+  c->add_option("--data-rate", o->replay.data.rate, tr("frames per simulated second"))
+      ->capture_default_str()
+      ->check(number_between(pictures::kLeastDataRate, pictures::kMostDataRate, "frames a second"))
+      ->group(film);
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return replay(*o, chosen.json); }; });
 }
 

@@ -1,8 +1,5 @@
 // trocar report: what is known of an attempt as a page; all attempts as a list or a table; forgetting a trainee.
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -10,6 +7,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/reports/export.hpp>
 #include <trocar/reports/report.hpp>
 #include <trocar/reports/report_page.hpp>
@@ -17,7 +15,8 @@
 #include <trocar/training/store/store.hpp>
 
 #include "commands/command.hpp"
-#include "shell/settings.hpp"
+#include "commands/report_forget.hpp"
+#include "commands/report_trace.hpp"
 
 namespace trocar::app {
 namespace {
@@ -27,16 +26,10 @@ using training::Attempt;
 using training::Store;
 
 struct Options {
-  std::string what, out, csv, trace, trainee, forget, compare;
+  std::string what, out, csv, trace, traces, trainee, compare;
   bool list = false, names = false, no_pictures = false;
+  ForgetChoice forget;
 };
-
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  if (!out.flush())
-    throw core::EnvironmentLacks(fmt::format("cannot write {}: {}", path, std::strerror(errno ? errno : ENOSPC)));
-}
 
 /// How much of `text` fits into so many columns.
 std::string cut_to(const std::string& text, std::size_t most) {
@@ -55,11 +48,12 @@ int list(const Store& store, const Options& o, bool json) {
     return core::kDone;
   }
   if (attempts.empty()) {
-    fmt::print("no attempts yet in {}\n", store.folder().string());
+    fmt::print("{}\n", o.trainee.empty() ? tr("no attempts yet in {}", store.folder().string())
+                                         : no_attempts_of(store, o.trainee));
     return core::kDone;
   }
-  fmt::print("{:>5}  {:16}  {:16}  {:28}  {:14}  {:11}  {:>5}  {:>8}\n", "", "begun (UTC)", "trainee", "exercise",
-             "mode", "state", "score", "seconds");
+  fmt::print("{:>5}  {:16}  {:16}  {:28}  {:14}  {:11}  {:>5}  {:>8}\n", "", tr("started (UTC)"), tr("trainee"),
+             tr("exercise"), tr("mode"), tr("state"), tr("score"), tr("seconds"));
   for (const Attempt& a : attempts) {
     std::string begun = a.started.substr(0, std::min<std::size_t>(16, a.started.size()));
     std::replace(begun.begin(), begun.end(), 'T', ' ');
@@ -70,49 +64,12 @@ int list(const Store& store, const Options& o, bool json) {
   return core::kDone;
 }
 
-int forget(Store& store, const std::string& trainee, bool json) {
-  std::vector<std::string> pages;
-  for (const Attempt& a : store.list({.trainee = trainee})) pages.push_back(a.uuid);
-  Store::Forgotten gone = store.forget(trainee);
-  for (const std::string& uuid : pages) {
-    std::error_code ignored;
-    if (!uuid.empty() && uuid.find('/') == std::string::npos && uuid[0] != '.')
-      fs::remove_all(store.folder() / "reports" / uuid, ignored);
-  }
-  try {
-    forget_in_settings(settings_file(), trainee);
-  } catch (const core::EnvironmentLacks& lacks) {
-    core::log::warn("{}", lacks.what());
-    gone.left.push_back(settings_file());
-  }
-  const auto texts = [](const std::vector<fs::path>& paths) {
-    Json out = Json::array();
-    for (const fs::path& p : paths) out.push_back(p.string());
-    return out;
-  };
-  if (json) {
-    print({{"trainee", trainee},
-           {"attempts_deleted", gone.attempts},
-           {"recordings_deleted", texts(gone.deleted)},
-           {"left", texts(gone.left)},
-           {"not_overwritten", gone.not_overwritten}});
-  } else {
-    fmt::print("{}: {} attempts and {} recordings deleted\n", trainee, gone.attempts, gone.deleted.size());
-    for (const fs::path& p : gone.left) fmt::print("left, delete it yourself: {}\n", p.string());
-    if (!gone.not_overwritten.empty())
-      fmt::print("{} still holds deleted text ({}): end what uses it and do this again\n", store.database().string(),
-                 gone.not_overwritten);
-  }
-  if (!gone.not_overwritten.empty()) return core::kEnvironment;
-  return gone.attempts > 0 ? core::kDone : core::kGoalNotReached;
-}
-
 /// From a file: what it says itself, and what the store knows of the same attempt.
 Attempt from_recording(const Store& store, const std::string& file) {
   Attempt there;
   if (!fill_from_recording(file, there)) {
     sim::read_recording(file);  // says what is wrong with it
-    throw core::BadInput({{{file, 0, 0}, "expected a recording"}});
+    throw core::BadInput({{{file, 0, 0}, tr("expected a recording")}});
   }
   std::optional<Attempt> kept;
   try {
@@ -132,11 +89,14 @@ Attempt chosen(const Store& store, const Options& o) {
     if (std::optional<Attempt> a = store.find(o.what)) return *a;
     throw core::BadInput(
         {{{o.what, 0, 0},
-          "expected a recording, or an attempt's number or uuid as `trocar report --list` shows them"}});
+          tr("expected a recording, or an attempt's number or uuid as `trocar report --list` shows them")}});
   }
   const std::vector<Attempt> all = store.list({.trainee = o.trainee, .limit = 1});
   if (all.empty())
-    throw core::BadInput({{{"report", 0, 0}, "expected an attempt, there is none yet: do one with `trocar train`"}});
+    throw core::BadInput(
+        {{{"report", 0, 0},
+          o.trainee.empty() ? tr("expected an attempt, there is none yet: make one with `trocar train`")
+                            : no_attempts_of(store, o.trainee)}});
   return store.find(all.back().uuid).value_or(all.back());  // deleted meanwhile: without its motion
 }
 
@@ -153,7 +113,7 @@ Json summary(const reports::Report& r) {
 int report(Store& store, const Options& o, bool json) {
   Attempt attempt = chosen(store, o);
   if (!o.compare.empty()) {
-    if (o.compare != "demo") throw core::BadInput({{{"--compare", 0, 0}, "expected demo, got '" + o.compare + "'"}});
+    if (o.compare != "demo") throw core::BadInput({{{"--compare", 0, 0}, tr("expected demo, got '{}'", o.compare)}});
     if (!reports::gather(&store, attempt).scripted) reports::demonstrate(store, attempt.exercise, attempt.seed);
   }
   reports::Report r = reports::gather(&store, std::move(attempt));
@@ -163,9 +123,11 @@ int report(Store& store, const Options& o, bool json) {
   Json result = summary(r);
   if (!o.csv.empty()) write_text(o.csv, reports::attempts_csv({r.attempt}, o.names));
   if (!o.trace.empty()) {
-    if (!r.trace)
-      throw core::BadInput({{{"--trace", 0, 0}, "expected an attempt whose motion is known, this one's is not"}});
-    write_text(o.trace, to_csv(*r.trace));
+    if (!r.trace && r.attempt.recording.empty())
+      throw core::BadInput(
+          {{{"--trace", 0, 0}, tr("expected an attempt with its motion or a recording, got neither")}});
+    if (!r.trace) r.trace = trace_of_recording(r.attempt.recording);
+    write_text(o.trace, to_csv(*r.trace, origin_of(r.attempt, o.names)));
   }
   const bool page = !o.out.empty() || (!json && o.csv.empty() && o.trace.empty());
   if (page) {
@@ -183,13 +145,23 @@ int report(Store& store, const Options& o, bool json) {
 
 int run(const Options& o, bool json) {
   Store store(attempt::data_folder());
-  if (!o.forget.empty()) return forget(store, training::clean_name(o.forget), json);
+  if (!o.forget.trainee.empty())
+    return forget_trainee(store, {training::clean_name(o.forget.trainee), o.forget.dry_run, o.forget.yes}, json);
+  if (o.forget.dry_run || o.forget.yes)
+    throw core::BadInput(
+        {{{o.forget.yes ? "--yes" : "--dry-run", 0, 0}, tr("expected --forget NAME with it, got none")}});
   if (o.list) return list(store, o, json);
   if (!o.csv.empty() && o.what.empty()) {
     const std::vector<Attempt> all = store.list({.trainee = o.trainee});
     write_text(o.csv, reports::attempts_csv(all, o.names));
     if (json) print({{"csv", o.csv}, {"attempts", reports::attempts_json(all, o.names)}});
     return core::kDone;
+  }
+  if (!o.traces.empty()) {
+    const int written = write_traces(store, o.trainee, o.names, o.traces);
+    if (json) print({{"traces", o.traces}, {"written", written}});
+    if (written == 0) core::log::warn("{}", tr("no attempt with its motion was found"));
+    return written > 0 ? core::kDone : core::kGoalNotReached;
   }
   return report(store, o, json);
 }
@@ -198,21 +170,36 @@ int run(const Options& o, bool json) {
 
 void add_report(CLI::App& program, Chosen& chosen) {
   auto o = std::make_shared<Options>();
-  CLI::App* c = add_command(program, chosen, "report", "Show how an attempt went; list, export and delete attempts",
-                            "trocar report                      the latest attempt as a page\n"
+  CLI::App* c = add_command(program, chosen, "report", tr("Show how an attempt went; list, export and delete attempts"),
+                            "trocar report\n"
                             "  trocar report --list\n"
                             "  trocar report 12 --out report --compare demo\n"
-                            "  trocar report --csv attempts.csv --names");
-  c->add_option("attempt", o->what, "number or uuid from --list, or a recording; default: the latest");
-  c->add_flag("--list", o->list, "all attempts, oldest first");
-  c->add_option("--trainee", o->trainee, "only this trainee's");
-  c->add_option("--out", o->out, "folder of the page; default: reports/UUID in the data folder");
-  c->add_option("--csv", o->csv, "write the attempt, or without one all, as a table");
-  c->add_option("--trace", o->trace, "write the attempt's motion, 50 samples a second, as a table");
-  c->add_option("--compare", o->compare, "demo: with the scripted surgeon, who does it now if need be");
-  c->add_flag("--names", o->names, "name the trainee in page and table");
-  c->add_flag("--no-pictures", o->no_pictures, "without pictures of key moments: quicker");
-  c->add_option("--forget", o->forget, "delete this trainee's attempts and recordings");
+                            "  trocar report attempt.rec --trace motion.csv\n"
+                            "  trocar report --csv attempts.csv --names\n"
+                            "  trocar report --traces motions && trocar trials motions\n"
+                            "  trocar report --forget Ada --dry-run");
+  const char* page = tr("Page of one attempt");
+  const char* tables = tr("Lists and tables");
+  const char* deletion = tr("Deletion");
+  c->add_option("attempt", o->what, tr("number or uuid from --list, or a recording; default: the latest attempt"));
+  c->add_option("--out", o->out, tr("folder of the page; default: reports/UUID in the data folder"))->group(page);
+  c->add_option("--compare", o->compare,
+                tr("demo: compare with the demonstration, which is computed now where it is missing"))
+      ->group(page);
+  c->add_flag("--no-pictures", o->no_pictures, tr("no pictures of key moments: faster"))->group(page);
+  c->add_flag("--list", o->list, tr("list all attempts, oldest first"))->group(tables);
+  c->add_option("--trainee", o->trainee, tr("only attempts of this trainee"))->group(tables);
+  c->add_option("--csv", o->csv, tr("write the attempt, or without one all attempts, as a table to this file"))
+      ->group(tables);
+  c->add_option("--trace", o->trace, tr("write the attempt's motion, 50 samples a second, as a table to this file"))
+      ->group(tables);
+  c->add_option("--traces", o->traces, tr("write the motion of all attempts, a file each, to this folder"))
+      ->group(tables);
+  c->add_flag("--names", o->names, tr("include the trainee's name in page and tables"));
+  c->add_option("--forget", o->forget.trainee, tr("delete this trainee's attempts, recordings and reports; asks first"))
+      ->group(deletion);
+  c->add_flag("--yes", o->forget.yes, tr("--forget: do not ask"))->group(deletion);
+  c->add_flag("--dry-run", o->forget.dry_run, tr("--forget: only list what would be deleted"))->group(deletion);
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return run(*o, chosen.json); }; });
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 
 namespace trocar::app {
 
@@ -18,16 +19,20 @@ Place parse_place(const std::string& text, const std::string& where) {
 }
 
 void add_team_options(CLI::App& command, TeamChoice& choice) {
-  command.add_option(
-      "--team", choice.roles,
-      "others lead these over the network, and time waits for them: camera, assistant, left, right, or a "
-      "trocar's name, with commas; see trocar join");
+  const char* team = tr("Team over a network");
+  command
+      .add_option("--team", choice.roles,
+                  tr("parts that other people control, with commas: camera, assistant, left, right, or a port's name; "
+                     "the simulation pauses until they have joined (see trocar join)"))
+      ->group(team);
   command
       .add_option("--team-at", choice.at,
-                  "ADDRESS:PORT where they are waited for; port 0: a free one; 0.0.0.0: from other machines, too")
-      ->capture_default_str();
-  command.add_option("--token", choice.token, "what they must know; without it one is drawn and shown")
-      ->envname(kTokenVariable);
+                  tr("ADDRESS:PORT where they join; port 0: a free one; address 0.0.0.0: from other machines too"))
+      ->capture_default_str()
+      ->group(team);
+  command.add_option("--token", choice.token, tr("the token that they must present; default: a random one, shown"))
+      ->envname(kTokenVariable)
+      ->group(team);
 }
 
 attempt::TeamPlan team_plan(const TeamChoice& choice) {

@@ -5,6 +5,7 @@
 
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/devices/tracker/tracker_thread.hpp>
 
 #include "commands/command.hpp"
@@ -79,13 +80,15 @@ int monitor_tracker(const TrackerChoice& o, bool json) {
 }  // namespace
 
 void add_tracker(CLI::App& program, Chosen& chosen) {
-  CLI::App* tracker = program.add_subcommand("tracker", "A tracker's server (OpenIGTLink): look at what it sends");
+  CLI::App* tracker = program.add_subcommand("tracker", tr("Show what a tracker's server (OpenIGTLink) sends"));
   tracker->require_subcommand(1);
+  tracker->footer("Example:\n  trocar tracker monitor 127.0.0.1:18944");
   auto o = std::make_shared<TrackerChoice>();
-  CLI::App* c = add_command(*tracker, chosen, "monitor", "Names, places and ages of tools, and values of sensors",
-                            "trocar tracker monitor 127.0.0.1:18944");
-  c->add_option("place", o->place, "ADDRESS:PORT of the server")->required();
-  c->add_option("--seconds", o->seconds, "ends it after so long")->check(number_above(0, kLongestRun, "s"));
+  CLI::App* c =
+      add_command(*tracker, chosen, "monitor", tr("Show names, positions and ages of tools, and values of sensors"),
+                  "trocar tracker monitor 127.0.0.1:18944");
+  c->add_option("place", o->place, tr("ADDRESS:PORT of the server"))->required();
+  c->add_option("--seconds", o->seconds, tr("stop after this time [s]"))->check(number_above(0, kLongestRun, "s"));
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return monitor_tracker(*o, chosen.json); }; });
 }
 

@@ -13,6 +13,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/devices/haptics/choose_device.hpp>
 #include <trocar/pictures/analysis_choice.hpp>
 #include <trocar/pictures/headless.hpp>
@@ -214,52 +215,78 @@ int train(const TrainChoice& o, bool json) {
   return exit_code(result, o.input);
 }
 
+void add_input_options(CLI::App& c, TrainChoice& o) {
+  const char* devices = tr("Devices and other sources of input");
+  c.add_option("--input", o.input,
+               tr("mouse | gamepad (hands, by any device) | demo | motion:FILE[#OPERATOR/TRIAL] | replay:FILE | "
+                  "box:PORT[#FILE]"))
+      ->capture_default_str()
+      ->group(devices);
+  c.add_option("--map", o.map, tr("in a window: a file that assigns several devices to instruments"))->group(devices);
+  c.add_option("--tracker", o.tracker, tr("a file that assigns the tools of a tracker to instruments"))->group(devices);
+  c.add_option("--haptics", o.haptics, tr("a haptic device that controls an instrument: {}", devices::kHapticDevices))
+      ->group(devices);
+  c.add_option("--haptics-hand", o.haptics_hand, tr("the port of that instrument; default: the right hand's"))
+      ->group(devices);
+}
+
+void add_window_options(CLI::App& c, TrainChoice& o) {
+  const char* window = tr("In a window");
+  c.add_option("--room", o.room, tr("an operating room beside the exercise, with its arms (see trocar room)"))
+      ->group(window);
+  c.add_option("--beside", o.beside,
+               tr("an organ of the scene: its other solver runs beside, and the analysis shows the difference"))
+      ->group(window);
+}
+
+void add_headless_options(CLI::App& c, TrainChoice& o) {
+  const char* headless = tr("Without a window");
+  c.add_flag("--headless", o.headless, tr("no window, as fast as the machine allows"))->group(headless);
+  c.add_option("--shots", o.shots, tr("write pictures of key moments to this folder"))->group(headless);
+  c.add_option("--video", o.video, tr("write a film to this file (needs ffmpeg)"))->group(headless);
+  c.add_option("--stereo", o.stereo, tr(pictures::kStereoHelp))->capture_default_str()->group(headless);
+  c.add_option("--show", o.show, tr(pictures::kShowHelp))->group(headless);
+  c.add_option("--analysis", o.analysis, tr(pictures::kAnalysisHelp))->group(headless);
+  c.add_option("--data", o.data, tr(pictures::kDataHelp))->group(headless);
+  c.add_option("--data-rate", o.data_rate, tr("frames per simulated second"))
+      ->capture_default_str()
+      ->check(number_between(pictures::kLeastDataRate, pictures::kMostDataRate, "frames a second"))
+      ->group(headless);
+}
+
+void add_record_options(CLI::App& c, TrainChoice& o) {
+  const char* recording = tr("Recording and results");
+  c.add_option("--record", o.record, tr("write the recording to this file"))->group(recording);
+  c.add_option("--report", o.report, tr("write an HTML report to this folder"))->group(recording);
+  c.add_option("--log", o.log, tr("write events as JSON lines to this file"))->group(recording);
+  c.add_flag("--no-store", o.no_store, tr("keep nothing in the session store"))->group(recording);
+}
+
 }  // namespace
 
 void add_train(CLI::App& program, Chosen& chosen) {
   auto options = std::make_shared<TrainChoice>();
-  CLI::App* c = add_command(program, chosen, "train", "Do an exercise, in a window or headless",
+  TrainChoice& o = *options;
+  CLI::App* c = add_command(program, chosen, "train", tr("Do an exercise, in a window or without one"),
                             "trocar train gynaecology/sterilisation\n"
                             "  trocar train gynaecology/sterilisation --input demo --headless --record a.rec --shots "
                             "shots --json");
-  c->add_option("exercise", options->exercise, "a name that `trocar list` shows, or a path; without one: start screen");
-  c->add_option("--input", options->input,
-                "mouse | gamepad (hands, by any device) | demo | motion:FILE[#OPERATOR/TRIAL] | replay:FILE | "
-                "box:PORT[#FILE]")
-      ->capture_default_str();
-  c->add_flag("--headless", options->headless, "no window, as fast as it goes");
-  c->add_option("--record", options->record, "write the recording to this file");
-  c->add_option("--shots", options->shots, "headless: write pictures to this folder");
-  c->add_option("--video", options->video, "headless: write a film (needs ffmpeg)");
-  c->add_option("--data", options->data, std::string("headless: ") + pictures::kDataHelp);
-  c->add_option("--data-rate", options->data_rate, "frames per simulated second")
-      ->capture_default_str()
-      ->check(number_between(pictures::kLeastDataRate, pictures::kMostDataRate, "frames a second"));
-  c->add_option("--report", options->report, "write an HTML report to this folder");
-  c->add_option("--size", options->size, "of pictures (default 800x600) or window (default: as last time)");
-  c->add_option("--stereo", options->stereo, std::string("headless: ") + pictures::kStereoHelp)->capture_default_str();
-  c->add_option("--show", options->show, std::string("headless: ") + pictures::kShowHelp);
-  c->add_option("--analysis", options->analysis, std::string("headless: ") + pictures::kAnalysisHelp);
-  c->add_option("--trainee", options->trainee, "whose attempt it is; default: guest");
-  c->add_flag("--familiarisation", options->familiarisation, "getting to know it: no score, no verdict");
-  c->add_option("--seed", options->seed, "vary the anatomy by this number; 0: as drawn")
+  c->add_option("exercise", o.exercise, tr("a name that `trocar list` shows, or a file; default: the start screen"));
+  c->add_option("--trainee", o.trainee, tr("name of the trainee; default: guest"));
+  c->add_option("--seed", o.seed, tr("number of a random patient; 0: the standard patient"))
       ->capture_default_str()
       ->transform(whole_number(0, kLargestSeed));
-  c->add_option("--room", options->room,
-                "in the window: an operating room beside it, whose arms carry the instruments (see trocar room)");
-  c->add_option("--beside", options->beside,
-                "in the window: this organ's other solver runs beside, and the analysis shows how far both are apart");
-  c->add_option("--haptics", options->haptics,
-                std::string("a device that leads a hand, and pushes back: ") + devices::kHapticDevices);
-  c->add_option("--haptics-hand", options->haptics_hand, "that it leads, by its trocar; default: the right one");
-  c->add_option("--tracker", options->tracker,
-                "a file that says which tools of a tracker lead what (docs/guides/trackers.md)");
-  c->add_flag("--no-store", options->no_store, "leave nothing in the session store");
-  c->add_option("--seconds", options->seconds, "stop after so much simulated time")
+  c->add_flag("--familiarisation", o.familiarisation, tr("familiarise: no score and no verdict"));
+  c->add_option("--seconds", o.seconds, tr("stop after this simulated time [s]; default: at the end of the exercise"))
       ->check(number_above(0, kLongestRun, "s"));
-  c->add_option("--map", options->map, "in the window: a file that says what each of several devices leads");
-  add_team_options(*c, options->team);
-  c->add_option("--log", options->log, "write what happens as JSON lines to this file");
+  c->add_option("--size", o.size,
+                tr("WIDTHxHEIGHT of the window (default: as last time) or of pictures (default: "
+                   "800x600)"));
+  add_input_options(*c, o);
+  add_window_options(*c, o);
+  add_headless_options(*c, o);
+  add_record_options(*c, o);
+  add_team_options(*c, o.team);
   c->callback([options, &chosen] { chosen.run = [options, &chosen] { return train(*options, chosen.json); }; });
 }
 

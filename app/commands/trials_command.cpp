@@ -6,11 +6,14 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/files.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/devices/motion_file.hpp>
 #include <trocar/reports/trials_page.hpp>
 #include <trocar/training/metrics/study.hpp>
+#include <trocar/training/metrics/trace_csv.hpp>
 
 #include "commands/command.hpp"
 
@@ -19,6 +22,8 @@ namespace trocar::app {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr std::uint64_t kMostBytes = std::uint64_t(256) << 20;  ///< of a file
 
 /// Fifty samples a second of the smooth curve through a trial's rows. Only the turn about the shaft is known, not where
 /// the shaft points; forces are not known.
@@ -50,48 +55,80 @@ std::vector<fs::path> motion_files(const fs::path& where) {
     if (entry->path().extension() == ".csv") files.push_back(entry->path());
   std::sort(files.begin(), files.end());
   if (files.empty())
-    throw core::BadInput({{{where.string(), 0, 0}, "expected CSV files of motion in this folder, found none"}});
+    throw core::BadInput({{{where.string(), 0, 0}, tr("expected CSV files of motion in this folder, found none")}});
   return files;
 }
 
-/// A person's trials count 1, 2, ... in the order of the files and of their rows.
-std::vector<training::StudyAttempt> read_attempts(const std::vector<fs::path>& files) {
+/// The attempts of all files, and what is known of them together.
+struct ReadTrials {
   std::vector<training::StudyAttempt> attempts;
-  std::map<std::string, int> repetitions;
-  double rows = 0, seconds = 0;
-  for (const fs::path& file : files)
-    for (const devices::MotionTrial& trial : devices::read_motion_file(file)) {
-      training::StudyAttempt attempt;
-      const std::size_t slash = trial.name.find('/');
-      attempt.person = trial.name.substr(0, slash);
-      attempt.trial = trial.name.substr(slash + 1);
-      attempt.repetition = ++repetitions[attempt.person];
-      attempt.metrics = training::metrics_of(trace_of(trial));
-      attempts.push_back(std::move(attempt));
-      rows += double(trial.samples.size() - 1);
-      seconds += trial.samples.back().time;
-    }
-  core::log::info("{} trials of {} people, {:.0f} s at {:.3g} rows a second", attempts.size(), repetitions.size(),
-                  seconds, rows / seconds);
-  return attempts;
+  bool own = false, foreign = false;  ///< tables of `trocar report`, and of other programs
+
+  void add(std::string person, std::string trial, const training::Trace& trace) {
+    training::StudyAttempt attempt;
+    attempt.person = std::move(person);
+    attempt.trial = std::move(trial);
+    attempt.repetition = ++m_repetitions[attempt.person];
+    attempt.metrics = training::metrics_of(trace);
+    attempts.push_back(std::move(attempt));
+    m_seconds += trace.size() > 1 ? trace.time(trace.size() - 1) - trace.start : 0;
+  }
+  void say() const {
+    core::log::info("{}", tr("{} trials of {} people, {:.0f} s", attempts.size(), m_repetitions.size(), m_seconds));
+  }
+
+ private:
+  std::map<std::string, int> m_repetitions;
+  double m_seconds = 0;
+};
+
+/// A table that `trocar report --trace` wrote; one without a person counts as a person's of its own.
+void read_own(const fs::path& file, const std::string& text, ReadTrials& read) {
+  training::TraceOrigin origin;
+  const training::Trace trace = training::trace_from_csv(text, file.string(), origin);
+  const std::string stem = file.stem().string();
+  read.add(origin.person.empty() ? stem : origin.person, origin.trial.empty() ? stem : origin.trial, trace);
+  read.own = true;
 }
 
-const std::vector<std::string>& remarks() {
-  static const std::vector<std::string> all = {
-      "Motions from files, joined by smooth curves (docs/guides/motion_input.md) and sampled 50 times a second. What "
-      "the rows "
-      "do "
-      "not hold is not in the figures: with one row a second nothing faster than 0.5 Hz is known, so smoothness and "
-      "idle "
-      "time describe the joined curve and compare only with files of the same kind.",
-      "Angular path is the turn about the shaft only; forces, depth and economy need data that such files lack.",
-      "A correlation holds for these people and this task. It says nothing about anybody's skill."};
+/// A person's trials count 1, 2, ... in the order of the files and of their rows.
+ReadTrials read_attempts(const std::vector<fs::path>& files) {
+  ReadTrials read;
+  for (const fs::path& file : files) {
+    if (const std::string text = core::read_file(file, kMostBytes); training::is_trace_csv(text)) {
+      read_own(file, text, read);
+      continue;
+    }
+    for (const devices::MotionTrial& trial : devices::read_motion_file(file)) {
+      const std::size_t slash = trial.name.find('/');
+      read.add(trial.name.substr(0, slash), trial.name.substr(slash + 1), trace_of(trial));
+      read.foreign = true;
+    }
+  }
+  read.say();
+  return read;
+}
+
+std::vector<std::string> remarks_of(const ReadTrials& read) {
+  std::vector<std::string> all;
+  if (read.foreign) {
+    all.push_back(
+        tr("Motion from files is joined by smooth curves and sampled 50 times a second. With one row a second nothing "
+           "faster than 0.5 Hz is known. Smoothness and idle time then describe the joined curve, and compare only "
+           "with files of the same kind."));
+    all.push_back(
+        tr("The angular path is the turn about the shaft only. Forces, depth and economy need data that such files "
+           "lack."));
+  }
+  if (read.own) all.push_back(tr("Motion of Trocar's own attempts is sampled 50 times a second, with forces."));
+  all.push_back(tr("A correlation holds for these people and this task. It does not measure anybody's skill."));
   return all;
 }
 
 void print_summary(const training::Study& study) {
-  fmt::print("{} attempts of {} people\n\n{:34} {:>10} {:>23}   {:>28}\n", study.attempts.size(), study.persons.size(),
-             "", "median", "quartiles", "rho with repetition (range)");
+  fmt::print("{}\n\n{:34} {:>10} {:>23}   {:>28}\n",
+             tr("{} attempts of {} people", study.attempts.size(), study.persons.size()), "", tr("median"),
+             tr("quartiles"), tr("rho with repetition (range)"));
   for (const training::MetricStudy& m : study.metrics) {
     if (m.all.count == 0) continue;
     const std::string unit = m.column->unit;
@@ -101,8 +138,9 @@ void print_summary(const training::Study& study) {
                rho.value, rho.low, rho.high);
   }
   const training::Trend& t = study.metrics.front().trend;
-  fmt::print("\nDuration changes by {:.2f} s with each repetition ({:.2f} .. {:.2f} when a person is left out)\n",
-             t.slope.value, t.slope.low, t.slope.high);
+  fmt::print("\n{}\n",
+             tr("Duration changes by {:.2f} s with each repetition ({:.2f} .. {:.2f} when a person is left out)",
+                t.slope.value, t.slope.low, t.slope.high));
 }
 
 void write_page(const fs::path& path, const std::string& page) {
@@ -110,16 +148,18 @@ void write_page(const fs::path& path, const std::string& page) {
   out << page;
   if (!out.flush())
     throw core::EnvironmentLacks(
-        fmt::format("cannot write {}: does its folder exist, and is there room?", path.string()));
+        tr("cannot write {}: check that its folder exists and that the disk has room", path.string()));
 }
 
 int trials(const std::string& where, const std::string& html, bool json) {
-  const training::Study study = training::study_of(read_attempts(motion_files(where)));
+  ReadTrials read = read_attempts(motion_files(where));
+  const std::vector<std::string> remarks = remarks_of(read);
+  const training::Study study = training::study_of(std::move(read.attempts));
   Json result = Json::parse(training::study_json(study));
   result["source"] = where;
-  result["remarks"] = remarks();
+  result["remarks"] = remarks;
   if (!html.empty()) {
-    write_page(html, reports::trials_html(study, "Trials: " + fs::path(where).filename().string(), remarks()));
+    write_page(html, reports::trials_html(study, "Trials: " + fs::path(where).filename().string(), remarks));
     result["html"] = html;
   }
   if (json)
@@ -137,11 +177,13 @@ void add_trials(CLI::App& program, Chosen& chosen) {
     std::string where, html;
   };
   auto o = std::make_shared<Options>();
-  CLI::App* c = add_command(program, chosen, "trials", "Metrics and learning curve of motions in files",
-                            "trocar trials motions.csv --html trials.html");
-  c->add_option("motions", o->where, "a CSV file of motions (docs/guides/motion_input.md), or a folder of them")
+  CLI::App* c = add_command(program, chosen, "trials", tr("Compute metrics and learning curve of motion files"),
+                            "trocar report --traces motions --names && trocar trials motions --html trials.html");
+  c->add_option("motions", o->where,
+                tr("a CSV file of motion or a folder of them: tables of `trocar report --trace`, or one row a moment "
+                   "with the columns operator, trial, t_ms, xL, yL, zL, rollL, handleL, xR, ... handleR"))
       ->required();
-  c->add_option("--html", o->html, "write a page with drawings to this file");
+  c->add_option("--html", o->html, tr("write a page with drawings to this file"));
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return trials(o->where, o->html, chosen.json); }; });
 }
 

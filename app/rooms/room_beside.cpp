@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include <trocar/core/error.hpp>
-#include <trocar/scene/files/library.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/operating_room/room_file.hpp>
 
 #include "rooms/room_camera.hpp"
@@ -20,11 +20,7 @@ constexpr int kRoomEye = 7;                              // exposure memory
 }  // namespace
 
 std::filesystem::path room_path(const std::string& name, const char* folder) {
-  std::error_code error;
-  const auto scenes = scene::found_scenes_folder();
-  if (std::filesystem::exists(name, error) || !scenes) return name;
-  const std::filesystem::path shipped = *scenes / folder / (name + ".json");
-  return std::filesystem::exists(shipped, error) ? shipped : std::filesystem::path(name);
+  return scene::file_or_name(name, folder, std::string_view(folder) == "rooms" ? "operating room" : "programme");
 }
 
 std::unique_ptr<studies::RoomModel> load_room(const std::string& name) {

@@ -13,6 +13,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <trocar/core/font_file.hpp>
+
 extern char** environ;
 
 namespace trocar::app::ui {
@@ -70,8 +72,8 @@ void load_fonts(float scale) {
   style.Colors[ImGuiCol_NavHighlight] = kOrange;
   style.ScaleAllSizes(scale);
   ImGui::GetIO().Fonts->Clear();
-  load_font("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", std::round(kTextHeight * scale));
-  g_title = load_font("/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf", std::round(kTitleHeight * scale));
+  load_font(core::font_file("DejaVuSans.ttf").c_str(), std::round(kTextHeight * scale));
+  g_title = load_font(core::font_file("DejaVuSans-Bold.ttf").c_str(), std::round(kTitleHeight * scale));
   ImGui::GetIO().Fonts->Build();
 }
 

@@ -61,7 +61,7 @@ int run(int argc, char** argv, const MpiSession& mpi) {
   CLI::App words("A tolerance study of a mechanism on many machines; prints JSON", "trocar_study_mpi");
   words.add_option("file", o.file, "a mechanism's file (.json, .urdf), or its name under scenes/mechanisms")
       ->required();
-  words.add_option("--frame", o.frame, "which frame is measured")->capture_default_str();
+  words.add_option("--frame", o.frame, "which frame is measured; default: tip, else the first");
   words.add_option("--drive", o.drives, "an actuator, as NAME=0..1");
   words.add_option("--samples", o.samples, "how many")
       ->transform(app::whole_number(1, 10'000'000))

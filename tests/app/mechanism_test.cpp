@@ -62,6 +62,18 @@ TEST(Mechanism, WrongWordsExitWithTwoAndSayWhatThereIs) {
   EXPECT_EQ(trocar({"mechanism", "four_bar", "workspace", "--frame", "toe"}).exit, 2);
 }
 
+TEST(Mechanism, WithoutAFrameTheFirstOneIsMeasured) {
+  const Outcome o =
+      trocar({"mechanism", "colliding_grasper", "tolerance", "--plus-minus-um", "10", "--samples", "200"});
+  EXPECT_EQ(o.exit, 0) << o.err;
+  EXPECT_NE(o.out.find("tip_upper"), std::string::npos) << o.out;
+}
+
+TEST(Mechanism, AWrongNameIsAnsweredWithTheNearestOne) {
+  EXPECT_NE(trocar({"mechanism", "four_bra"}).err.find("did you mean \"four_bar\"?"), std::string::npos);
+  EXPECT_NE(trocar({"room", "telemanipulatet"}).err.find("did you mean \"telemanipulated\"?"), std::string::npos);
+}
+
 TEST(Mechanism, AToleranceStudySaysFirstOrderAndSamplesAndLeavesAPage) {
   const std::string folder = testing::TempDir() + "trocar_tolerance_page";
   const Outcome o =

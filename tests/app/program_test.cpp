@@ -49,11 +49,10 @@ class Program : public testing::Test {
   fs::path m_folder;
 };
 
-const std::vector<std::string> kCommands{"train", "replay", "check",      "gallery", "list",
-                                         "bench", "report", "precompute", "compare", "box"};
-
 TEST_F(Program, EveryCommandHasHelpWithAnExample) {
-  for (const std::string& command : kCommands) {
+  for (const std::string command :
+       {"train", "replay", "report", "list", "help", "model", "check", "facts", "gallery", "rehearse", "join", "trials",
+        "mechanism", "room", "compare", "precompute", "box", "tracker", "bench"}) {
     const Outcome o = trocar({command, "--help"});
     EXPECT_EQ(o.exit, core::kDone) << command;
     EXPECT_NE(o.out.find("Example:\n  trocar " + command), std::string::npos) << o.out;
@@ -94,12 +93,69 @@ TEST_F(Program, UnknownCommandsAndUnknownOptionsAreBadInput) {
   EXPECT_EQ(trocar({"list", "--fast"}).exit, core::kBadInput);
 }
 
-TEST_F(Program, ListNamesTheExerciseItsSceneAndTheInstruments) {
+TEST_F(Program, ListKnowsEveryKind) {
   const Outcome o = trocar({"list", "--json"});
   ASSERT_EQ(o.exit, core::kDone) << o.err;
-  const std::string text = o.json().dump();
-  for (const char* name : {"gynaecology/sterilisation", "\"gynaecology\"", "\"grasper\"", "\"clip_applier\""})
-    EXPECT_NE(text.find(name), std::string::npos) << name;
+  EXPECT_EQ(o.err, "") << "every shipped file can be read";
+  const Json all = o.json();
+  const auto has = [&](const char* kind, const char* name) {
+    return std::any_of(all[kind].begin(), all[kind].end(), [&](const Json& e) { return e["name"] == name; });
+  };
+  EXPECT_TRUE(has("exercises", "gynaecology/sterilisation"));
+  EXPECT_TRUE(has("scenes", "gynaecology"));
+  EXPECT_TRUE(has("instruments", "clip_applier"));
+  EXPECT_TRUE(has("mechanisms", "four_bar"));
+  EXPECT_TRUE(has("rooms", "telemanipulated"));
+  EXPECT_TRUE(has("programmes", "triangle"));
+  EXPECT_TRUE(has("materials", "liver"));
+  EXPECT_TRUE(has("vessels", "pelvis"));
+  EXPECT_TRUE(has("inputs", "two_pads"));
+  EXPECT_NE(trocar({"list", "rooms"}).out.find("telemanipulated"), std::string::npos);
+  EXPECT_EQ(trocar({"list", "rooms", "--names"}).out, "telemanipulated\n");
+  EXPECT_NE(trocar({"list", "organs"}).err.find("known: exercises, scenes"), std::string::npos);
+}
+
+/// An exercise that takes all but its title from a shipped one, in the user's own folder.
+constexpr const char* kOwnExercise = R"({
+  "format": 3,
+  "name": "mine",
+  "title": "My camera",
+  "like": "../basics/camera-0.json",
+  "scene": "../box_pegs/scene.json"
+})";
+
+TEST_F(Program, OwnExercisesAreListedAndNameShippedFilesAsNeighbours) {
+  fs::create_directories(file("data/scenes/own"));
+  std::ofstream(file("data/scenes/own/mine.json")) << kOwnExercise;
+  const Json all = trocar({"list", "exercises", "--json"}).json();
+  EXPECT_TRUE(std::any_of(all["exercises"].begin(), all["exercises"].end(),
+                          [](const Json& e) { return e["name"] == "own/mine" && e["title"] == "My camera"; }));
+  EXPECT_EQ(trocar({"check", file("data/scenes/own/mine.json")}).exit, core::kDone);
+  const Outcome run =
+      trocar({"train", "own/mine", "--input", "motion:" + motion_file(), "--headless", "--seconds", "0.02", "--json"});
+  EXPECT_EQ(run.exit, core::kDone) << run.err;
+}
+
+TEST_F(Program, AnExerciseThatCannotBeReadIsNotListedButItsFaultIs) {
+  fs::create_directories(file("data/scenes/own"));
+  std::ofstream(file("data/scenes/own/late.json")) << R"({"format": 3, "name": "late", "title": "Late",
+    "like": "nowhere.json", "scene": "../box_reach/scene.json"})";
+  const Outcome o = trocar({"list", "exercises"});
+  EXPECT_EQ(o.exit, core::kDone);
+  EXPECT_EQ(o.out.find("own/late"), std::string::npos) << o.out;
+  EXPECT_NE(o.err.find("not listed: own/late: "), std::string::npos) << o.err;
+}
+
+TEST_F(Program, AMissingCommaIsTheOnlyFaultOfItsFile) {
+  std::string text = read(TROCAR_SOURCE_DIR "/scenes/basics/camera-0.json");
+  const std::size_t comma = text.find(",\n", text.find("\"title\""));
+  text.erase(comma, 1);
+  fs::create_directories(file("data/scenes/basics"));
+  std::ofstream(file("data/scenes/basics/spoilt.json")) << text;
+  const Outcome o = trocar({"check", file("data/scenes/basics/spoilt.json"), "--json"});
+  EXPECT_EQ(o.exit, core::kBadInput);
+  ASSERT_EQ(o.json()["faults"].size(), 1u) << o.err;
+  EXPECT_NE(o.err.find("expected ',' or '}'"), std::string::npos) << o.err;
 }
 
 TEST_F(Program, AnUnknownExerciseIsBadInputWithTheNearestName) {
@@ -428,12 +484,37 @@ TEST_F(Program, AttemptsAreListedExportedAndForgotten) {
   EXPECT_NE(read(file("all.csv")).find("both.path_m"), std::string::npos);
   ASSERT_EQ(trocar({"report", "1", "--trace", file("motion.trace.csv")}).exit, core::kDone);
   EXPECT_GT(read(file("motion.trace.csv")).size(), 500u);
+  ASSERT_EQ(trocar({"report", "2", "--trace", file("kept.csv")}).exit, core::kDone);
+  setenv("TROCAR_DATA", file("elsewhere").c_str(), 1);
+  const Outcome handed_in = trocar({"report", file("b.rec"), "--trace", file("b.csv")});
+  setenv("TROCAR_DATA", file("data").c_str(), 1);
+  EXPECT_EQ(handed_in.exit, core::kDone) << handed_in.err;
+  const auto motion = [&](const std::string& name) {
+    const std::string text = read(file(name));
+    return text.substr(text.find("# rate_hz"));
+  };
+  EXPECT_EQ(motion("b.csv"), motion("kept.csv")) << "a recording of another store is simulated again";
+  ASSERT_EQ(trocar({"report", "--traces", file("motions"), "--names"}).exit, core::kDone);
+  const Json study = trocar({"trials", file("motions"), "--json"}).json();
+  EXPECT_EQ(study["persons"], (Json{"Ada", "Bob"}));
+  EXPECT_EQ(study["attempts"].size(), 2u);
+
+  const Outcome nobody = trocar({"report", "--list", "--trainee", "Nobody"});
+  EXPECT_NE(nobody.out.find("no attempts of Nobody; known: Bob, Ada"), std::string::npos) << nobody.out;
 
   fs::create_directories(file("data"));
   std::ofstream(file("data/settings.json")) << R"({"format": 1, "trainee": "Ada"})";
-  EXPECT_EQ(trocar({"report", "--forget", "Ada"}).exit, core::kDone);
+  EXPECT_EQ(trocar({"report", "--forget", "Ada"}).exit, core::kBadInput) << "nobody can be asked here";
+  const Outcome dry = trocar({"report", "--forget", "Ada", "--dry-run"});
+  EXPECT_EQ(dry.exit, core::kDone);
+  EXPECT_NE(dry.out.find("Ada: 1 attempt and 0 recordings would be deleted"), std::string::npos) << dry.out;
+  EXPECT_NE(dry.out.find("gynaecology/sterilisation"), std::string::npos) << dry.out;
+  EXPECT_EQ(trocar({"report", "--list", "--json"}).json()["attempts"].size(), 2u) << "so far all is there";
+  const Outcome gone = trocar({"report", "--forget", "Ada", "--yes"});
+  EXPECT_EQ(gone.exit, core::kDone);
+  EXPECT_NE(gone.out.find("Ada: 1 attempt and 0 recordings deleted"), std::string::npos) << gone.out;
   EXPECT_EQ(read(file("data/settings.json")).find("Ada"), std::string::npos);
-  EXPECT_EQ(trocar({"report", "--forget", "Ada"}).exit, core::kGoalNotReached);
+  EXPECT_EQ(trocar({"report", "--forget", "Ada", "--yes"}).exit, core::kGoalNotReached);
   EXPECT_EQ(trocar({"report", "--list", "--json"}).json()["attempts"].size(), 1u);
 }
 

@@ -45,7 +45,7 @@ TEST(QuantityText, SumsMultiplesOfParameters) {
 TEST(QuantityText, SaysWhatIsWrong) {
   const std::vector<Parameter> p{{"rod", Measure::length, 0.05}, {"tilt", Measure::angle, 1}};
   const auto fault = [&](const std::string& text) { return read_quantity(text, p, Measure::length, 1e-3).fault; };
-  EXPECT_EQ(fault("rood"), "expected a known parameter (rod, tilt), got \"rood\" (did you mean \"rod\"?)");
+  EXPECT_EQ(fault("rood"), "expected a known parameter, got \"rood\" (did you mean \"rod\"?); known: rod, tilt");
   EXPECT_EQ(fault("tilt"), "expected a length, got \"tilt\", which is an angle");
   EXPECT_EQ(fault("rod * rod"), "expected one parameter in a product, got \"rod\" as well");
   EXPECT_EQ(fault("rod rod"), "expected '+' or '-' between terms, got 'r'");

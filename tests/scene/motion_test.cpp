@@ -92,7 +92,7 @@ TEST(MotionFile, FaultsOfWavesAreToldWithTheirPlaces) {
   };
   EXPECT_EQ(faults_of(waves("\"per_minute\": 3")), std::vector<std::string>{});
   EXPECT_EQ(faults_of(waves("\"per_minute\": 3", "@\"bowl\"")),
-            one("expected a known solid (bowel, slice), got \"bowl\" (did you mean \"bowel\"?)"));
+            one("expected a known solid, got \"bowl\" (did you mean \"bowel\"?); known: bowel, slice"));
   EXPECT_EQ(faults_of(waves("\"per_minute\": 3", "@\"slice\"")),
             one("expected a solid that is not cuttable, got \"slice\""));
   EXPECT_EQ(faults_of(waves("\"per_minute\": @0")), one("expected a number in [0.1, 60] for \"per_minute\", got 0"));
@@ -114,8 +114,8 @@ TEST(MotionFile, FaultsOfBreathingAreToldWithTheirPlaces) {
   };
   EXPECT_EQ(breathing("\"carries\": [{\"body\": \"bowel\"}]"), std::vector<std::string>{});
   EXPECT_EQ(breathing("\"carries\": [{\"body\": @\"bowels\"}]"),
-            one("expected a known solid, strand, membrane or pouch (bowel, slice), got \"bowels\" (did you mean "
-                "\"bowel\"?)"));
+            one("expected a known solid, strand, membrane or pouch, got \"bowels\" (did you mean \"bowel\"?); known: "
+                "bowel, slice"));
   EXPECT_EQ(breathing("\"carries\": [{\"body\": \"bowel\"}, {\"body\": @\"bowel\"}]"),
             one("expected every body once, got \"bowel\" again"));
   EXPECT_EQ(breathing("\"carries\": [{\"body\": \"bowel\"}], \"direction\": @[0, 0, 0]"),

@@ -104,7 +104,7 @@ TEST(ProgrammeFile, WantsTimeToGoOnAndArmsThatAreThere) {
   const std::vector<std::string> all = told(faults);
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[0], "2:76 expected more than 1, the time before, got 1");
-  EXPECT_TRUE(one_has(all, "expected a known arm (left), got \"right\""));
+  EXPECT_TRUE(one_has(all, "expected a known arm, got \"right\"; known: left"));
   EXPECT_TRUE(one_has(all, "expected \"aims\": true beside it"));
 }
 

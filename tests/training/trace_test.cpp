@@ -5,6 +5,7 @@
 #include <trocar/core/hash.hpp>
 #include <trocar/core/random.hpp>
 #include <trocar/training/metrics/trace.hpp>
+#include <trocar/training/metrics/trace_csv.hpp>
 
 #include "../sim/small_scene.hpp"
 #include "traces.hpp"
@@ -68,6 +69,21 @@ TEST(Trace, CsvGivesItBackExactly) {
   EXPECT_EQ(trace_from_csv(text, "x"), trace);
   EXPECT_NE(text.find("\nt_s,left.x_m,left.y_m"), std::string::npos);
   EXPECT_NE(text.find("\n# mark cut right 200\n"), std::string::npos);
+}
+
+TEST(Trace, CsvNamesThePersonAndFilesWithoutOneAreReadToo) {
+  const Trace trace = busy_trace();
+  const std::string text = to_csv(trace, TraceOrigin{"Ada L", "12"});
+  EXPECT_EQ(text.rfind("# trocar trace 2\n# person Ada_L\n# trial 12\n", 0), 0u);
+  TraceOrigin origin;
+  EXPECT_EQ(trace_from_csv(text, "x", origin), trace);
+  EXPECT_EQ(origin, (TraceOrigin{"Ada_L", "12"}));
+  std::string old = to_csv(trace);
+  old.replace(0, old.find('\n'), "# trocar trace 1");
+  EXPECT_EQ(trace_from_csv(old, "x", origin), trace);
+  EXPECT_EQ(origin, TraceOrigin());
+  EXPECT_TRUE(is_trace_csv(old));
+  EXPECT_FALSE(is_trace_csv("operator,trial,t_ms\n"));
 }
 
 TEST(Trace, StillnessCostsNextToNothing) {
@@ -138,9 +154,9 @@ TEST(Trace, CsvFaultsAreLocated) {
     text.replace(text.find(from), from.size(), to);
     return message_of([&] { trace_from_csv(text, "a.csv"); });
   };
-  EXPECT_EQ(with("# trocar trace 1", "x,y"), "a.csv:1:1: expected '# trocar trace 1', got 'x,y'");
+  EXPECT_EQ(with("# trocar trace 2", "x,y"), "a.csv:1:1: expected '# trocar trace 2', got 'x,y'");
   EXPECT_EQ(message_of([] { trace_from_csv("", "a.csv"); }),
-            "a.csv:1:1: expected '# trocar trace 1', got an empty file");
+            "a.csv:1:1: expected '# trocar trace 2', got an empty file");
   EXPECT_EQ(with("left.y_m", "left.y"),
             "a.csv:6:14: expected the columns that the comments announce, 'left.y_m', got 'left.y'");
   EXPECT_EQ(with("\n0.020000,0.0000000", "\n0.020000,0x10"),

@@ -13,6 +13,7 @@
 #include <trocar/core/hash.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/parallel.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/tissue/network/network.hpp>
 
 #include "commands/bench/bench_inputs.hpp"
@@ -207,22 +208,21 @@ int bench(BenchChoice o) {
 
 void add_bench(CLI::App& program, Chosen& chosen) {
   auto o = std::make_shared<BenchChoice>();
-  CLI::App* c = program.add_subcommand("bench", "Measure what a tick costs, stage by stage, or a picture");
+  CLI::App* c = program.add_subcommand("bench", tr("Measure the time of a tick, stage by stage, or of a picture"));
   c->footer(
       "Example:\n  trocar bench gynaecology --json bench.json\n"
       "  trocar bench gynaecology/bleeding-control --picture --size 800x600");
-  c->add_option("names", o->names,
-                "gynaecology, an exercise, a scene, or kernel (one spring); without: gynaecology and kernel");
-  c->add_option("--json", o->file, "write the numbers to this file, or with - to standard output")->expected(0, 1);
-  c->add_option("--seconds", o->seconds, "simulated time at most")
+  c->add_option("names", o->names, tr("an exercise, a scene, or kernel (one spring); default: gynaecology and kernel"));
+  c->add_option("--json", o->file, tr("write the numbers to this file, or with - to standard output"))->expected(0, 1);
+  c->add_option("--seconds", o->seconds, tr("most simulated time [s]"))
       ->capture_default_str()
       ->check(number_above(0, kLongestRun, "s"));
-  c->add_flag("--picture", o->picture, "what a picture costs, pass by pass, at each detail, and each quality in whole");
-  c->add_option("--size", o->size, "of the picture")->capture_default_str();
-  c->add_option("--frames", o->pictures.frames, "pictures a figure, of which it is the median")
+  c->add_flag("--picture", o->picture, tr("the time of a picture, pass by pass, at each level of detail and quality"));
+  c->add_option("--size", o->size, tr("WIDTHxHEIGHT of the picture"))->capture_default_str();
+  c->add_option("--frames", o->pictures.frames, tr("pictures for each number, which is their median"))
       ->capture_default_str()
       ->transform(whole_number(3, 300));
-  c->add_option("--at", o->pictures.at, "of which moment [s]; without: the one that costs most")
+  c->add_option("--at", o->pictures.at, tr("moment of the exercise [s]; default: the slowest one"))
       ->check(number_between(0, kLongestRun, "s"));
   c->callback([o, c, &chosen] {
     o->json = chosen.json = c->count("--json") > 0 && (o->file.empty() || o->file == "-");

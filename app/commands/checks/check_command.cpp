@@ -9,6 +9,7 @@
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/kinematics/loops/mobility.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/json/json.hpp>
@@ -94,7 +95,8 @@ Json check_one(const fs::path& path, double unit) {
   if (is_mechanism_file(path)) return describe_mechanism(path);
   std::vector<core::Fault> faults;
   const scene::JsonDocument document = scene::load_json(path, faults);
-  if (!faults.empty()) throw core::BadInput(scene::check_file(path));  // with what else is wrong beside the JSON
+  const bool lost = document.root.kind == scene::JsonValue::Kind::broken;  // what follows from that is no fault
+  if (!faults.empty()) throw core::BadInput(lost ? faults : scene::check_file(path));
   Json out{{"file", path.string()}};
   const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
   if (is_programme_file(document.root)) return describe_programme(path);
@@ -167,14 +169,14 @@ int check(const std::vector<std::string>& files, double unit, bool json) {
 void add_check(CLI::App& program, Chosen& chosen) {
   auto files = std::make_shared<std::vector<std::string>>();
   auto unit_mm = std::make_shared<double>(1.0);
-  CLI::App* c = add_command(program, chosen, "check", "Say what files compile to or hold, or all their faults",
+  CLI::App* c = add_command(program, chosen, "check", tr("Check files: their content, or all their faults"),
                             "trocar check scenes/organs/uterus.json scenes/gynaecology/sterilisation.json liver.msh");
-  c->add_option(
-       "files", *files,
-       "scenes, organs, instruments, tissue tables, vessels, mechanisms, exercises and the rules they share, maps of "
-       "devices, operating rooms and their programmes; meshes of tetrahedra (.msh, .vtk)")
+  c->add_option("files", *files,
+                tr("files of scenes, organs, instruments, tissues, vessels, mechanisms, exercises, shared rules, "
+                   "devices, operating "
+                   "rooms and programmes; meshes of tetrahedra (.msh, .vtk)"))
       ->required();
-  c->add_option("--unit-mm", *unit_mm, "the unit of meshes' coordinates in mm")
+  c->add_option("--unit-mm", *unit_mm, tr("unit of a mesh's coordinates [mm]"))
       ->check(number_between(1e-6, 1e6, "mm"))
       ->capture_default_str();
   c->callback([=, &chosen] { chosen.run = [=, &chosen] { return check(*files, *unit_mm * 1e-3, chosen.json); }; });

@@ -8,6 +8,7 @@
 
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/training/exercise/monitor.hpp>
@@ -26,7 +27,7 @@ std::optional<sim::Model> scene_of(const training::Exercise& exercise, training:
   std::error_code error;
   if (!std::filesystem::is_regular_file(exercise.scene, error)) {
     faults.push_back({{exercise.file.string(), 0, 0},
-                      fmt::format("expected a scene, got \"{}\", which is no file", exercise.scene.string())});
+                      tr("expected a scene, got \"{}\", which is not a file", exercise.scene.string())});
     return std::nullopt;
   }
   try {
@@ -93,7 +94,7 @@ Json describe_exercise(const std::filesystem::path& path) {
   training::Faults faults;
   const training::Exercise exercise = training::read_exercise(path, faults);
   // A file without a scene to look into has nothing more to tell.
-  const bool named = exercise.scene != path.parent_path() / "";
+  const bool named = !exercise.scene.empty() && exercise.scene != path.parent_path() / "";
   const std::optional<sim::Model> model = named ? scene_of(exercise, faults) : std::nullopt;
   if (model) training::check_in_scene(exercise, *model, faults);
   if (faults.empty()) training::check_demonstration(exercise, model ? &*model : nullptr, faults);
@@ -129,8 +130,8 @@ Json describe_rules(const fs::path& path) {
 }
 
 void print_rules(const Json& r) {
-  if (r["taken_by"].empty()) fmt::print("  no exercise takes these rules: nothing but their JSON was looked at\n");
-  if (!r["taken_by"].empty()) print_names("exercises take them", r["taken_by"], "name");
+  if (r["taken_by"].empty()) fmt::print("  {}\n", tr("No exercise includes these rules. Only their JSON was checked."));
+  if (!r["taken_by"].empty()) print_names(tr("exercises include them"), r["taken_by"], "name");
 }
 
 void print_exercise(const Json& r) {
@@ -139,9 +140,9 @@ void print_exercise(const Json& r) {
   print_names("limits", r["limits"], "name");
   print_names("facts", r["facts"], "name");
   print_names("events", r["events"], "name");
-  fmt::print("  {}; judging takes {:.1f} us of a tick here\n",
-             r["demonstrated"].get<bool>() ? "demonstrated" : "nobody demonstrates it by its file",
-             r["judged_tick_us"].get<double>());
+  fmt::print("  {}\n", r["demonstrated"].get<bool>() ? tr("It has a demonstration.") : tr("It has no demonstration."));
+  fmt::print("  {}\n", tr("The judge takes {:.1f} us of each tick (1000 us) on this machine.",
+                          r["judged_tick_us"].get<double>()));
 }
 
 }  // namespace trocar::app

@@ -61,7 +61,7 @@ Json describe_room(const fs::path& path) {
     if (const double gap = port_gap(model->shaft(pose, int(a)), arm.port); gap > 1e-4)
       wrong.push_back(fmt::format("the shaft of {} is {:.1f} mm beside its port", arm.described->name, 1e3 * gap));
     if (const double beyond = model->beyond_set_up(int(a)); beyond > 0)
-      wrong.push_back(fmt::format("the base of {} is {:.0f} mm farther from its column than set-up joints reach",
+      wrong.push_back(fmt::format("the base of {} is {:.0f} mm beyond the reach of its set-up joints",
                                   arm.described->name, 1e3 * beyond));
   }
   for (std::size_t k = 0; k < model->room().staff.size(); ++k)
@@ -81,7 +81,7 @@ Json describe_room(const fs::path& path) {
            {"staff", model->room().staff.size()},
            {"least_clearance_mm", near.empty() ? Json() : Json(1e3 * near.front().distance)},
            {"wrong", wrong}};
-  if (!wrong.empty()) out["verdict"] = "it does not stand";
+  if (!wrong.empty()) out["verdict"] = "not possible";
   return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/checks/standing.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
@@ -158,7 +159,7 @@ Json describe_scene(const fs::path& path, const std::vector<std::string>& only,
   told.at("compiling");
   scene::CompileReport report;
   report.said = [&told](const std::string& organ, double share) {
-    told.at(fmt::format("making the static solver of '{}', {:.0f} %", organ, 100 * share));
+    told.at(tr("computing the static solver of '{}', {:.0f} %", organ, 100 * share));
   };
   const std::size_t before = bytes_in_use();
   const sim::Model model = scene::compile(scene::read_scene(path), &report);
@@ -168,9 +169,9 @@ Json describe_scene(const fs::path& path, const std::vector<std::string>& only,
   const std::size_t with_state = bytes_in_use();
   sim::Work work = sim::make_work(model);
   const std::size_t with_work = bytes_in_use();
-  told.at("timing a tick");
+  told.at(tr("timing a tick"));
   const double tick = resting_tick(model, state, work);
-  told.at("looking whether it hangs still");
+  told.at(tr("checking its equilibrium"));
   const scene::Standing standing = scene::stand(model, kStandTicks, [&] { return watch.seconds() < kStandUntil; });
   Json out{{"scene", path.string()},
            {"model_hash", core::hex(model.hash)},
@@ -233,24 +234,27 @@ void print_scene(const Json& r) {
   }
   for (const Json& b : r["bodies"])
     if (b.contains("at_rest"))
-      fmt::print("  {} holds {:.1f} ml at {:.0f} Pa; after {:.2g} s at rest {:.1f} ml at {:.0f} Pa\n",
-                 b["name"].get<std::string>(), b.value("volume_ml", 0.0), b.value("pressure_Pa", 0.0),
-                 r["stood_s"].get<double>(), b["at_rest"]["volume_ml"].get<double>(),
-                 b["at_rest"]["pressure_Pa"].get<double>());
+      fmt::print("  {}\n", tr("{} contains {:.1f} mL at {:.0f} Pa; after {:.2g} s at rest {:.1f} mL at {:.0f} Pa",
+                              b["name"].get<std::string>(), b.value("volume_ml", 0.0), b.value("pressure_Pa", 0.0),
+                              r["stood_s"].get<double>(), b["at_rest"]["volume_ml"].get<double>(),
+                              b["at_rest"]["pressure_Pa"].get<double>()));
   for (const char* list : {"doubts", "sinks"})
     if (r.contains(list))
       for (const Json& text : r[list]) fmt::print("  {}\n", text.get<std::string>());
   if (r.contains("motion")) print_motion(r["motion"]);
-  fmt::print("  (4b) is the paper's limit for comparison, with a node's stiffest spring and with all of its springs\n");
+  fmt::print("  {}\n", tr("(4b): the paper's limit, with a node's stiffest spring and with all of its springs"));
   const Json& m = r["memory_kb"];
-  fmt::print("  {} free nodes; memory {} kB model, {} kB state, {} kB work; a tick at rest takes {:.0f} us here\n",
-             r["free_nodes"].get<int>(), m["model"].get<std::size_t>(), m["state"].get<std::size_t>(),
-             m["work"].get<std::size_t>(), r["tick_at_rest_us"].get<double>());
+  fmt::print("  {}\n", tr("{} free nodes; memory {} kB model, {} kB state, {} kB work", r["free_nodes"].get<int>(),
+                          m["model"].get<std::size_t>(), m["state"].get<std::size_t>(), m["work"].get<std::size_t>()));
+  fmt::print("  {}\n",
+             tr("Load at rest: {:.0f} % of real time on this machine", 0.1 * r["tick_at_rest_us"].get<double>()));
   const double tick = 1e-6 * r["tick_at_rest_us"].get<double>();
   if (tick > sim::kTick)
-    fmt::print("  too heavy to be trained with: it runs at {:.2g} of real time here, at rest\n", sim::kTick / tick);
+    fmt::print("  {}\n",
+               tr("Too heavy for training: it runs at {:.2g} of real time on this machine", sim::kTick / tick));
   if (r["stood_s"].get<double>() < double(kStandTicks) * sim::kTick)
-    fmt::print("  looked at for {:.2g} s at rest only, so as to be done in some seconds\n", r["stood_s"].get<double>());
+    fmt::print("  {}\n",
+               tr("Equilibrium was checked for {:.2g} s only, as the scene is heavy", r["stood_s"].get<double>()));
 }
 
 }  // namespace trocar::app

@@ -1,4 +1,4 @@
-// What a scene compiles to and costs, and whether it hangs still: `trocar check` of scenes, organs and exercises.
+// What a scene compiles to and costs, and whether it is in equilibrium: `trocar check` of scenes, organs and exercises.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ Json describe_scene(const std::filesystem::path& path, const std::vector<std::st
 /// Does this file's list (of a scene `organs`, of an exercise `includes`) name that file?
 bool lists_file(const std::filesystem::path& file, const char* list, const std::filesystem::path& wanted);
 
-inline constexpr const char* kSinks = "does not hang still";
+inline constexpr const char* kSinks = "not in equilibrium";
 /// "good", "to mend" or kSinks.
 std::string verdict_of(const Json& scene);
 

@@ -8,6 +8,7 @@
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/reports/design_page.hpp>
 #include <trocar/scene/files/library.hpp>
@@ -66,7 +67,7 @@ void print_tolerance(const Json& r) {
   if (r["sensitivities"].size() > kShownEffects)
     fmt::print("  and {} with less\n", r["sensitivities"].size() - kShownEffects);
   if (!r["misfits"].empty())
-    fmt::print("  {} dimensions are left out: the loops would stand open if they changed alone\n", r["misfits"].size());
+    fmt::print("  {} dimensions are left out: changed alone, they would open a loop\n", r["misfits"].size());
 }
 
 /// A pose that no study can be about: told, not thrown.
@@ -150,22 +151,28 @@ std::string write_optimised(const DesignOptions& o, const std::vector<double>& v
 
 void add_design_options(CLI::App& c, DesignOptions& o) {
   add_study_options(c, o.study);
-  c.add_option("--ignore", o.ignored, "clearance, optimise: a pair of links that may touch, as LINK:LINK");
-  c.add_flag("--strict", o.strict, "clearance, optimise: pairs that overlap in every pose count, too");
-  c.add_option("--steps", o.steps, "clearance: poses of a single drive's way")
+  const char* clearance = tr("Clearance and optimisation");
+  c.add_option("--ignore", o.ignored, tr("a pair of links that may touch, as LINK:LINK; repeatable"))->group(clearance);
+  c.add_flag("--strict", o.strict, tr("count pairs too that overlap in every pose"))->group(clearance);
+  c.add_option("--steps", o.steps, tr("clearance: poses along the path of a single drive"))
       ->transform(whole_number(2, 100'000))
-      ->capture_default_str();
-  c.add_option("--poses", o.poses, "clearance: poses with several drives")
+      ->capture_default_str()
+      ->group(clearance);
+  c.add_option("--poses", o.poses, tr("clearance: poses where there are several drives"))
       ->transform(whole_number(1, 1'000'000))
-      ->capture_default_str();
-  c.add_option("--clearance-um", o.clearance_um, "optimise: how far apart links shall be at least")
+      ->capture_default_str()
+      ->group(clearance);
+  c.add_option("--clearance-um", o.clearance_um, tr("optimise: least distance of links [um]"))
       ->check(number_between(0, 1e5, "um"))
-      ->capture_default_str();
-  c.add_option("--keep", o.keep, "optimise: share of the range of --frame that must be left")
+      ->capture_default_str()
+      ->group(clearance);
+  c.add_option("--keep", o.keep, tr("optimise: least share of the range of --frame that remains"))
       ->check(number_between(0, 1, ""))
-      ->capture_default_str();
-  c.add_option("--output", o.output, "optimise: writes the mechanism with the dimensions that were found to this file");
-  c.add_option("--report", o.report, "tolerance, clearance, optimise: folder for a page with drawings");
+      ->capture_default_str()
+      ->group(clearance);
+  c.add_option("--output", o.output, tr("optimise: write the mechanism with its new dimensions to this file"))
+      ->group(clearance);
+  c.add_option("--report", o.report, tr("tolerance, clearance, optimise: folder for a page with drawings"));
 }
 
 int show_tolerance(const Mechanism& m, const DesignOptions& o, bool json) {
@@ -212,7 +219,7 @@ int show_clearance(const Mechanism& m, const DesignOptions& o, bool json) {
   if (json) {
     print(out);
   } else {
-    fmt::print("{}: how near its own links come to each other\n", m.name);
+    fmt::print("{}: clearance between its links\n", m.name);
     print_clearance(out);
     tell_page(page);
   }

@@ -7,6 +7,7 @@
 #include <trocar/core/decimal.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/kinematics/inverse/workspace.hpp>
 #include <trocar/kinematics/loops/mobility.hpp>
 #include <trocar/scene/files/library.hpp>
@@ -23,7 +24,7 @@ namespace {
 using namespace kinematics;
 
 struct MechanismWords {
-  std::string file, what = "pose", frame = "tip", log;
+  std::string file, what = "pose", frame, log;
   std::vector<std::string> sets, drives;
   int samples = 100'000;
   double cell_mm = 0;
@@ -194,26 +195,27 @@ int show_workspace(const Mechanism& m, const MechanismWords& given, bool json) {
     print(out);
     return w.within > 0 ? core::kDone : core::kGoalNotReached;
   }
-  fmt::print("{}: where \"{}\" gets to\n  {} poses, {} closed, {} of them within limits\n", m.name, given.frame,
+  fmt::print("{}: workspace of \"{}\"\n  {} poses, {} closed, {} of them within limits\n", m.name, given.frame,
              w.samples, w.closed, w.within);
   constexpr const char* kAxes[] = {"x", "y", "z"};
   for (int k = 0; k < 3; ++k) fmt::print("  {} {:>10.3f} to {:>10.3f} mm\n", kAxes[k], 1e3 * w.low[k], 1e3 * w.high[k]);
   if (w.path > 0)
-    fmt::print("  its way is {:.3f} mm long\n", 1e3 * w.path);
+    fmt::print("  the path is {:.3f} mm long\n", 1e3 * w.path);
   else
     fmt::print("  reachable volume {:.4g} mL (cells of {:.3g} mm; half of the poses: {:.4g} mL)\n", 1e6 * w.volume,
                1e3 * w.cell, 1e6 * w.volume_of_half);
   return w.within > 0 ? core::kDone : core::kGoalNotReached;
 }
 
-int run_mechanism(const MechanismWords& given, bool json) {
+int run_mechanism(MechanismWords given, bool json) {
   const std::filesystem::path file = mechanism_file(given.file);
   const MechanismDescription description = scene::read_mechanism(file);
+  const Mechanism m = build(description);
+  given.frame = frame_or_tip(m, given.frame);
   if (given.what == "design") {
     run_design_window({file, description, given.frame, 1e-6 * given.design.clearance_um, given.log});
     return core::kDone;
   }
-  const Mechanism m = build(description);
   if (given.what == "pose") return show_pose(m, given, json);
   if (given.what == "workspace") return show_workspace(m, given, json);
   if (!given.sets.empty()) refuse_words(given.sets[0], "expected --drive with a study, got --set");
@@ -232,23 +234,28 @@ int run_mechanism(const MechanismWords& given, bool json) {
 void add_mechanism(CLI::App& program, Chosen& chosen) {
   auto given = std::make_shared<MechanismWords>();
   CLI::App* c =
-      add_command(program, chosen, "mechanism", "Move a mechanism, and study its design: tolerances, clearance",
-                  "trocar mechanism grasper pose --drive handle=0.5");
-  c->add_option("file", given->file, "a mechanism's file (.json, .urdf), or its name under scenes/mechanisms")
+      add_command(program, chosen, "mechanism", tr("Move a mechanism, and study its tolerances and clearance"),
+                  "trocar mechanism grasper pose --drive handle=0.5\n"
+                  "  trocar mechanism colliding_grasper tolerance --plus-minus-um 10 --report report");
+  c->add_option("file", given->file,
+                tr("a mechanism's file (.json, .urdf), or a name that `trocar list mechanisms` shows"))
       ->required();
-  c->add_option("what", given->what, "pose, workspace, tolerance, clearance, optimise, or design: a window")
+  c->add_option("what", given->what, tr("pose, workspace, tolerance, clearance or optimise; design opens a window"))
       ->check(CLI::IsMember({"pose", "workspace", "tolerance", "clearance", "optimise", "design"}))
       ->capture_default_str();
-  c->add_option("--set", given->sets, "a free coordinate, as NAME=DEGREES or NAME=MM; what is not set follows");
-  c->add_option("--drive", given->drives, "an actuator, as NAME=0..1");
+  c->add_option("--set", given->sets, tr("a free coordinate, as NAME=DEGREES or NAME=MM; the others follow"));
+  c->add_option("--drive", given->drives, tr("an actuator, as NAME=0..1"));
   CLI::Option* frame =
-      c->add_option("--frame", given->frame, "workspace, tolerance, optimise: of which frame")->capture_default_str();
-  c->add_option("--samples", given->samples, "workspace: how many poses within limits; tolerance: how many mechanisms")
+      c->add_option("--frame", given->frame,
+                    tr("workspace, tolerance, optimise: the frame that is measured; default: tip, else the first"));
+  c->add_option("--samples", given->samples,
+                tr("workspace: number of poses within limits; tolerance: number of mechanisms"))
       ->transform(whole_number(100, 10'000'000))
       ->capture_default_str();
-  c->add_option("--cell-mm", given->cell_mm, "workspace: edge of a cell, default a fortieth of what is reached")
+  c->add_option("--cell-mm", given->cell_mm,
+                tr("workspace: edge of a cell [mm]; default: 1/40 of the workspace's size"))
       ->check(number_between(0.01, 1000, "mm"));
-  c->add_option("--log", given->log, "design: JSON lines of what happens in the window");
+  c->add_option("--log", given->log, tr("design: write events of the window as JSON lines to this file"));
   add_design_options(*c, given->design);
   c->callback([=, &chosen] {
     given->design.follows = frame->count() > 0;

@@ -7,8 +7,9 @@
 #include <trocar/core/decimal.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
-#include <trocar/scene/files/library.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/studies/handles.hpp>
 
@@ -25,38 +26,52 @@ void refuse_words(const std::string& word, const std::string& message) {
 }
 
 std::filesystem::path mechanism_file(const std::string& name) {
-  std::error_code error;
-  const auto scenes = scene::found_scenes_folder();
-  if (std::filesystem::exists(name, error) || !scenes) return name;
-  const std::filesystem::path shipped = *scenes / "mechanisms" / (name + ".json");
-  return std::filesystem::exists(shipped, error) ? shipped : std::filesystem::path(name);
+  return scene::file_or_name(name, "mechanisms", "mechanism");
+}
+
+std::string frame_or_tip(const Mechanism& m, const std::string& given) {
+  if (!given.empty() || m.frame_names.empty()) return given;
+  return m.frame("tip") >= 0 ? "tip" : m.frame_names.front();
 }
 
 std::pair<std::string, double> assignment(const std::string& word) {
   const std::size_t at = word.find('=');
   const std::string number = at == word.npos ? "" : word.substr(at + 1);
   if (at == word.npos || at == 0 || !core::is_decimal(number) || !(std::fabs(core::to_double(number)) <= 1e4))
-    refuse_words(word, fmt::format("expected NAME=NUMBER, at most 10000 either way, got \"{}\"", word));
+    refuse_words(word, tr("expected NAME=NUMBER with a number from -10000 to 10000, got \"{}\"", word));
   return {word.substr(0, at), core::to_double(number)};
 }
 
 void add_study_options(CLI::App& c, StudyOptions& o) {
-  c.add_option("--along", o.along, "tolerance: place along x, y, z or a direction X,Y,Z")->capture_default_str();
-  c.add_option("--turn", o.turn, "tolerance: instead how far it turns about x, y, z or X,Y,Z");
-  c.add_option("--from", o.from, "tolerance: seen from this frame");
-  c.add_flag("--distance", o.distance, "tolerance: instead its distance from the frame of --from");
-  c.add_option("--plus-minus-um", o.plus_minus_um, "tolerance: error of every length, default: as the file says")
-      ->check(number_above(0, 1000, "um"));
-  c.add_option("--plus-minus-deg", o.plus_minus_deg, "tolerance: error of every angle, default: as the file says")
-      ->check(number_above(0, 5, "degrees"));
-  c.add_flag("--uniform", o.uniform, "tolerance: errors spread evenly, default: normal, a third of the bound");
-  c.add_option("--within", o.within, "tolerance: what is good, either way, in um or thousandths of a degree")
-      ->check(number_above(0, 1e6, ""));
-  c.add_option("--bins", o.bins, "tolerance: of the histogram")->transform(whole_number(2, 500))->capture_default_str();
-  c.add_option("--seed", o.seed, "tolerance: of the errors")
+  const char* group = tr("Tolerance study");
+  c.add_option("--along", o.along, tr("measure the position along x, y, z or a direction X,Y,Z"))
+      ->capture_default_str()
+      ->group(group);
+  c.add_option("--turn", o.turn, tr("measure the rotation about x, y, z or X,Y,Z instead"))->group(group);
+  c.add_option("--from", o.from, tr("measure relative to this frame"))->group(group);
+  c.add_flag("--distance", o.distance, tr("measure the distance from the frame of --from instead"))->group(group);
+  c.add_option("--plus-minus-um", o.plus_minus_um, tr("error of every length [um]; default: the file's"))
+      ->check(number_above(0, 1000, "um"))
+      ->group(group);
+  c.add_option("--plus-minus-deg", o.plus_minus_deg, tr("error of every angle [deg]; default: the file's"))
+      ->check(number_above(0, 5, "degrees"))
+      ->group(group);
+  c.add_flag("--uniform", o.uniform, tr("uniform errors; default: normal, standard deviation 1/3 of the bound"))
+      ->group(group);
+  c.add_option("--within", o.within, tr("accepted deviation, either way [um or 1/1000 deg]"))
+      ->check(number_above(0, 1e6, ""))
+      ->group(group);
+  c.add_option("--bins", o.bins, tr("bins of the histogram"))
+      ->transform(whole_number(2, 500))
+      ->capture_default_str()
+      ->group(group);
+  c.add_option("--seed", o.seed, tr("number from which the errors are drawn"))
       ->transform(whole_number(0, kLargestSeed))
-      ->capture_default_str();
-  c.add_option("--threads", o.threads, "tolerance: default the cores less one")->transform(whole_number(1, 64));
+      ->capture_default_str()
+      ->group(group);
+  c.add_option("--threads", o.threads, tr("number of threads; default: the cores less one"))
+      ->transform(whole_number(1, 64))
+      ->group(group);
 }
 
 StudyUnit unit_of(const Measured& what) {
@@ -113,7 +128,9 @@ const char* shown_unit(Measure measure) {
 
 }  // namespace
 
-StudyTask prepare(const Mechanism& m, const StudyOptions& o) {
+StudyTask prepare(const Mechanism& m, const StudyOptions& options) {
+  StudyOptions o = options;
+  o.frame = frame_or_tip(m, options.frame);
   StudyTask task;
   task.what.frame = frame_named(m, o.frame);
   if (!o.from.empty()) task.what.from = frame_named(m, o.from);

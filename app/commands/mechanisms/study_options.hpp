@@ -22,11 +22,14 @@ namespace trocar::app {
 /// A file, or the name of one under scenes/mechanisms.
 std::filesystem::path mechanism_file(const std::string& name);
 
+/// The frame that is meant: the given one; where none is given, "tip", else the mechanism's first one.
+std::string frame_or_tip(const kinematics::Mechanism& m, const std::string& given);
+
 /// "NAME=NUMBER"
 std::pair<std::string, double> assignment(const std::string& word);
 
 struct StudyOptions {
-  std::string file, frame = "tip", from, along = "x", turn;
+  std::string file, frame, from, along = "x", turn;
   std::vector<std::string> drives;
   bool distance = false, uniform = false;
   double plus_minus_um = 0, plus_minus_deg = 0, within = 0;

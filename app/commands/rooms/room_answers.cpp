@@ -101,7 +101,7 @@ int answer_pose(const RoomModel& model, const RoomWords& words, bool json) {
                a["name"].get<std::string>(), a["port"].get<std::string>(), a["tip_mm"][0].get<double>(),
                a["tip_mm"][1].get<double>(), a["tip_mm"][2].get<double>(), a["beside_port_mm"].get<double>(),
                a["beyond_set_up_mm"].get<double>() > 0
-                   ? fmt::format("; its base is {:.0f} mm farther from its column than set-up joints reach",
+                   ? fmt::format("; its base is {:.0f} mm beyond the reach of its set-up joints",
                                  a["beyond_set_up_mm"].get<double>())
                    : "");
   for (const Json& p : people)

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/operating_room/room_file.hpp>
 
 #include "commands/command.hpp"
@@ -33,8 +34,8 @@ int run_room(const RoomWords& given, bool json) {
   if (given.what == "plan") return answer_plan(model, given, json);
   if (given.with.empty())
     throw core::BadInput({{{"trocar room", 0, 0},
-                           fmt::format("expected a {} after \"{}\", got none",
-                                       given.what == "follow" ? "recording" : "programme's file", given.what)}});
+                           given.what == "follow" ? tr("expected a recording after \"follow\", got none")
+                                                  : tr("expected a programme after \"programme\", got none")}});
   if (given.what == "follow")
     return answer_motion(model, motion_of_recording(model, given.with, given.seconds),
                          std::filesystem::path(given.with).filename().string(), given, json);
@@ -47,42 +48,51 @@ int run_room(const RoomWords& given, bool json) {
 void add_room(CLI::App& program, Chosen& chosen) {
   auto given = std::make_shared<RoomWords>();
   CLI::App* c =
-      add_command(program, chosen, "room", "An operating room: telemanipulators, their programmes, where to put ports",
+      add_command(program, chosen, "room", tr("Show an operating room, move its telemanipulators, plan its ports"),
                   "trocar room telemanipulated\n"
                   "  trocar room telemanipulated pose --shots pictures\n"
                   "  trocar room telemanipulated programme triangle --out report\n"
                   "  trocar room telemanipulated follow attempt.rec\n"
                   "  trocar room telemanipulated plan --target gallbladder --out report");
-  c->add_option("file", given->file, "a room's file, or its name under scenes/rooms")->required();
+  const char* motion = tr("Motion (programme, follow)");
+  const char* ports = tr("Ports (plan)");
+  const char* table = tr("Table (pose)");
+  c->add_option("file", given->file, tr("a room's file, or a name that `trocar list rooms` shows"))->required();
   c->add_option("what", given->what,
-                "show: in a window, with a programme if one is named; pose, programme, follow, plan")
+                tr("show: open a window, with a programme where one is named; pose, programme, follow or plan"))
       ->check(CLI::IsMember({"show", "pose", "programme", "follow", "plan"}))
       ->capture_default_str();
   c->add_option("with", given->with,
-                "programme, show: its file, or its name under scenes/rooms/programmes; follow: a recording; plan: the "
-                "endoscope's port, default: as the room has it");
-  c->add_option("--shots", given->shots, "a folder for pictures, drawn without a window");
-  c->add_option("--out", given->out, "programme, follow, plan: a folder for a report with pictures");
-  c->add_option("--log", given->log, "show: JSON lines of what happens in the window");
-  c->add_option("--size", given->size, "of pictures")->capture_default_str();
-  c->add_option("--step-ms", given->step_ms, "programme, follow: between the steps that are looked at")
+                tr("programme, show: a programme's file, or a name that `trocar list programmes` shows; follow: a "
+                   "recording; plan: the endoscope's port, default: the room's"));
+  c->add_option("--shots", given->shots, tr("folder for pictures, drawn without a window"));
+  c->add_option("--out", given->out, tr("programme, follow, plan: folder for a report with pictures"));
+  c->add_option("--log", given->log, tr("show: write events of the window as JSON lines to this file"));
+  c->add_option("--size", given->size, tr("WIDTHxHEIGHT of pictures"))->capture_default_str();
+  c->add_option("--step-ms", given->step_ms, tr("time between steps [ms]"))
       ->check(number_between(1, 1000, "ms"))
-      ->capture_default_str();
-  c->add_option("--seconds", given->seconds, "follow: so much of the recording, default all")
-      ->check(number_between(0, kLongestRecording, "s"));
+      ->capture_default_str()
+      ->group(motion);
+  c->add_option("--seconds", given->seconds, tr("follow: length of the part of the recording [s]; default: all"))
+      ->check(number_between(0, kLongestRecording, "s"))
+      ->group(motion);
   c->add_option("--target", given->target,
-                "plan: a target of the room or an organ of its scene, default: the room's first target");
-  c->add_option("--grid-mm", given->grid_mm, "plan: between places on the skin")
+                tr("a target of the room, or an organ of its scene; default: the room's first target"))
+      ->group(ports);
+  c->add_option("--grid-mm", given->grid_mm, tr("distance between places on the skin [mm]"))
       ->transform(whole_number(5, 60))
-      ->capture_default_str();
-  c->add_option("--sets", given->sets, "plan: how many are told")
+      ->capture_default_str()
+      ->group(ports);
+  c->add_option("--sets", given->sets, tr("number of plans that are shown"))
       ->transform(whole_number(1, 50))
-      ->capture_default_str();
-  c->add_option("--head-down", given->head_down_deg,
-                "pose: how far the table is tilted, in place of what the file says")
-      ->check(number_between(-60, 60, "degrees"));
-  c->add_option("--left-down", given->left_down_deg, "pose: the same to the side")
-      ->check(number_between(-45, 45, "degrees"));
+      ->capture_default_str()
+      ->group(ports);
+  c->add_option("--head-down", given->head_down_deg, tr("tilt of the table, head down [deg]; default: the file's"))
+      ->check(number_between(-60, 60, "degrees"))
+      ->group(table);
+  c->add_option("--left-down", given->left_down_deg, tr("tilt of the table, left side down [deg]; default: the file's"))
+      ->check(number_between(-45, 45, "degrees"))
+      ->group(table);
   c->callback([given, &chosen] { chosen.run = [given, &chosen] { return run_room(*given, chosen.json); }; });
 }
 

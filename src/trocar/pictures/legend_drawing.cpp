@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include <trocar/core/font_file.hpp>
 #include <trocar/pictures/legend_drawing.hpp>
 #include <trocar/pictures/picture_size.hpp>
 
@@ -75,13 +76,12 @@ struct LegendPainter::Font {
   int width = 0, height = 0, size = 0;
 
   explicit Font(int pixels) : size(pixels) {
-    const char* file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+    const std::string file = core::font_file("DejaVuSans.ttf");
     ImFontConfig config;
     config.OversampleH = config.OversampleV = 1;  // a pixel of the atlas is one of the picture
     config.PixelSnapH = true;
     config.SizePixels = float(pixels);
-    std::error_code error;
-    if (std::filesystem::exists(file, error)) font = atlas.AddFontFromFileTTF(file, float(pixels), &config);
+    if (!file.empty()) font = atlas.AddFontFromFileTTF(file.c_str(), float(pixels), &config);
     if (!font) font = atlas.AddFontDefault(&config);
     atlas.GetTexDataAsAlpha8(&alpha, &width, &height);
   }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/checks/standing.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/step.hpp>
@@ -48,9 +49,9 @@ Standing stand(const sim::Model& scene, std::uint64_t ticks, const std::function
 }
 
 std::string in_words(const Standing& standing, const Standing::Organ& o) {
-  return fmt::format(
-      "{} is not in equilibrium: it sagged {:.1f} mm at ({:.1f}, {:.1f}, {:.1f}) mm in {:.2g} s (a "
-      "stiffer or lighter tissue, larger cells or more anchors may support it)",
+  return tr(
+      "{} is not in equilibrium: it sagged by {:.1f} mm at ({:.1f}, {:.1f}, {:.1f}) mm in {:.2g} s. Use a stiffer or "
+      "lighter tissue, larger cells or more anchors.",
       o.name, 1e3 * o.off, 1e3 * o.at.x, 1e3 * o.at.y, 1e3 * o.at.z, standing.seconds);
 }
 

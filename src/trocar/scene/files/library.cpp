@@ -1,11 +1,15 @@
 #include <algorithm>
-#include <cstdlib>
+#include <set>
 #include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include <trocar/core/error.hpp>
+#include <trocar/core/user_folder.hpp>
 #include <trocar/scene/files/library.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
+#include <trocar/scene/json/shape.hpp>
 
 namespace trocar::scene {
 
@@ -13,10 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value ? value : "";
-}
+using core::environment;
 
 fs::path resolved(const fs::path& path) {
   std::error_code error;
@@ -40,10 +41,19 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
 std::optional<fs::path> programs_scenes_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& candidate :
-       {program / "../../scenes", program / "../share/trocar/scenes", fs::path(TROCAR_SOURCE_DIR) / "scenes"})
-    if (fs::is_directory(candidate, error)) return fs::weakly_canonical(candidate, error);
+  std::vector<fs::path> candidates{program / "../share/trocar/scenes", program / "../../scenes"};
+  if (const fs::path source = TROCAR_SOURCE_DIR; !source.empty()) candidates.push_back(source / "scenes");
+  candidates.insert(candidates.end(), {"/usr/local/share/trocar/scenes", "/usr/share/trocar/scenes"});
+  for (const fs::path& candidate : candidates)
+    if (fs::is_regular_file(candidate / "tissues.json", error)) return fs::weakly_canonical(candidate, error);
   return {};
+}
+
+/// `file` in the tree `from`, at the same place in the tree `to`; nothing where it does not lie in `from`.
+std::optional<fs::path> same_place(const fs::path& file, const fs::path& from, const fs::path& to) {
+  const fs::path whole = resolved(file);
+  if (from.empty() || !lies_in(whole, from)) return {};
+  return to / whole.lexically_relative(from);
 }
 
 }  // namespace
@@ -74,6 +84,46 @@ std::optional<std::string> name_in_installed_scenes(const fs::path& file) {
   const fs::path whole = resolved(file), tree = scenes ? resolved(*scenes) : fs::path();
   if (tree.empty() || !lies_in(whole, tree)) return {};
   return (fs::path("scenes") / whole.lexically_relative(tree)).generic_string();
+}
+
+fs::path located(const fs::path& file) {
+  std::error_code error;
+  if (fs::exists(file, error)) return file;
+  const fs::path tree = tree_of(file);
+  const std::optional<fs::path> scenes = found_scenes_folder();
+  if (!scenes || tree.filename() != "scenes") return file;
+  const std::optional<fs::path> there = same_place(file, tree, *scenes);
+  return there && fs::exists(*there, error) ? *there : file;
+}
+
+fs::path own_scenes_folder() { return core::user_folder() / "scenes"; }
+
+std::optional<fs::path> named_in_scenes(const std::string& name, const char* folder) {
+  std::vector<fs::path> trees{own_scenes_folder()};
+  if (const std::optional<fs::path> scenes = found_scenes_folder()) trees.push_back(*scenes);
+  std::error_code error;
+  for (const fs::path& tree : trees)
+    if (const fs::path file = tree / folder / (name + ".json"); fs::is_regular_file(file, error)) return file;
+  return {};
+}
+
+std::vector<std::string> names_in_scenes(const char* folder) {
+  std::set<std::string> names;
+  std::vector<fs::path> trees{own_scenes_folder()};
+  if (const std::optional<fs::path> scenes = found_scenes_folder()) trees.push_back(*scenes);
+  std::error_code error;
+  for (const fs::path& tree : trees)
+    for (const fs::directory_entry& entry : fs::directory_iterator(tree / folder, error))
+      if (entry.path().extension() == ".json") names.insert(entry.path().stem().string());
+  return {names.begin(), names.end()};
+}
+
+fs::path file_or_name(const std::string& given, const char* folder, const char* what) {
+  std::error_code error;
+  if (fs::exists(given, error)) return given;
+  if (const std::optional<fs::path> named = named_in_scenes(given, folder)) return *named;
+  if (given.find_first_of("/.") != std::string::npos) return given;  // its reader says that there is no such file
+  throw core::BadInput({{{given, 0, 0}, unknown_name(what, given, names_in_scenes(folder))}});
 }
 
 Library::Library(const fs::path& first) : m_folders{tree_of(first)} {

@@ -7,6 +7,7 @@
 #include <trocar/scene/files/look_file.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
 #include <trocar/scene/json/like.hpp>
 
@@ -39,6 +40,12 @@ std::vector<fs::path> sorted_entries(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());
   return paths;
+}
+
+/// A file that one on the disk names, also where it comes with the program.
+fs::path found(const fs::path& path, const MemoryFiles* memory) {
+  const bool in_memory = memory && memory->text_of(path);
+  return in_memory || !MemoryFiles::disk_too(memory) ? path : located(path);
 }
 
 }  // namespace
@@ -89,7 +96,7 @@ void Reading::include_named(const JsonObject& o, const core::Location& at, const
   else if (const fs::path path = place_of(folder, named); m_library && !m_library->holds(path))
     o.fault(at, m_library->refusal(name.text));
   else
-    include(path, at, shape, read);
+    include(found(path, m_memory), at, shape, read);
 }
 
 void Reading::includes(const JsonObject& o, const char* key, const fs::path& folder, const Shape& shape,

@@ -79,6 +79,7 @@ class Parser {
     if (!m_lost && !at_end()) lost(m_place, fmt::format("expected the end of the file, got {}", here()));
     return root;
   }
+  bool is_lost() const { return m_lost; }
 
  private:
   std::string_view m_text;
@@ -407,7 +408,9 @@ const std::string* MemoryFiles::text_of(const std::filesystem::path& path) const
 
 JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults) {
   JsonDocument document{std::move(file), {}};
-  document.root = Parser(text, document.file, faults).document();
+  Parser parser(text, document.file, faults);
+  document.root = parser.document();
+  if (parser.is_lost()) document.root.kind = Kind::broken;  // its members still tell the file's kind
   return document;
 }
 

@@ -37,6 +37,18 @@ std::string joined(const std::vector<std::string>& words) {
   return all;
 }
 
+/// At most kShownNames of them, each once.
+std::string shortened(const std::vector<std::string>& words) {
+  constexpr std::size_t kShownNames = 12;
+  std::vector<std::string> once;
+  for (const std::string& word : words)
+    if (std::find(once.begin(), once.end(), word) == once.end()) once.push_back(word);
+  if (once.size() <= kShownNames + 1) return joined(once);
+  const std::size_t more = once.size() - kShownNames;
+  once.resize(kShownNames);
+  return fmt::format("{} and {} more", joined(once), more);
+}
+
 bool is_name(std::string_view text) {
   if (text.empty() || text.size() > 64) return false;
   return std::all_of(text.begin(), text.end(), [](char c) {
@@ -316,7 +328,9 @@ const JsonValue* JsonObject::good(std::string_view key) const {
 }
 
 bool JsonObject::has(std::string_view key) const { return good(key) != nullptr; }
-bool JsonObject::names(std::string_view key) const { return m_value->find(key) != nullptr; }
+bool JsonObject::names(std::string_view key) const {
+  return m_value->kind != Kind::broken && m_value->find(key) != nullptr;
+}
 
 double JsonObject::number(std::string_view key, double fallback) const {
   const JsonValue* v = good(key);
@@ -404,7 +418,7 @@ std::vector<JsonObject> JsonObject::objects(std::string_view key) const {
 
 const std::vector<JsonValue>& JsonObject::values(std::string_view key) const {
   static const std::vector<JsonValue> none;
-  const JsonMember* member = m_value->find(key);
+  const JsonMember* member = m_value->kind == Kind::broken ? nullptr : m_value->find(key);
   return member ? member->value.items : none;
 }
 
@@ -439,10 +453,10 @@ std::string unknown_name(std::string_view what, std::string_view word, const std
   JsonValue value;
   value.kind = Kind::string;
   value.text = std::string(word);
+  if (known.empty()) return fmt::format("expected {}, got {}; none is known", article(what), shown(value));
   const std::string guess = nearest(word, known);
-  const std::string list = known.empty() ? "none is known" : joined(known);
-  return fmt::format("expected {} ({}), got {}{}", known.empty() ? article(what) : fmt::format("a known {}", what),
-                     list, shown(value), guess.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", guess));
+  return fmt::format("expected a known {}, got {}{}; known: {}", what, shown(value),
+                     guess.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", guess), shortened(known));
 }
 
 }  // namespace trocar::scene

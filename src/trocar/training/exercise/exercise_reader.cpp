@@ -9,6 +9,7 @@
 #include <trocar/core/controls/control_keys.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/scene/files/library.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/json/like.hpp>
 #include <trocar/training/exercise/rule_files.hpp>
 #include <trocar/training/exercise/rules.hpp>
@@ -80,7 +81,11 @@ class ExerciseReader {
     for (const char* key : {"title", "scene"})
       if (!o.names(key))
         o.fault(o.at(), fmt::format("expected the key \"{}\" also in an exercise that has \"like\", got none", key));
-    return below(o, (path.parent_path() / o.text(scene::kLike)).lexically_normal());
+    return below(o, located(path.parent_path() / o.text(scene::kLike)));
+  }
+  /// A file that a file names, wherever in the library it lies.
+  fs::path located(const fs::path& file) const {
+    return m_memory ? file.lexically_normal() : scene::located(file.lexically_normal());
   }
   bool below(const JsonObject& o, const fs::path& path) {
     const auto same = [&path](const Layer& l) { return l.path.lexically_normal() == path; };
@@ -127,6 +132,7 @@ class ExerciseReader {
     m_exercise.level = said("level").o.integer("level", 1);
     const Layer& where = said("scene");
     m_exercise.scene = where.path.parent_path() / where.o.text("scene");
+    if (!m_memory && where.o.has("scene")) m_exercise.scene = scene::located(m_exercise.scene);
     if (!m_memory && where.o.has("scene") && !m_library.holds(m_exercise.scene))
       where.o.fault("scene", m_library.refusal(where.o.text("scene")));
   }
@@ -153,7 +159,7 @@ class ExerciseReader {
     const JsonObject& o = said("includes").o;
     const std::vector<std::string> names = o.texts("includes");
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const fs::path path = (said("includes").path.parent_path() / names[i]).lexically_normal();
+      const fs::path path = located(said("includes").path.parent_path() / names[i]);
       if (!m_memory && !m_library.holds(path)) {
         o.fault(o.at("includes", i), m_library.refusal(names[i]));
         continue;

@@ -1,5 +1,7 @@
 // A Trace as text that spreadsheets and scripts read (comment='#'):
-//   # trocar trace 1
+//   # trocar trace 2                     version 1 has no person and no trial
+//   # person Ada                         both may be missing
+//   # trial 12
 //   # rate_hz 50
 //   # instrument grasper                 one line each, in order
 //   # hand left_lateral shaft forces     or: roll-only, no-forces
@@ -11,6 +13,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/training/metrics/trace_channels.hpp>
+#include <trocar/training/metrics/trace_csv.hpp>
 
 namespace trocar::training {
 namespace {
@@ -18,6 +21,7 @@ namespace {
 constexpr double kTimeScale = 1e6;
 constexpr int kTimeDecimals = 6;
 constexpr std::size_t kMaxFaults = 20, kMaxName = 200;
+constexpr std::string_view kFirstLine = "# trocar trace 2", kFirstLineOf1 = "# trocar trace 1";
 
 /// A name as it can stand in a column's name: without what separates or ends.
 std::string plain(const std::string& name) {
@@ -79,12 +83,15 @@ class CsvReader {
  public:
   CsvReader(std::string_view text, const std::string& name) : m_text(text), m_name(name) {}
 
+  const TraceOrigin& origin() const { return m_origin; }
+
   Trace read() {
     std::string_view line;
     bool named = false;
     while (m_faults.size() < kMaxFaults && next(line)) {
       if (m_line == 1) {
-        if (line != "# trocar trace 1") fault(1, "expected '# trocar trace 1', got " + shown(line));
+        if (line != kFirstLine && line != kFirstLineOf1)
+          fault(1, fmt::format("expected '{}', got {}", kFirstLine, shown(line)));
         if (!m_faults.empty()) break;
       } else if (!named && !line.empty() && line[0] == '#') {
         comment(line);
@@ -96,7 +103,7 @@ class CsvReader {
         row(line);
       }
     }
-    if (m_line == 0) fault(1, "expected '# trocar trace 1', got an empty file");
+    if (m_line == 0) fault(1, fmt::format("expected '{}', got an empty file", kFirstLine));
     if (!named && m_faults.empty()) fault(1, "expected a line of column names");
     if (!m_faults.empty()) throw core::BadInput(std::move(m_faults));
     return std::move(m_trace);
@@ -134,6 +141,10 @@ class CsvReader {
     if (what == "rate_hz" && words.size() == 3 && parse_steps(words[2], 6, 10'000'000'000, number) &&
         number >= 1'000'000)
       m_trace.rate = value_of(number, 1e6);
+    else if (what == "person" && words.size() == 3)
+      m_origin.person = words[2].substr(0, kMaxName);
+    else if (what == "trial" && words.size() == 3)
+      m_origin.trial = words[2].substr(0, kMaxName);
     else if (what == "instrument" && words.size() == 3 && m_trace.instruments.size() < kMaxTraceNames)
       m_trace.instruments.emplace_back(words[2].substr(0, kMaxName));
     else if (what == "hand" && words.size() == 5 && m_trace.hands.size() < kMaxTraceHands &&
@@ -144,7 +155,8 @@ class CsvReader {
       mark(words);
     else
       fault(1,
-            "expected rate_hz (1 to 10000), instrument NAME, hand NAME shaft|roll-only forces|no-forces, or mark KIND "
+            "expected person NAME, trial NAME, rate_hz (1 to 10000), instrument NAME, hand NAME shaft|roll-only "
+            "forces|no-forces, or mark KIND "
             "HAND SAMPLE "
             "(not too many), got " +
                 shown(line));
@@ -225,13 +237,17 @@ class CsvReader {
   int m_line = 0;
   std::size_t m_scope = 0;  ///< channels
   Trace m_trace;
+  TraceOrigin m_origin;
   std::vector<core::Fault> m_faults;
 };
 
 }  // namespace
 
-std::string to_csv(const Trace& trace) {
-  std::string text = fmt::format("# trocar trace 1\n# rate_hz {:.6f}\n", trace.rate);
+std::string to_csv(const Trace& trace, const TraceOrigin& origin) {
+  std::string text = fmt::format("{}\n", kFirstLine);
+  if (!origin.person.empty()) text += "# person " + plain(origin.person) + '\n';
+  if (!origin.trial.empty()) text += "# trial " + plain(origin.trial) + '\n';
+  text += fmt::format("# rate_hz {:.6f}\n", trace.rate);
   for (const std::string& name : trace.instruments) text += "# instrument " + plain(name) + '\n';
   for (const TraceHand& hand : trace.hands)
     text += "# hand " + plain(hand.name) + (hand.has_shaft ? " shaft" : " roll-only") +
@@ -251,6 +267,20 @@ std::string to_csv(const Trace& trace) {
   return text;
 }
 
+std::string to_csv(const Trace& trace) { return to_csv(trace, TraceOrigin()); }
+
 Trace trace_from_csv(std::string_view text, const std::string& name) { return CsvReader(text, name).read(); }
+
+Trace trace_from_csv(std::string_view text, const std::string& name, TraceOrigin& origin) {
+  CsvReader reader(text, name);
+  Trace trace = reader.read();
+  origin = reader.origin();
+  return trace;
+}
+
+bool is_trace_csv(std::string_view text) {
+  constexpr std::string_view kBegin = "# trocar trace";
+  return text.substr(0, kBegin.size()) == kBegin;
+}
 
 }  // namespace trocar::training

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/training/store/forgetting.hpp>
 #include <trocar/training/store/store_parts.hpp>
 
 namespace trocar::training {
@@ -104,13 +105,25 @@ std::string overwrite_deleted(Database& db) {
 
 }  // namespace
 
-Store::Forgotten Store::forget(const std::string& trainee) {
-  Forgotten out;
-  std::vector<std::string> recordings;
-  for (const Attempt& a : list({.trainee = trainee})) {
+Store::Forgotten to_forget(const Store& store, const std::string& trainee) {
+  Store::Forgotten out;
+  std::error_code error;
+  const fs::path ours = fs::weakly_canonical(store.folder() / "recordings", error);
+  const fs::path own = own_temporary_folder(), temporary = own.empty() ? own : fs::weakly_canonical(own, error);
+  for (const Attempt& a : store.list({.trainee = trainee})) {
     ++out.attempts;
-    if (!a.recording.empty()) recordings.push_back(a.recording);
+    if (a.recording.empty() || !fs::exists(a.recording, error)) continue;
+    const fs::path folder = fs::weakly_canonical(fs::path(a.recording).parent_path(), error);
+    const bool inside = !folder.empty() && (folder == ours || folder == temporary);
+    (inside ? out.deleted : out.left).emplace_back(a.recording);
   }
+  for (const fs::path& file : files_in(store.folder()))
+    if (file.filename().string().rfind("sessions.sqlite.damaged-", 0) == 0) out.left.push_back(file);
+  return out;
+}
+
+Store::Forgotten Store::forget(const std::string& trainee) {
+  Forgotten out = to_forget(*this, trainee);
   try {
     Database db(database(), Database::Access::write, m_patience);
     make_durable(db);
@@ -125,20 +138,12 @@ Store::Forgotten Store::forget(const std::string& trainee) {
   } catch (const DatabaseFault& fault) {
     throw core::EnvironmentLacks(fmt::format("nothing was deleted: {}", fault.what()));
   }
-  std::error_code error;
-  const fs::path ours = fs::weakly_canonical(m_folder / "recordings", error);
-  const fs::path own = own_temporary_folder(), temporary = own.empty() ? own : fs::weakly_canonical(own, error);
-  for (const std::string& r : recordings) {
-    if (!fs::exists(r, error)) continue;
-    const fs::path folder = fs::weakly_canonical(fs::path(r).parent_path(), error);
-    const bool inside = !folder.empty() && (folder == ours || folder == temporary);
-    if (inside && fs::remove(r, error))
-      out.deleted.emplace_back(r);
-    else
-      out.left.emplace_back(r);
-  }
-  for (const fs::path& file : files_in(m_folder))
-    if (file.filename().string().rfind("sessions.sqlite.damaged-", 0) == 0) out.left.push_back(file);
+  const auto stays = std::stable_partition(out.deleted.begin(), out.deleted.end(), [](const fs::path& recording) {
+    std::error_code error;
+    return fs::remove(recording, error);
+  });
+  out.left.insert(out.left.begin(), stays, out.deleted.end());
+  out.deleted.erase(stays, out.deleted.end());
   return out;
 }
 
