@@ -14,6 +14,7 @@ import sys
 from pathlib import Path
 from urllib.parse import unquote
 
+from check_commands import subcommands
 from check_links import slug
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -45,20 +46,14 @@ def output(program, *words):
     return done.stdout.strip()
 
 
-def command_names(text):
-    """Names under "Subcommands:", in their order."""
-    _, _, listed = text.partition("Subcommands:")
-    return re.findall(r"^ {2}([a-z][\w-]*)", listed, re.MULTILINE)
-
-
 def commands(program):
     """The help text of each command, and of the commands below it."""
     top = output(program, "--help")
     parts = ["```text\n" + clean(top) + "\n```"]
-    for name in command_names(top):
+    for name in subcommands(top):
         text = output(program, name, "--help")
         parts.append(f"## {name}\n\n```text\n{clean(text)}\n```")
-        for below in command_names(text):
+        for below in subcommands(text):
             parts.append(f"### {name} {below}\n\n```text\n{clean(output(program, name, below, '--help'))}\n```")
     return page("Commands", "What `trocar COMMAND --help` prints, for every command.", *parts)
 
