@@ -11,6 +11,7 @@ import json
 import re
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 from urllib.parse import unquote
 
@@ -30,6 +31,11 @@ def page(title, about, *parts):
 
 def cell(text):
     return str(text).replace("|", "\\|").replace("\n", " ").replace("<", "\\<").strip()
+
+
+def sentence(text):
+    """As lines of a page, with one full stop."""
+    return textwrap.fill(text.strip().rstrip(".") + ".", 118, break_long_words=False, break_on_hyphens=False)
 
 
 def table(heads, rows):
@@ -95,7 +101,7 @@ def arguments(entries):
 def facts(known):
     parts = []
     for fact in known["facts"]:
-        part = f"## {fact['name']}\n\n{fact['meaning']}.\nValue: {kind_of(fact)}.\n"
+        part = f"## {fact['name']}\n\n{sentence(fact['meaning'])}\nValue: {kind_of(fact)}.\n"
         if fact["arguments"]:
             part += "\n" + arguments(fact["arguments"])
         parts.append(part)
@@ -107,7 +113,7 @@ def facts(known):
 def events(known):
     parts = []
     for event in known["events"]:
-        part = f"## {event['name']}\n\n{event['meaning']}.\n"
+        part = f"## {event['name']}\n\n{sentence(event['meaning'])}\n"
         if event.get("on"):
             part += "`on` names bodies.\n"
         if event["arguments"]:
@@ -182,8 +188,8 @@ def hand_keys(file, name):
 
 def keys():
     about = ("Controls as the program's own help shows them (F1).\n"
-             "Keyboard, mouse and gamepad are each sufficient alone. With the setting *left-handed* the sides of mouse "
-             "and gamepad are exchanged.")
+             "Keyboard, mouse and gamepad are each sufficient alone.\n"
+             "With the setting *left-handed* the sides of mouse and gamepad are exchanged.")
     window = ("## In every window of an exercise\n\n" +
               table(["Control", "Action"],
                     [("P or Esc; gamepad: Start", "pause and menu"), ("F1; gamepad: Back", "help"),
