@@ -12,7 +12,26 @@
 namespace trocar::app {
 namespace {
 
-constexpr int kWidth = 800, kHeight = 600;  // [px on an ordinary display] where there is no second monitor
+constexpr int kLeast = 240;  // [px] narrower than that nothing is seen
+
+/// Free space beside a window on its only monitor, at the side where there is more.
+struct Beside {
+  int x = 0, y = 0, width = 0, height = 0;
+  explicit Beside(GLFWwindow* main) {
+    int left = 0, top = 0, wide = 0, high = 0, own_x = 0, own_y = 0, own_width = 0, own_height = 0;
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (!monitor) return;
+    glfwGetMonitorWorkarea(monitor, &left, &top, &wide, &high);
+    glfwGetWindowPos(main, &own_x, &own_y);
+    glfwGetWindowSize(main, &own_width, &own_height);
+    const int before = own_x - left, after = left + wide - own_x - own_width;
+    x = after >= before ? own_x + own_width : left;
+    y = std::max(top, own_y);
+    width = std::max(before, after);
+    height = std::min(width * 3 / 4, top + high - y);
+  }
+  bool fits() const { return width >= kLeast && height >= kLeast * 3 / 4; }
+};
 
 /// In its own context while this lives; afterwards in the main window's again.
 class Current {
@@ -40,6 +59,12 @@ struct Fit {
 
 }  // namespace
 
+bool SecondWindow::has_room(const Window& main) {
+  int monitors = 0;
+  glfwGetMonitors(&monitors);
+  return monitors > 1 || Beside(main.handle()).fits();
+}
+
 SecondWindow::SecondWindow(Window& main, const std::string& title) : m_main(main) {
   int monitors = 0;
   GLFWmonitor** monitor = glfwGetMonitors(&monitors);
@@ -49,8 +74,10 @@ SecondWindow::SecondWindow(Window& main, const std::string& title) : m_main(main
   glfwWindowHint(GLFW_DECORATED, mode ? GLFW_FALSE : GLFW_TRUE);
   glfwWindowHint(GLFW_STEREO, GLFW_FALSE);
   glfwWindowHint(GLFW_VISIBLE, mode ? GLFW_FALSE : GLFW_TRUE);
-  m_window = glfwCreateWindow(mode ? mode->width : kWidth, mode ? mode->height : kHeight, title.c_str(), nullptr,
-                              main.handle());
+  const Beside beside(main.handle());
+  if (!mode && !beside.fits()) throw core::EnvironmentLacks("no space for a second window beside the first one");
+  m_window = glfwCreateWindow(mode ? mode->width : beside.width, mode ? mode->height : beside.height, title.c_str(),
+                              nullptr, main.handle());
   glfwWindowHint(GLFW_VISIBLE, GLFW_TRUE);
   glfwWindowHint(GLFW_DECORATED, GLFW_TRUE);
   if (!m_window) throw core::EnvironmentLacks("cannot open a second window");
@@ -59,6 +86,8 @@ SecondWindow::SecondWindow(Window& main, const std::string& title) : m_main(main
     glfwGetMonitorPos(monitor[1], &x, &y);
     glfwSetWindowPos(m_window, x, y);
     glfwShowWindow(m_window);
+  } else {
+    glfwSetWindowPos(m_window, beside.x, beside.y);
   }
   const Current current(m_window, main.handle());
   glfwSwapInterval(0);  // the main window waits for its display, and that is enough

@@ -17,7 +17,9 @@ namespace trocar::app {
 
 class SecondWindow {
  public:
-  /// All of the second monitor where there is one, else a window beside the main one. It takes no keys.
+  /// Is there a second monitor, or enough space beside the main window?
+  static bool has_room(const Window& main);
+  /// All of the second monitor where there is one, else beside the main window. It takes no keys.
   /// @throws core::EnvironmentLacks
   SecondWindow(Window& main, const std::string& title);
   ~SecondWindow();

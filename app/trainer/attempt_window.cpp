@@ -7,13 +7,21 @@
 
 #include <fmt/format.h>
 
+#include <trocar/attempt/controls/first_control.hpp>
 #include <trocar/attempt/hand_names.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/attempt/team/message.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/core/tick.hpp>
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "guide/control_mark.hpp"
+#include "guide/key_lines.hpp"
+#include "guide/refusals.hpp"
 #include "shell/display_panel.hpp"
 #include "shell/layout_panel.hpp"
 #include "shell/ui.hpp"
@@ -31,6 +39,7 @@ namespace {
 
 constexpr double kSlowest = 0.05;
 constexpr double kLagging = 0.95;
+constexpr double kRefusalSeconds = 4;                 // that a line about a key stays
 constexpr double kFullRate = 62, kYieldingRate = 24;  // [pictures/s] at most; the second while the simulation lags
 
 double pull_limit(const attempt::Lesson& lesson) {
@@ -39,7 +48,13 @@ double pull_limit(const attempt::Lesson& lesson) {
 
 std::string window_title(const attempt::Lesson& lesson) {
   const std::string title = "Trocar: " + (lesson.title.empty() ? lesson.name : lesson.title);
-  return lesson.seed == 0 ? title : fmt::format("{}, anatomy {}", title, lesson.seed);
+  return lesson.seed == 0 ? title : tr("{}, patient {}", title, lesson.seed);
+}
+
+/// Shown as long as the program runs: whoever wants the figures wants them in the next exercise, too.
+bool& details_open() {
+  static bool open = false;
+  return open;
 }
 
 }  // namespace
@@ -50,20 +65,23 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
       m_plan(plan),
       m_session(lesson),
       m_log(stage.options.store, m_session, plan),
-      m_crew(stage, lesson, plan.input),
+      m_crew(stage, lesson, plan.input, attempt::first_control(m_session)),
       m_pilot(m_crew.pilot()),
       m_feeler(lesson.model),
       m_panes(lesson.model) {
   m_hint = m_pilot && !stage.options.member && stage.settings.show_hint;
   run_beside();
   m_gamepad_used = plan.input == "gamepad";
-  if (m_session.monitor()) m_steps = m_session.monitor()->steps();
+  if (const training::Monitor* monitor = m_session.monitor()) {
+    m_steps = monitor->steps();
+    m_declares = training::asks_for_declaration(monitor->rules());
+  }
   stage.window.set_title(window_title(lesson));
 }
 
 AttemptWindow::~AttemptWindow() { m_stage.close_elsewhere(); }
 
-/// Time stands still while somebody is away.
+/// The simulation pauses while a participant is disconnected.
 void AttemptWindow::tell_of_team(const attempt::Snapshot& now) {
   const std::string waits = m_over ? "" : m_crew.source().waits_for();
   if (waits == m_told_waits) return;
@@ -99,9 +117,9 @@ std::optional<training::Foretold> AttemptWindow::outlook(const attempt::Snapshot
 }
 
 std::string AttemptWindow::mode_text() const {
-  if (m_plan.mode == AttemptMode::familiarisation) return "familiarisation: no score";
-  if (m_plan.mode == AttemptMode::demonstration) return "demonstration";
-  return m_lesson.exercise ? "" : "free practice";
+  if (m_plan.mode == AttemptMode::familiarisation) return tr("familiarisation: no score");
+  if (m_plan.mode == AttemptMode::demonstration) return tr("demonstration");
+  return m_lesson.exercise ? "" : tr("free practice");
 }
 
 /// Is it scored? Then organs are not looked through.
@@ -121,7 +139,7 @@ std::string AttemptWindow::screen_name() const {
          : m_hint    ? "hint"
          : m_display ? "display"
          : m_views   ? "views"
-         : m_paused  ? "pause"
+         : m_paused  ? m_pause_menu.asks() ? "confirm" : "pause"
          : m_rack    ? "rack"
                      : "exercise";
 }
@@ -143,7 +161,7 @@ Choice AttemptWindow::run() {
   return m_stage.wants_to_close() ? Choice::quit : choice;
 }
 
-/// Does time stand still?
+/// Is it paused?
 bool AttemptWindow::stands_still() const {
   return m_paused || m_hint || m_over || m_stage.overlay() != TrainerWindow::Overlay::none;
 }
@@ -214,17 +232,15 @@ void AttemptWindow::log_rate(const attempt::Snapshot& now) {
 void AttemptWindow::look_at_keys() {
   const Window& window = m_stage.window;
   if (window.gamepads().lost() && m_gamepad_used)
-    hold("The gamepad is gone: plug it in again, or go on with mouse and keyboard.");
+    hold(tr("The gamepad is disconnected. Connect it again, or resume with mouse and keyboard."));
   if (const std::string missing = stands_still() ? "" : m_crew.missing(); !missing.empty())
-    hold(missing + ": plug it in, and go on.");
-  if (m_had_focus && !window.focused() && m_pilot && !stands_still()) hold("Another window came to the front.");
+    hold(tr("{} is disconnected. Connect it, then resume.", missing));
+  if (m_had_focus && !window.focused() && m_pilot && !stands_still()) hold(tr("Another window came to the front."));
   m_had_focus = window.focused();
   m_gamepad_used |= touched(window.gamepads().state());
-  if (window.keys().second) {
-    std::optional<PaneShows>& elsewhere = m_stage.settings.views.elsewhere;
-    elsewhere = elsewhere ? std::nullopt : std::optional(PaneShows::endoscope);
-    m_stage.keep_settings();
-  }
+  if (window.keys().second) toggle_second_window();
+  for (const TypedKey& typed : window.typed())
+    if (typed.key == GLFW_KEY_F4) details_open() = !details_open();
   if (window.keys().layout && !counts()) {
     Layout& layout = m_stage.settings.views.layout;
     layout = after(layout);
@@ -232,13 +248,71 @@ void AttemptWindow::look_at_keys() {
   }
   if (m_stage.overlay() != TrainerWindow::Overlay::none || m_over || m_hint || m_display || m_views) return;
   const bool back = window.keys().back, pause = window.keys().pause;
+  if (m_paused && m_pause_menu.asks() && !pause) return;  // the question answers the key
   if (m_rack && back) {
     m_rack = false;
   } else if (back || pause) {
     m_paused = !m_paused;
     m_rack = false;
     m_why_paused.clear();
+    m_pause_menu.forget();
   }
+}
+
+/// It must not cover the picture: without room beside the first window the key says so.
+void AttemptWindow::toggle_second_window() {
+  std::optional<PaneShows>& elsewhere = m_stage.settings.views.elsewhere;
+  if (!elsewhere && !SecondWindow::has_room(m_stage.window)) {
+    m_refusal = tr("The second window needs a second monitor, or free space beside this window.");
+    m_refusal_until = now_seconds() + kRefusalSeconds;
+    return;
+  }
+  elsewhere = elsewhere ? std::nullopt : std::optional(PaneShows::endoscope);
+  m_stage.keep_settings();
+}
+
+core::KeyDevice AttemptWindow::device_in_use() const {
+  if (m_plan.input.starts_with("box")) return core::KeyDevice::box;
+  if (!m_gamepad_used || !m_stage.window.gamepads().present()) return core::KeyDevice::mouse_and_keys;
+  return m_pilot && m_pilot->leads_both() ? core::KeyDevice::gamepad_both : core::KeyDevice::gamepad;
+}
+
+std::vector<std::string> AttemptWindow::key_lines_now(const attempt::Snapshot& now) const {
+  const training::Monitor* monitor = m_session.monitor();
+  if (!monitor || now.current_step >= int(m_steps.size())) return {};
+  const training::StepNeeds needs = training::needs_of(monitor->rules(), now.current_step, {m_lesson.model, now.state});
+  const bool box = m_plan.input.starts_with("box");
+  if (!m_pilot && !box) return {};
+  const bool looking = m_pilot && m_pilot->leads_both() && m_pilot->both().looking;
+  const int led = !m_pilot ? kNobody : looking ? devices::kScope : m_pilot->hands().led;
+  return key_lines(
+      {needs, m_steps[size_t(now.current_step)].hint_pattern, device_in_use(), led, m_lesson.model, now.state});
+}
+
+void AttemptWindow::notice_refusal(const devices::HandSample& sample, const attempt::Snapshot& now) {
+  const devices::Gamepad before = std::exchange(m_pad_before, sample.gamepad);
+  const int led = m_pilot->hands().led;
+  const bool seen =
+      led != devices::kScope && tip_in_circle(m_lesson.model, now.state, led).in_view && !m_pilot->inserting(led);
+  const std::string why = refusal({m_lesson.model, now.state, led, counts(), m_declares, seen, device_in_use()}, sample,
+                                  before, m_stage.window.keys().layout);
+  if (why.empty()) return;
+  m_refusal = why;
+  m_refusal_until = now_seconds() + kRefusalSeconds;
+  m_stage.log.event("refusal", {{"text", why}});
+}
+
+/// What is controlled, in the endoscope's picture.
+void AttemptWindow::draw_control_marks(const attempt::Snapshot& now) const {
+  if (!m_pilot || m_over || m_panes.first().shows != PaneShows::endoscope) return;
+  const auto mark = [&](int hand) {
+    if (hand != devices::kScope && hand < attempt::hand_count(m_lesson.model))
+      draw_control_mark(m_lesson.model, now.state, hand, m_panes.first().area, m_stage.settings.mirrored_picture,
+                        core::key_label("into_view", device_in_use()));
+  };
+  if (!m_pilot->leads_both()) return mark(m_pilot->hands().led);
+  if (m_pilot->both().looking) return;
+  for (const int hand : m_pilot->both().pair) mark(hand);
 }
 
 void AttemptWindow::lead(const attempt::Snapshot& now) {
@@ -250,8 +324,9 @@ void AttemptWindow::lead(const attempt::Snapshot& now) {
     if (m_rack && !stands_still()) m_crew.put(m_pilot->rest(sample.dt, now.state), sample.dt, now.state);
   } else {
     if (m_was_still) m_crew.take_up(sample);
+    notice_refusal(sample, now);
     m_crew.put(m_pilot->lead(sample, now.state), sample.dt, now.state);
-    if (m_pilot->asks_for_rack()) m_rack = true;
+    if (m_pilot->asks_for_rack() && !m_lesson.model.hands.empty()) m_rack = true;
     keep_mode();
   }
   m_was_still = still;
@@ -313,7 +388,7 @@ int AttemptWindow::felt_hand(const attempt::Snapshot& now) const {
 void AttemptWindow::feel(const attempt::Snapshot& now) {
   const bool lost = m_crew.haptic() && m_crew.haptic()->lost();
   if (lost != std::exchange(m_device_lost, lost) && lost)
-    m_feedback.add(ui::Mark::warning, "The haptic device is silent: its force is off until it speaks again.",
+    m_feedback.add(ui::Mark::warning, tr("The haptic device does not answer. Its force is off until it answers again."),
                    now.seconds, now_seconds());
   m_rumble.use(m_stage.settings.rumble && m_gamepad_used ? m_stage.window.gamepads().guid() : std::string());
   const int hand = felt_hand(now);
@@ -345,12 +420,9 @@ void AttemptWindow::ask_for_the_eye(const attempt::Snapshot& now) {
   m_asked_for_eye = waits;
   if (waits < 0) return;
   const std::string name = attempt::hand_name(m_lesson.model, waits);
-  const bool gamepad = m_gamepad_used && m_stage.window.gamepads().present();
   m_feedback.add(ui::Mark::warning,
-                 fmt::format("{}: out of view. Turn the endoscope ({}) towards it, and it comes in", name,
-                             !gamepad                ? "key 0"
-                             : m_pilot->leads_both() ? "both shoulders held"
-                                                     : "shoulder button"),
+                 tr("{} is out of view. Turn the endoscope ({}) towards it, then it moves in.", name,
+                    core::key_label("endoscope", device_in_use())),
                  now.seconds, now_seconds());
   m_stage.log.event("waits-for-eye", {{"tick", now.state.tick}, {"tool", m_lesson.model.hands[size_t(waits)].name}});
 }
@@ -408,25 +480,29 @@ void AttemptWindow::draw_scene(const attempt::Snapshot& now) {
   if (!choice.elsewhere) m_stage.settings.views.elsewhere.reset();
   if (m_stage.room) m_stage.room->show(m_lesson.model, now.state);
   tell_views(choice);
+  draw_control_marks(now);
   ui::set_middle(float(width));
-  const PanelContent content{m_lesson,
-                             now,
-                             m_pilot ? &m_pilot->hands() : nullptr,
-                             m_pilot && m_pilot->leads_both() ? &m_pilot->both() : nullptr,
-                             m_plan.input == "demo" ? "the scripted surgeon" : m_plan.input,
-                             m_age.known()
-                                 ? fmt::format("{}, hand to picture {:.0f} ms", m_device.text, 1000 * m_age.smoothed())
-                                 : m_device.text,
-                             m_log.attempt().trainee,
-                             mode_text(),
-                             m_steps,
-                             m_feedback,
-                             stands_still(),
-                             m_gamepad_used && m_stage.window.gamepads().present(),
-                             pull_limit(m_lesson),
-                             m_stage.settings.force_trace ? &m_feel : nullptr,
-                             outlook(now),
-                             m_crew.in_words()};
+  const PanelContent content{
+      m_lesson,
+      now,
+      m_pilot ? &m_pilot->hands() : nullptr,
+      m_pilot && m_pilot->leads_both() ? &m_pilot->both() : nullptr,
+      m_plan.input == "demo" ? tr("the demonstration") : m_plan.input,
+      m_age.known() ? tr("{}, hand to picture {:.0f} ms", m_device.text, 1000 * m_age.smoothed()) : m_device.text,
+      m_log.attempt().trainee,
+      mode_text(),
+      m_steps,
+      m_feedback,
+      stands_still(),
+      m_gamepad_used && m_stage.window.gamepads().present(),
+      device_in_use(),
+      key_lines_now(now),
+      now_seconds() < m_refusal_until ? m_refusal : std::string(),
+      &details_open(),
+      pull_limit(m_lesson),
+      m_stage.settings.force_trace ? &m_feel : nullptr,
+      outlook(now),
+      m_crew.in_words()};
   draw_panel(content, float(width), panel, float(height));
   if (!m_told_waits.empty()) draw_waiting(m_told_waits, m_crew.how_to_join(), float(width), float(height));
   if (!stands_still()) draw_notices(m_feedback, now_seconds(), float(width), float(height));
@@ -452,7 +528,8 @@ void AttemptWindow::draw_over(const attempt::Snapshot& now, Choice& choice) {
       m_stage.keep_settings();
     }
   } else if (m_paused) {
-    choice = draw_pause(m_why_paused, m_log.attempt().recording, counts(), !counts());
+    choice =
+        m_pause_menu.draw({m_why_paused, m_log.attempt().recording, counts(), !counts()}, m_stage.window.keys().back);
   } else if (m_rack) {
     draw_the_rack(now);
   }

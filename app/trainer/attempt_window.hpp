@@ -7,7 +7,9 @@
 
 #include <trocar/attempt/attempt_log.hpp>
 #include <trocar/attempt/live.hpp>
+#include <trocar/core/controls/control_keys.hpp>
 #include <trocar/training/exercise/outlook.hpp>
+#include <trocar/training/exercise/step_needs.hpp>
 
 #include "shell/panes.hpp"
 #include "shell/rumble.hpp"
@@ -15,6 +17,7 @@
 #include "trainer/crew.hpp"
 #include "trainer/feedback.hpp"
 #include "trainer/force_feel.hpp"
+#include "trainer/pause.hpp"
 #include "trainer/picture_age.hpp"
 #include "trainer/trainer_window.hpp"
 
@@ -50,6 +53,11 @@ class AttemptWindow {
   void log_rate(const attempt::Snapshot& now);
   void draw_scene(const attempt::Snapshot& now);
   void draw_panes(const attempt::Snapshot& now);
+  void notice_refusal(const devices::HandSample& sample, const attempt::Snapshot& now);
+  void draw_control_marks(const attempt::Snapshot& now) const;
+  core::KeyDevice device_in_use() const;
+  std::vector<std::string> key_lines_now(const attempt::Snapshot& now) const;
+  void toggle_second_window();
   void run_beside();
   void show_beside(const attempt::Snapshot& now);
   void tell_views(const LayoutChoice& choice);
@@ -83,6 +91,11 @@ class AttemptWindow {
   Json m_result;
   bool m_hint = false, m_hint_again = false, m_paused = false, m_rack = false, m_over = false;
   bool m_display = false, m_views = false;
+  PauseMenu m_pause_menu;
+  std::string m_refusal;  ///< why the last key did nothing
+  double m_refusal_until = 0;
+  devices::Gamepad m_pad_before;
+  bool m_declares = false;  ///< the exercise asks for a declaration
   Panes m_panes;
   std::vector<view::PartStyle> m_styles;  ///< of the scene's parts
   bool m_was_still = true, m_gamepad_used = false, m_had_focus = false;

@@ -8,12 +8,14 @@
 
 namespace trocar::app {
 
-Crew::Crew(TrainerWindow& stage, const attempt::Lesson& lesson, const std::string& input)
-    : m_stage(stage), m_lesson(lesson) {
+Crew::Crew(TrainerWindow& stage, const attempt::Lesson& lesson, const std::string& input, int first)
+    : m_stage(stage), m_lesson(lesson), m_first(first) {
   if (input == "mouse" || input == "gamepad") {
     m_pilot = std::make_unique<attempt::HandPilot>(lesson.model);
     m_pilot->set(hand_settings(stage.settings, 0));
+    m_pilot->choose(m_first);
     m_pilot->lead_both(stage.settings.both_hands);
+    m_pilot->choose(m_first);  // of both, too: the mode by itself leaves the endoscope
     m_hands = std::make_unique<attempt::HandsSource>(lesson.model);
     give_parts();
   } else if (!stage.options.member) {

@@ -25,7 +25,8 @@ class Crew {
  public:
   /// @param input "mouse" or "gamepad": hands; else a source, see make_source().  @throws core::BadInput and what
   /// opening a device throws
-  Crew(TrainerWindow& stage, const attempt::Lesson& lesson, const std::string& input);
+  /// @param first  what the person controls first: a hand, or devices::kScope
+  Crew(TrainerWindow& stage, const attempt::Lesson& lesson, const std::string& input, int first);
   ~Crew();
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
@@ -56,6 +57,7 @@ class Crew {
 
   TrainerWindow& m_stage;
   const attempt::Lesson& m_lesson;
+  const int m_first;
   std::unique_ptr<attempt::HandPilot> m_pilot;
   std::unique_ptr<attempt::DeviceParts> m_parts;      ///< null: all devices lead the same
   std::unique_ptr<attempt::HandsSource> m_hands;      ///< null: something else leads

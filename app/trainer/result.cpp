@@ -12,40 +12,6 @@ namespace {
 
 using ui::Mark;
 
-bool wide_button(const char* text, bool primary = false) {
-  return ui::button(text, {.width = 260, .height = 32, .primary = primary});
-}
-
-}  // namespace
-
-Choice draw_pause(const std::string& why, const std::string& recording, bool scored, bool display) {
-  Choice choice = Choice::none;
-  ui::begin_middle("pause", 520);
-  ui::title("Paused");
-  if (!why.empty()) {
-    ui::mark(Mark::warning);
-    ui::text(why, ui::kOrange);
-  }
-  ui::text("Time stands still.", ui::kGrey);
-  if (wide_button("Go on", true)) choice = Choice::resume;
-  ImGui::SetItemDefaultFocus();
-  if (wide_button("Finish now")) choice = Choice::finish;
-  ImGui::SameLine();
-  ui::text(scored ? "ends and shows the result" : "ends", ui::kGrey);
-  if (wide_button("Begin again")) choice = Choice::restart;
-  if (wide_button("Keys and buttons")) choice = Choice::help;
-  if (wide_button("Settings")) choice = Choice::settings;
-  if (display && wide_button("Display")) choice = Choice::display;
-  if (display && wide_button("Views")) choice = Choice::views;
-  if (wide_button("To the start screen")) choice = Choice::start_screen;
-  if (wide_button("Quit Trocar")) choice = Choice::quit;
-  if (!recording.empty()) ui::text("recorded in " + recording, ui::kGrey);
-  ImGui::End();
-  return choice;
-}
-
-namespace {
-
 void result_line(const Json& from, const char* key, const char* text, const char* format, double factor = 1) {
   if (!from.contains(key) || !from[key].is_number()) return;
   ImGui::TableNextRow();

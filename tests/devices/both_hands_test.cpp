@@ -500,7 +500,7 @@ TEST(BothHandsMode, TakesTwoInstruments) {
   EXPECT_GT(of(0, commands).tip.right, 0);
 }
 
-TEST(BothHandsMode, TheHandThatWasLedAloneIsOfThePairAndTheOneLastUsedIsLedAloneAgain) {
+TEST(BothHandsMode, TheHandThatWasControlledAloneIsOfThePairAndIsControlledAloneAgain) {
   Pair pair(false);
   pair.press(Key::three);
   pair.press(Key::h);
@@ -511,10 +511,36 @@ TEST(BothHandsMode, TheHandThatWasLedAloneIsOfThePairAndTheOneLastUsedIsLedAlone
   pad.left_x = 1;
   pair.give(pad, 3);
   pair.press(Key::h);
-  EXPECT_EQ(pair.hands.state.led, 0);
+  EXPECT_EQ(pair.hands.state.led, 2);
   HandSample sample;
   sample.dx = 5;
-  EXPECT_GT(of(0, pair.give(sample)).tip.right, 0);
+  EXPECT_GT(of(2, pair.give(sample)).tip.right, 0);
+}
+
+TEST(BothHandsMode, EndsWithTheEndoscopeWhereItBeganWithIt) {
+  Pair pair(false);
+  pair.press(Key::zero);
+  pair.press(Key::h);
+  EXPECT_NE(pair.hands.state.led, kScope);
+  pair.press(Key::h);
+  EXPECT_EQ(pair.hands.state.led, kScope);
+}
+
+TEST(BothHandsMode, AlsoWhereItIsWantedTheEndoscopeIsControlledInASceneWithoutHands) {
+  for (const bool both : {false, true}) {
+    Pair pair(both);
+    pair.settings.instruments = 0;
+    for (const Key key : {Key::h, Key::tab, Key::one, Key::c}) {
+      HandSample sample;
+      sample.pressed.set(key);
+      sample.dx = 5;
+      const HandCommands commands = pair.give(sample);
+      ASSERT_EQ(commands.size(), 1);
+      EXPECT_EQ(commands.begin()->led, kScope);
+      EXPECT_GT(commands.begin()->scope.right, 0);
+      pair.rest(1);
+    }
+  }
 }
 
 TEST(BothHandsMode, SwitchingOpensAndClosesNoHandleByItself) {

@@ -120,6 +120,8 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"AnUnknownLimit", "\"for_s\": \"$check_s\"", "\"for_s\": \"$chek_s\"", "did you mean \"check_s\""},
         Spoilt{"ALimitOfAnotherUnit", "\"cover\": {\"below\": \"$clip_cover\"}",
                "\"cover\": {\"below\": \"$cut_depth_mm\"}", "unit"},
+        Spoilt{"AnUnknownKeyInAHint", "\"hint\": \"lead the endoscope", "\"hint\": \"{key:endoscop} lead the endoscope",
+               "did you mean \"endoscope\""},
         Spoilt{"AnUnknownFact", "\"fact\": \"mark.seen_for_s\", \"of\": \"uterus\"",
                "\"fact\": \"mark.sen_for_s\", \"of\": \"uterus\"", "did you mean \"mark.seen_for_s\""},
         Spoilt{"AnUnknownEvent", "{\"event\": \"clipped\", \"on\": {\"not\"",

@@ -31,7 +31,8 @@ Vec3d as_vector(const std::array<float, 3>& a) { return {double(a[0]), double(a[
 }  // namespace
 
 HandPilot::HandPilot(const sim::Model& model) : m_model(model), m_input(model.start) {
-  m_settings.instruments = std::max(1, int(model.hands.size()));
+  m_settings.instruments = int(model.hands.size());
+  if (model.hands.empty()) m_hands.state.led = devices::kScope;
   for (std::size_t t = 0; t < model.hands.size(); ++t) {
     m_hands.state.handle[t] = model.start.tools[t].handle;
     m_hands.state.ratchet[t] = model.start.tools[t].handle == 1;  // an assistant who holds something

@@ -115,6 +115,7 @@ void Live::publish() {
       s.step_missed[i] = monitor->steps()[i].missed;
     }
     s.current_step = monitor->current();
+    s.nearness = training::nearness_of(monitor->rules(), s.current_step, {m_session.lesson().model, s.state});
     s.seconds = monitor->seconds();
   } else {
     s.seconds = double(s.state.tick) * sim::kTick;

@@ -13,6 +13,7 @@
 
 #include <trocar/attempt/session.hpp>
 #include <trocar/core/triple_buffer.hpp>
+#include <trocar/training/exercise/step_nearness.hpp>
 
 namespace trocar::attempt {
 
@@ -21,8 +22,9 @@ struct Snapshot {
   sim::State state;
   std::array<bool, training::kMaxSteps> step_done{}, step_missed{};  ///< an exercise has no more
   int current_step = 0;
-  double seconds = 0;     ///< on the exercise's clock
-  double speed = 1;       ///< simulated per real time in the last quarter of a second
+  std::vector<training::Nearness> nearness = {};  ///< of the current step
+  double seconds = 0;                             ///< on the exercise's clock
+  double speed = 1;                               ///< simulated per real time in the last quarter of a second
   bool finished = false;  ///< the exercise is done, the source is dry, or the physics has failed
   std::vector<Vec3f> beside_skin = {}, beside_outline = {};  ///< of Session::beside(); empty: none runs
 };

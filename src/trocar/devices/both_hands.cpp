@@ -35,7 +35,7 @@ constexpr Button kLocks[2] = {Button::left, Button::right};
 /// Keys that choose who is led, or speak of the hand last used: no hand's own.
 constexpr Key kChoosing[] = {Key::tab, Key::one, Key::two, Key::three, Key::four, Key::zero, Key::c, Key::v, Key::h};
 
-int instruments_of(const HandSettings& settings) { return std::clamp(settings.instruments, 1, kMaxHands); }
+int instruments_of(const HandSettings& settings) { return std::clamp(settings.instruments, 0, kMaxHands); }
 
 // --- shares of a sample ---
 
@@ -361,8 +361,10 @@ void lead_both(const HandSettings& settings, bool on, BothHands& hands) noexcept
   if (on == hands.on) return;
   hands.on = on;
   hands.looking = false;
+  if (!on && instruments_of(settings) >= 2) choose(hands.alone, hands.state);
   let_go(hands.state);
   if (!leads_both(settings, hands)) return;
+  hands.alone = hands.state.led;
   for (HandState& side : hands.side) side = {}, let_go(side);
   hands.scope = {};
   hands.away = {true, true};

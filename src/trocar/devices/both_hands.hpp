@@ -35,6 +35,7 @@ struct BothHands {
   int used = kRight;              ///< the side last used
   int mouse = kRight;             ///< the side that the mouse leads, the keys lead the other one
   bool exchanged = false;         ///< ... which is not that of the hand that leads a mouse
+  int alone = 0;                  ///< controlled when the mode began, and again when it ends
   bool looking = false;           ///< the endoscope is led, both hands keep pose and grip
   std::array<HandState, 2> side;  ///< of each hand's share of the samples
   HandState scope;
@@ -61,7 +62,7 @@ bool leads_both(const HandSettings& settings, const BothHands& hands) noexcept;
 /// One sample: moves `hands` on and tells what the led ones do.
 HandCommands lead(const HandSettings& settings, const HandSample& sample, BothHands& hands) noexcept;
 
-/// Both, or one: every handle keeps its grip. A take_up() with the next sample follows.
+/// Both, or the one that was controlled before: every handle keeps its grip. A take_up() with the next sample follows.
 void lead_both(const HandSettings& settings, bool on, BothHands& hands) noexcept;
 /// Of both: `hand` becomes the one last used; one that is not of the pair takes that one's place. Else as for one.
 void choose(const HandSettings& settings, int hand, BothHands& hands) noexcept;

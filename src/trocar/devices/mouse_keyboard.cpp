@@ -96,6 +96,7 @@ HandSample as_right_handed(const HandSettings& settings, HandSample sample) {
 // --- which one is led ---
 
 void choose_next_instrument(int instruments, HandState& state) {
+  if (instruments == 0) return;
   choose(state.led == kScope ? state.last_instrument : (state.led + 1) % instruments, state);
 }
 
@@ -107,6 +108,7 @@ void choose_neighbour(int step, int instruments, HandState& state) {
 }
 
 void choose_led(const HandSettings& settings, int instruments, const HandSample& sample, HandState& state) {
+  if (state.led >= instruments) choose(kScope, state);  // a scene without this hand: the endoscope is there always
   for (int i = 0; i < instruments; ++i)
     if (sample.pressed.has(kNumberKeys[i])) choose(settings.left_handed ? instruments - 1 - i : i, state);
   if (sample.pressed.has(Key::tab)) choose_next_instrument(instruments, state);
@@ -321,7 +323,7 @@ void take_up(const HandSettings& settings, const HandSample& sample, HandState& 
 
 HandCommand lead(const HandSettings& settings, const HandSample& given, HandState& state) noexcept {
   const HandSample all = as_right_handed(settings, given);
-  choose_led(settings, std::clamp(settings.instruments, 1, kMaxHands), all, state);
+  choose_led(settings, std::clamp(settings.instruments, 0, kMaxHands), all, state);
   const bool bends = state.led != kScope && state.wrist[state.led];
   const HandSample sample = bends ? without_wrist(all) : all;
   if (went_down(Button::left_stick, sample, state.last)) state.fine = !state.fine;

@@ -165,7 +165,7 @@ struct HandCommand {
 
 /// How much a device's motion means.  Our choice: 10 cm across a picture of 1000 px.
 struct HandSettings {
-  int instruments = 2;             ///< 1..kMaxHands
+  int instruments = 2;             ///< 0..kMaxHands; with 0 the endoscope is controlled
   float metres_per_pixel = 1e-4f;  ///< tip
   float metres_per_notch = 2e-3f;  ///< tip and scope, along the shaft
   float roll_per_pixel = 8e-3f;    ///< [rad], dragging with the right button

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/controls/control_keys.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/scene/files/library.hpp>
 #include <trocar/scene/json/like.hpp>
@@ -171,9 +172,15 @@ class ExerciseReader {
     for (const JsonObject& s : o.objects("steps")) {
       StepText text{s.text("step"),        s.text("title"),    s.text("hint"),   s.text("for_each"),
                     s.number("weight", 1), s.flag("optional"), {s.value(), file}};
+      check_hint(s, text.hint);
       if (m_exercise.step(text.name)) s.fault("step", "expected each step once, got \"" + text.name + "\" again");
       m_exercise.steps.push_back(std::move(text));
     }
+  }
+  static void check_hint(const JsonObject& o, const std::string& hint) {
+    std::vector<std::string> known;
+    for (const core::ControlKey& key : core::control_keys()) known.emplace_back(key.name);
+    for (const std::string& name : core::unknown_keys(hint)) o.fault("hint", scene::unknown_name("key", name, known));
   }
   /// They come after those of included files.
   void own_steps() {
@@ -218,7 +225,8 @@ class ExerciseReader {
   void words() {
     const Names names(m_exercise.limits, {});
     for (Penalty& p : m_exercise.penalties)
-      for (std::string* text : {&p.name, &p.meaning, &p.hint}) *text = names.text(*text);
+      for (std::string* text : {&p.name, &p.meaning, &p.hint})
+        *text = core::with_keys(names.text(*text), core::KeyDevice::mouse_and_keys);
   }
 
   void codes() {

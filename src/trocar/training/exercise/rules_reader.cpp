@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/controls/control_keys.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/training/exercise/rules.hpp>
 #include <trocar/training/exercise/step_circles.hpp>
@@ -117,7 +118,8 @@ class RulesReader {
       StepStatus s;
       s.name = names.text(p.text->title);
       if (p.element && p.text->title.find('{') == std::string::npos) s.name = p.element->title + ": " + s.name;
-      s.hint = names.text(p.text->hint);
+      s.hint_pattern = names.text(p.text->hint);
+      s.hint = core::with_keys(s.hint_pattern, core::KeyDevice::mouse_and_keys);
       s.task = p.text->name;
       s.side = p.element ? p.element->name : "";
       s.optional = p.text->optional;

@@ -7,11 +7,18 @@
 
 namespace trocar::training {
 
-#define TROCAR_FACT(name) extern const Fact name;
+#define TROCAR_FACT(name, label, shown) extern const Fact name;
 #include <trocar/training/facts/facts.inl>
 #undef TROCAR_FACT
 
 std::span<const Fact* const> facts();
+/// How a fact is called where a trainee reads its value.
+struct FactWords {
+  enum class Shown { plain, percent };
+  const char* label = "";  ///< "Distance"; to be shown by tr()
+  Shown shown = Shown::plain;
+};
+const FactWords& words_of(const Fact& fact);
 /// Null: there is none of that name.
 const Fact* find_fact(std::string_view name);
 

@@ -22,6 +22,18 @@ class Condition {
   /// The same if this happened now.
   Truth would_hold(const Moment& moment, const Happening& happening) const;
 
+  // What it consists of, for who shows it.
+  enum class Kind { none, fact, step, all, any, negation };
+  Kind kind() const { return m_kind; }
+  const std::vector<Condition>& parts() const { return m_parts; }
+  const FactWatches* facts() const { return m_facts; }
+  int watch() const { return m_watch; }        ///< of a fact
+  const Test& test() const { return m_test; }  ///< of a fact
+  /// Of a step that has to be done; null: of something else.
+  const StepStatus* needed_step() const {
+    return m_kind == Kind::step && m_is == StepIs::done && !m_since ? &(*m_steps)[size_t(m_step)] : nullptr;
+  }
+
   /// The facts that it asks for, with their tests, however deep.
   template <class Visit>
   void each_fact(Visit&& visit) const {
@@ -38,7 +50,6 @@ class Condition {
   }
 
  private:
-  enum class Kind { none, fact, step, all, any, negation };
   enum class StepIs { done, missed, open };
 
   friend class ConditionReader;
