@@ -9,7 +9,7 @@ namespace {
 
 class KeyLines {
  public:
-  explicit KeyLines(const KeyQuestion& q) : q(q) {}
+  explicit KeyLines(const KeyQuestion& question) : q(question) {}
 
   std::vector<std::string> lines() {
     who();

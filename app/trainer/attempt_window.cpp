@@ -76,10 +76,14 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
     m_steps = monitor->steps();
     m_declares = training::asks_for_declaration(monitor->rules());
   }
+  stage.equipment = equipment_of(lesson.model, m_declares || !lesson.exercise);
   stage.window.set_title(window_title(lesson));
 }
 
-AttemptWindow::~AttemptWindow() { m_stage.close_elsewhere(); }
+AttemptWindow::~AttemptWindow() {
+  m_stage.close_elsewhere();
+  m_stage.equipment = {};
+}
 
 /// The simulation pauses while a participant is disconnected.
 void AttemptWindow::tell_of_team(const attempt::Snapshot& now) {
@@ -238,6 +242,7 @@ void AttemptWindow::look_at_keys() {
   if (m_had_focus && !window.focused() && m_pilot && !stands_still()) hold(tr("Another window came to the front."));
   m_had_focus = window.focused();
   m_gamepad_used |= touched(window.gamepads().state());
+  m_stage.gamepad_in_use = m_gamepad_used && window.gamepads().present();
   if (window.keys().second) toggle_second_window();
   for (const TypedKey& typed : window.typed())
     if (typed.key == GLFW_KEY_F4) details_open() = !details_open();
@@ -515,7 +520,7 @@ void AttemptWindow::draw_over(const attempt::Snapshot& now, Choice& choice) {
   if (m_over) {
     choice = draw_result(m_result, mode_text(), m_stage.options.store != nullptr, m_stage.reports.say());
   } else if (m_hint) {
-    if (draw_hint(gamepad, m_pilot->leads_both(), m_hint_again) == Choice::resume) {
+    if (draw_hint(m_stage.equipment, gamepad, m_pilot->leads_both(), m_hint_again) == Choice::resume) {
       m_hint = false;
       m_stage.settings.show_hint = m_hint_again;
       m_stage.keep_settings();

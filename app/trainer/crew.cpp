@@ -4,6 +4,7 @@
 
 #include <trocar/attempt/box/box_source.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/devices/haptics/choose_device.hpp>
 
 namespace trocar::app {
@@ -91,11 +92,11 @@ std::string Crew::missing() const {
 std::vector<std::string> Crew::in_words() const {
   std::vector<std::string> lines = m_parts ? m_parts->in_words() : std::vector<std::string>();
   if (const auto& member = m_stage.options.member)
-    lines.push_back(fmt::format("your part is the {}: {:.0f} ms", member->role(), 1000 * member->latency()));
+    lines.push_back(tr("your part is the {}: {:.0f} ms", member->role(), 1000 * member->latency()));
   if (!m_team) return lines;
   for (const attempt::TeamSeat& seat : m_team->seats())
-    lines.push_back(seat.here ? fmt::format("{}: {:.0f} ms", seat.role, 1000 * seat.latency)
-                              : fmt::format("{}: away", seat.role));
+    lines.push_back(seat.here ? tr("{}: {:.0f} ms", seat.role, 1000 * seat.latency)
+                              : tr("{}: disconnected", seat.role));
   return lines;
 }
 

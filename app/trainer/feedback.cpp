@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/hand_names.hpp>
+#include <trocar/core/text.hpp>
 
 namespace trocar::app {
 namespace {
@@ -50,8 +51,8 @@ const Notice* Feedback::add(const attempt::Moment& moment, double clock, double 
     if (moment.what != k.what) continue;
     const double seconds = k.mark == ui::Mark::error ? kErrorSeconds : kSeconds;
     std::string text = attempt::in_words(moment.text);
-    if (k.mark == ui::Mark::done) text = "Done: " + text;
-    if (!moment.hint.empty()) text += "\nBetter: " + moment.hint;
+    if (k.mark == ui::Mark::done) text = tr("Done: {}", text);
+    if (!moment.hint.empty()) text += "\n" + tr("Better: {}", moment.hint);
     return push({k.mark, text, clock, k.near_picture ? now + seconds : 0, k.tone});
   }
   return nullptr;

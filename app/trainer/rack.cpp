@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/hand_names.hpp>
+#include <trocar/core/text.hpp>
 
 #include "shell/ui.hpp"
 #include "trainer/generator.hpp"
@@ -20,38 +21,40 @@ std::uint32_t draw_setting(const char* name, double watts, tissue::PanelKey less
   if (ui::button(" + ")) keys |= more;
   ImGui::PopButtonRepeat();
   ImGui::SameLine();
-  ui::text(fmt::format("{} {:.0f} W", name, watts), ui::kWhite);
+  ui::text(tr("{} {:.0f} W", name, watts), ui::kWhite);
   ImGui::PopID();
   return keys;
 }
 
 std::uint32_t draw_panel_keys(const tissue::GeneratorPanel& p) {
   const bool cut = p.yellow == tissue::EnergyMode::cut;
-  ui::text("What is the generator set to?", ui::kGrey);
-  std::uint32_t keys =
-      draw_setting(cut ? "yellow, cut" : "yellow, blend", p.yellow_watts, tissue::kYellowLess, tissue::kYellowMore);
+  ui::text(tr("Settings of the generator"), ui::kGrey);
+  std::uint32_t keys = draw_setting(cut ? tr("yellow, cut") : tr("yellow, blend"), p.yellow_watts, tissue::kYellowLess,
+                                    tissue::kYellowMore);
   ImGui::SameLine();
-  if (ui::button(cut ? "to blend" : "to cut")) keys |= tissue::kOtherCut;
-  keys |= draw_setting("blue, coagulation", p.blue_watts, tissue::kBlueLess, tissue::kBlueMore);
-  keys |= draw_setting("blue, bipolar", p.bipolar_watts, tissue::kBipolarLess, tissue::kBipolarMore);
+  if (ui::button(cut ? tr("to blend") : tr("to cut"))) keys |= tissue::kOtherCut;
+  keys |= draw_setting(tr("blue, coagulation"), p.blue_watts, tissue::kBlueLess, tissue::kBlueMore);
+  keys |= draw_setting(tr("blue, bipolar"), p.bipolar_watts, tissue::kBipolarLess, tissue::kBipolarMore);
   return keys;
 }
 
 /// One hand, or both; of both: what the mouse leads.
 void draw_mode(const sim::Model& model, const devices::BothHands& both, RackChoice& choice) {
   if (attempt::hand_count(model) < 2) return;
-  if (ui::button(both.on ? "both hands: on (H)" : "both hands: off (H)")) choice.both = true;
+  if (ui::button(both.on ? tr("both hands: on (H)") : tr("both hands: off (H)"))) choice.both = true;
   ImGui::SameLine();
   if (!both.on) return;
-  if (ui::button(fmt::format("mouse: hand {} (Tab)", both.pair[size_t(both.mouse)] + 1))) choice.exchange = true;
+  if (ui::button(tr("mouse: hand {} (Tab)", both.pair[size_t(both.mouse)] + 1))) choice.exchange = true;
   ImGui::SameLine();
 }
 
 std::string rack_question(const sim::Model& model, const devices::BothHands& both) {
   const int count = attempt::hand_count(model);
-  if (!both.on || count < 2) return "Time goes on. Which hand do you lead?";
-  return fmt::format("Time goes on. You lead hands {} and {}. Which of them do you mean?{}", both.pair[0] + 1,
-                     both.pair[1] + 1, count > 2 ? " A third one takes its place." : "");
+  if (!both.on || count < 2) return tr("Choose an instrument (the clock keeps running).");
+  if (count == 2)
+    return tr("You control hands {} and {}. Choose one (the clock keeps running).", both.pair[0] + 1, both.pair[1] + 1);
+  return tr("You control hands {} and {}. Choose one, or a third one that replaces it (the clock keeps running).",
+            both.pair[0] + 1, both.pair[1] + 1);
 }
 
 }  // namespace
@@ -71,13 +74,14 @@ RackChoice draw_rack(const sim::Model& model, const sim::State& state, const dev
   for (int h = 0; h <= attempt::hand_count(model); ++h) {
     const bool scope = h == attempt::hand_count(model);
     const int hand = scope ? devices::kScope : h;
-    const std::string name = scope ? "0 endoscope" : fmt::format("{} {}", h + 1, attempt::hand_name(model, h));
+    const std::string name =
+        scope ? std::string(tr("0 endoscope")) : fmt::format("{} {}", h + 1, attempt::hand_name(model, h));
     if (ui::button(name, {.primary = hands.led == hand})) choice.hand = hand;
     if (!scope) ImGui::SameLine();
   }
   if (hands.led != devices::kScope) {
     const std::vector<attempt::Choosable> list = attempt::choosable(model, state, hands.led);
-    ui::text(fmt::format("What does it hold?"), ui::kGrey);
+    ui::text(tr("Instrument in this hand"), ui::kGrey);
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (i > 0) ImGui::SameLine();
       if (ui::button(list[i].name, {.primary = list[i].held})) choice.instrument = list[i].index;
@@ -85,19 +89,19 @@ RackChoice draw_rack(const sim::Model& model, const sim::State& state, const dev
     }
   }
   if (model.energy.there) choice.panel_keys = draw_panel_keys(state.panel);
-  ui::text("And", ui::kGrey);
+  ui::text(tr("Actions"), ui::kGrey);
   if (hands.led != devices::kScope) {
-    if (ui::button("into view (V)")) choice.insert = true;
+    if (ui::button(tr("into view (V)"))) choice.insert = true;
     ImGui::SameLine();
-    if (ui::button(hands.ratchet[size_t(hands.led)] ? "unlock jaws (Space)" : "lock jaws (Space)"))
+    if (ui::button(hands.ratchet[size_t(hands.led)] ? tr("unlock jaws (Space)") : tr("lock jaws (Space)")))
       choice.ratchet = true;
     ImGui::SameLine();
   }
-  if (ui::button(hands.fine ? "fine motion: on" : "fine motion: off")) choice.fine = true;
+  if (ui::button(hands.fine ? tr("fine motion: on") : tr("fine motion: off"))) choice.fine = true;
   draw_mode(model, both, choice);
-  if (ui::button("pause (P)")) choice.pause = true;
+  if (ui::button(tr("pause (P)"))) choice.pause = true;
   ImGui::SameLine();
-  if (ui::button("go on (Esc)")) choice.close = true;
+  if (ui::button(tr("close (Esc)"))) choice.close = true;
   ImGui::End();
   return choice;
 }

@@ -1,4 +1,4 @@
-// Which hand is led, which instrument it has, and the generator's panel.
+// Which hand is controlled, which instrument it has, and the generator's panel.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ namespace trocar::app {
 struct RackChoice {
   bool close = false, pause = false, insert = false, ratchet = false, fine = false;
   bool both = false, exchange = false;  ///< the other of: one hand, both; of both: what the mouse leads
-  int hand = -2;                        ///< lead this one (devices::kScope: the endoscope); -2: no choice
-  int instrument = -1;                  ///< for the led hand
+  int hand = -2;                        ///< control this one (devices::kScope: the endoscope); -2: no choice
+  int instrument = -1;                  ///< for the controlled hand
   std::uint32_t panel_keys = 0;         ///< tissue::PanelKey bits pressed
 };
 RackChoice draw_rack(const sim::Model& model, const sim::State& state, const devices::BothHands& both,

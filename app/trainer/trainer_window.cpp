@@ -11,7 +11,6 @@
 
 #include "shell/mirror.hpp"
 #include "shell/ui.hpp"
-#include "trainer/guidance.hpp"
 #include "trainer/start_screen.hpp"
 
 namespace trocar::app {
@@ -70,7 +69,7 @@ void TrainerWindow::drop_view() {
 
 void TrainerWindow::open(Overlay overlay) {
   if (overlay == Overlay::settings) m_before = settings;
-  if (overlay == Overlay::help) m_help_on_both = settings.both_hands;
+  if (overlay == Overlay::help) m_help = {gamepad_in_use, settings.both_hands && equipment.hands > 1};
   m_overlay = overlay;
 }
 
@@ -155,7 +154,7 @@ void TrainerWindow::draw_overlay() {
   if (m_overlay == Overlay::none) return;
   const bool back = window.keys().back;
   if (m_overlay == Overlay::help) {
-    const Choice choice = draw_help(window.gamepads().present(), settings.left_handed, m_help_on_both);
+    const Choice choice = draw_help(equipment, settings.left_handed, m_help);
     if (choice != Choice::none || back) m_overlay = Overlay::none;
     return;
   }

@@ -17,6 +17,7 @@
 #include "shell/settings.hpp"
 #include "shell/sound.hpp"
 #include "shell/window.hpp"
+#include "trainer/guidance.hpp"
 #include "trainer/report_opener.hpp"
 #include "trainer/window_loop.hpp"
 
@@ -40,6 +41,8 @@ class TrainerWindow {
   Sound sound;
   ReportOpener reports;
   std::unique_ptr<RoomBeside> room;  ///< null: none is shown
+  Equipment equipment;               ///< of which help speaks: of everything, or of the exercise that runs
+  bool gamepad_in_use = false;       ///< help begins with its page
 
   bool wants_to_close() const;
   /// The view of this lesson's scene; made again where it is another lesson than last time.
@@ -82,7 +85,7 @@ class TrainerWindow {
   std::unique_ptr<view::SceneView> m_view;
   const attempt::Lesson* m_viewed = nullptr;
   Overlay m_overlay = Overlay::none;
-  bool m_help_on_both = false;  ///< the page that help shows
+  HelpPage m_help;
   std::optional<SecondWindow> m_second;
   Settings m_before;
   std::string m_logged;

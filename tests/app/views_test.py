@@ -95,7 +95,7 @@ def practise(eyes, hands):
     second = eyes.wait("it on the display", windows, 20)
     ask_to_close(second[-1])
     eyes.wait("it to be closed", lambda: eyes.happened("second-window", open=False), 60)
-    hands.press("Go on")
+    hands.press("Resume")
     eyes.on("exercise")
     tick = eyes.pose["tick"]
     eyes.wait("the exercise to go on without it", lambda: eyes.pose["tick"] > tick + 100, 60)

@@ -166,7 +166,9 @@ def operate(eyes, hands, folder):
     eyes.on("settings")
     hands.leave_menu()
     eyes.on("pause")
-    hands.press("Finish now")
+    hands.press("End exercise")
+    eyes.on("confirm")
+    hands.press("Yes, end exercise")
     eyes.on("result")
     end = eyes.happened("end")[-1]
     if end["passed"] is not None:
@@ -181,7 +183,9 @@ def operate(eyes, hands, folder):
     eyes.wait("the new attempt to run", lambda: eyes.pose["tick"] not in (tick,) and eyes.pose["tick"] < 100000, 30)
     hands.pause()
     eyes.on("pause")
-    hands.press("Finish now")
+    hands.press("End exercise")
+    eyes.on("confirm")
+    hands.press("Yes, end exercise")
     eyes.on("result")
     if eyes.happened("end")[-1]["passed"] is not False:
         raise Failed("an attempt that was hardly begun is not 'not passed'")
@@ -203,7 +207,7 @@ def operate(eyes, hands, folder):
         if not time_stands_still(eyes) or math.dist(before, eyes.tool()["tip_mm"]) > 12:
             raise Failed("the instrument moved when the gamepad was unplugged")
         hands.send()
-        hands.press("Go on")
+        hands.press("Resume")
         eyes.on("exercise")
 
 

@@ -10,7 +10,7 @@
 //   if (command.irrigate) open that valve of the led one
 //   if (command.rack) show which hands and instruments there are to choose from
 //
-// help() is the table of keys that the window and the README show. Two hands that move at the same time:
+// help() is the table of keys that the window shows. Two hands that move at the same time:
 // both_hands.hpp.
 #pragma once
 
@@ -231,10 +231,30 @@ void take_up(const HandSettings& settings, const HandSample& sample, HandState& 
 std::array<float, 3> in_space(const PictureMotion& motion, const std::array<float, 3>& right,
                               const std::array<float, 3>& up, const std::array<float, 3>& shaft) noexcept;
 
+/// What a line of help is good for: an exercise without it does not show the line.
+enum class HelpNeeds : std::uint8_t {
+  nothing,
+  instrument,
+  two_instruments,
+  jaws,
+  clips,
+  valves,
+  needle,
+  hook,
+  energy,
+  wrist,
+  oblique,
+  lens,  ///< that fogs
+  declares
+};
+enum class HelpGroup : std::uint8_t { choose, move, act };
+
 struct HelpLine {
   Device device;
   const char* keys;
   const char* action;
+  HelpGroup group = HelpGroup::act;
+  HelpNeeds needs = HelpNeeds::nothing;
 };
 std::span<const HelpLine> help() noexcept;
 

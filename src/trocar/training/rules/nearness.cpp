@@ -74,21 +74,20 @@ class NearnessReader {
   NearnessReader(const Moment& moment, const Names& names) : m_moment(moment), m_names(names) {}
 
   std::vector<Nearness> of(const Condition& c, bool negated) const {
-    using Kind = Condition::Kind;
     switch (c.kind()) {
-      case Kind::none:
+      case Condition::Kind::none:
         return {};
-      case Kind::fact:
+      case Condition::Kind::fact:
         return {of_fact(c, negated)};
-      case Kind::step:
+      case Condition::Kind::step:
         return of_step(c, negated);
-      case Kind::negation:
+      case Condition::Kind::negation:
         return of(c.parts()[0], !negated);
-      case Kind::all:
-      case Kind::any:
+      case Condition::Kind::all:
+      case Condition::Kind::any:
         break;
     }
-    return (c.kind() == Kind::all) != negated ? joined(c, negated) : nearest(c, negated);
+    return (c.kind() == Condition::Kind::all) != negated ? joined(c, negated) : nearest(c, negated);
   }
 
  private:
