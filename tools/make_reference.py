@@ -194,11 +194,17 @@ def keys():
               table(["Control", "Action"],
                     [("P or Esc; gamepad: Start", "pause and menu"), ("F1; gamepad: Back", "help"),
                      ("F2", "next layout of views"), ("F3", "second window with the picture of the endoscope"),
+                     ("F4", "details in the panel: forces at the trocar, fluids, generator"),
                      ("F12", "save a picture")]))
     return page("Keyboard, mouse and gamepad", about,
                 "## One hand at a time", *hand_keys("src/trocar/devices/mouse_keyboard.cpp", "kHelp"),
                 "## Both hands at once\n\nControls that differ from one hand at a time. H, or both shoulders and Y of "
                 "a gamepad, switches.", *hand_keys("src/trocar/devices/both_hands.cpp", "kHelpBoth"), window,
+                "## Names of controls in hints\n\nA hint of an exercise names a control as `{key:NAME}`; the window puts "
+                "the label of the device in use there.\n\n" +
+                table(["Name", "Mouse and keyboard", "Gamepad"],
+                      [(f"`{row[0]}`", row[1], row[2])
+                       for row in rows_of("src/trocar/core/controls/control_keys.cpp", "kControls")]),
                 "## Player\n\n" + table(["Action", "Keyboard", "Mouse", "Gamepad"],
                                         rows_of("app/player/player_keys.hpp", "kPlayerHelp")),
                 "## Modeller\n\n" + table(["Control", "Action"],

@@ -114,7 +114,7 @@ TEST(Equipment, OfACameraExerciseHasNoInstruments) {
   const Equipment straight = equipment_of(guide_lesson("basics/camera-0").model, false);
   EXPECT_EQ(straight.hands, 0);
   for (const devices::HelpLine& line : devices::help())
-    if (line.needs != devices::HelpNeeds::nothing) EXPECT_FALSE(straight.has(line.needs)) << line.action;
+    EXPECT_EQ(straight.has(line.needs), line.needs == devices::HelpNeeds::nothing) << line.action;
   EXPECT_TRUE(equipment_of(guide_lesson("basics/camera-30").model, false).has(devices::HelpNeeds::oblique));
   const Equipment suture = equipment_of(guide_lesson("suturing/needle-through").model, false);
   EXPECT_TRUE(suture.jaws);

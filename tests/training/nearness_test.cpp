@@ -45,8 +45,8 @@ TEST(Nearness, HasValueTargetUnitAndShare) {
   s.pull(1);
   const Nearness row = s.rows()[0];
   EXPECT_EQ(row.label, "Pull");
-  EXPECT_EQ(row.shown_value(), "1 N");
-  EXPECT_EQ(row.target(), "at least 4 N");
+  EXPECT_EQ(row.shown_value(), "1");
+  EXPECT_EQ(row.target(), "min 4 N");
   EXPECT_FALSE(row.fulfilled);
   EXPECT_NEAR(row.share, 0.25, 1e-9);
   s.pull(5);
@@ -68,7 +68,7 @@ TEST(Nearness, ANegationTurnsTheTargetRound) {
   s.pull(1);
   const std::vector<Nearness> rows = s.rows();
   ASSERT_EQ(rows.size(), 2u);
-  EXPECT_EQ(rows[0].target(), "at most 3 N");
+  EXPECT_EQ(rows[0].target(), "max 3 N");
   EXPECT_TRUE(rows[0].fulfilled);
   EXPECT_FALSE(rows[1].wanted);
   EXPECT_FALSE(rows[1].fulfilled) << "it is in view";
@@ -80,7 +80,7 @@ TEST(Nearness, OfAlternativesTheNearestIsShown) {
   NearStep s(R"("when": {"any": [)" + pull_fact(R"("min": 10)") + ", " + pull_fact(R"("min": 2)") + "]}");
   s.pull(1);
   ASSERT_EQ(s.rows().size(), 1u);
-  EXPECT_EQ(s.rows()[0].target(), "at least 2 N");
+  EXPECT_EQ(s.rows()[0].target(), "min 2 N");
 }
 
 TEST(Nearness, TheHoldTimeCountsDownWhileTheConditionHolds) {
@@ -92,7 +92,7 @@ TEST(Nearness, TheHoldTimeCountsDownWhileTheConditionHolds) {
   s.a.hold_tube(two_sides::kLeft, 0.055, 2);
   s.a.seconds(1);
   EXPECT_NEAR(s.rows()[1].value, 1, 0.05);
-  EXPECT_EQ(s.rows()[1].target(), "at least 2 s");
+  EXPECT_EQ(s.rows()[1].target(), "min 2 s");
 }
 
 TEST(Nearness, ManyRowsOfOneFactBecomeACount) {

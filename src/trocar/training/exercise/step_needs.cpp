@@ -58,6 +58,7 @@ class Needs {
 
   void fact(const FactWatches::Watched& watched) {
     const std::string_view name = watched.fact->name;
+    m_needs.suction |= name == "pool.volume_mL" || name == "mark.under_liquid";
     if (of_the_picture(name)) {
       m_picture = true;
       return;
@@ -65,7 +66,6 @@ class Needs {
     m_other = true;
     m_needs.grasp |= name.starts_with("hand.hold") || name.starts_with("hand.held");
     m_needs.energy |= name.ends_with("sealed") || name.starts_with("tissue.");
-    m_needs.suction |= name == "pool.volume_mL";
     m_needs.inject |= name.starts_with("needle.") || name.starts_with("injected.");
     const int named = hand_of(watched);
     if (named >= 0)

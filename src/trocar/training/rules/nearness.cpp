@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/text.hpp>
+#include <trocar/training/events/event.hpp>
 #include <trocar/training/facts/registry.hpp>
 #include <trocar/training/rules/nearness.hpp>
 
@@ -29,6 +30,12 @@ std::string name_of(const sim::Model& model, ArgumentKind kind, int index) {
       return model.targets[size_t(index)].name;
     case ArgumentKind::vessel:
       return model.vessels.list[size_t(index)].name;
+    case ArgumentKind::strand:
+    case ArgumentKind::body: {
+      const BodyId body = kind == ArgumentKind::strand ? BodyId::strand(size_t(index)) : BodyId::of_code(index);
+      const std::string* name = name_of_body(model, body);
+      return name ? *name : std::string();
+    }
     default:
       return {};
   }
@@ -235,18 +242,16 @@ Nearness counted(std::string label, double value, double least, std::string unit
 
 std::string Nearness::target() const {
   if (is_truth) return {};
-  if (outside) return tr("outside {} to {} {}", number(low), number(high), unit);
-  if (low == high) return tr("{} {}", number(low), unit);
-  if (std::isinf(low)) return tr("at most {} {}", number(high), unit);
-  if (std::isinf(high)) return tr("at least {} {}", number(low), unit);
-  if (low == -high) return tr("within {} {}", number(high), unit);
-  return tr("{} to {} {}", number(low), number(high), unit);
+  const auto with_unit = [this](std::string range) { return unit.empty() ? range : range + " " + unit; };
+  if (outside) return with_unit(tr("not {} to {}", number(low), number(high)));
+  if (low == high) return with_unit(number(low));
+  if (std::isinf(low)) return with_unit(tr("max {}", number(high)));
+  if (std::isinf(high)) return with_unit(tr("min {}", number(low)));
+  if (low == -high) return with_unit("\u00b1 " + number(high));
+  return with_unit(tr("{} to {}", number(low), number(high)));
 }
 
-std::string Nearness::shown_value() const {
-  if (!known) return "-";
-  return unit.empty() ? number(value) : fmt::format("{} {}", number(value), unit);
-}
+std::string Nearness::shown_value() const { return known ? number(value) : "-"; }
 
 std::vector<Nearness> nearness(const Condition& condition, const Moment& moment, const Names& names) {
   std::vector<Nearness> rows = NearnessReader(moment, names).of(condition, false);

@@ -30,9 +30,9 @@ struct Nearness {
   int watch = -1;
   std::string subject;  ///< what the fact is about, part of the label where rows differ in it
 
-  /// "40 to 60 mm", "at most 5 °", "at least 1 s"; empty for a truth.
+  /// "40 to 60 mm", "max 5 N", "min 1 s"; empty for a truth.
   std::string target() const;
-  std::string shown_value() const;  ///< "52 mm", "12 %"; "-" where nothing is known
+  std::string shown_value() const;  ///< "52"; "-" where nothing is known
 };
 
 /// @param names  titles of what the scene names
