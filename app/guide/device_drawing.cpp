@@ -68,14 +68,14 @@ MouseWords mouse_words(const Equipment& e) {
 void draw_mouse(const Sketch& s, const Equipment& e, bool left_handed) {
   const MouseWords words = mouse_words(e);
   const bool left = !words.left.empty();
-  s.box(4, 0.6f, 2.2f, 3.6f, kBody, 1);
-  s.box(4.1f, 0.7f, 0.95f, 1.4f, (left_handed || left) ? kUsed : kPart, 0.4f);
-  s.box(5.15f, 0.7f, 0.95f, 1.4f, (!left_handed || left) ? kUsed : kPart, 0.4f);
-  s.box(4.95f, 0.95f, 0.3f, 0.8f, ui::kOrange, 0.15f);
-  s.call({4.4f, 1.2f}, {3.6f, 0.9f}, left_handed ? words.right : words.left, false);
-  s.call({5.8f, 1.2f}, {6.6f, 0.9f}, left_handed ? words.left : words.right, true);
-  s.call({5.1f, 1.4f}, {6.6f, 2.0f}, words.wheel, true);
-  s.call({5.1f, 3.2f}, {6.6f, 3.2f}, words.move, true);
+  s.box(4.6f, 0.6f, 2.2f, 3.6f, kBody, 1);
+  s.box(4.7f, 0.7f, 0.95f, 1.4f, (left_handed || left) ? kUsed : kPart, 0.4f);
+  s.box(5.75f, 0.7f, 0.95f, 1.4f, (!left_handed || left) ? kUsed : kPart, 0.4f);
+  s.box(5.55f, 0.95f, 0.3f, 0.8f, ui::kOrange, 0.15f);
+  s.call({5, 1.2f}, {4.2f, 0.9f}, left_handed ? words.right : words.left, false);
+  s.call({6.4f, 1.2f}, {7.2f, 0.9f}, left_handed ? words.left : words.right, true);
+  s.call({5.7f, 1.4f}, {7.2f, 2.0f}, words.wheel, true);
+  s.call({5.7f, 3.2f}, {7.2f, 3.2f}, words.move, true);
 }
 
 /// Does a line of help name this key, and does it apply here?
@@ -129,8 +129,8 @@ float draw_mouse_and_keys(const Equipment& equipment, bool left_handed, ImVec2 a
 }
 
 float draw_gamepad(const Equipment& e, ImVec2 at, float width) {
-  constexpr float kUnits = 16, kHigh = 9.4f;
-  const Sketch s(at, width / kUnits);
+  constexpr float kUnits = 19, kAside = 1.5f, kHigh = 9.4f;
+  const Sketch s({at.x + kAside * width / kUnits, at.y}, width / kUnits);
   const bool hands = e.hands > 0;
   s.box(4.2f, 2.4f, 7.6f, 3.6f, kBody, 1.4f);
   s.disc(4.9f, 5.6f, 1.5f, kBody);
@@ -157,7 +157,7 @@ float draw_gamepad(const Equipment& e, ImVec2 at, float width) {
   s.call({10.8f, 1.0f}, {12.2f, 0.5f}, e.jaws ? tr("close the jaws") : e.oblique ? tr("light post") : "", true);
   s.call({5.2f, 1.9f}, {3.8f, 1.7f}, hands ? tr("previous") : "", false);
   s.call({10.8f, 1.9f}, {12.2f, 1.7f}, hands ? tr("next instrument") : "", true);
-  s.call({5.6f, 3.6f}, {3.8f, 3.4f}, hands ? tr("move the tip") : tr("turn the endoscope"), false);
+  s.call({5.6f, 3.6f}, {3.8f, 3.4f}, hands ? tr("move the tip") : tr("turn the view"), false);
   s.call({9.2f, 5.0f}, {8.4f, 7.2f}, tr("deeper, back; sideways: roll"), true);
   s.call({10.4f, 2.9f}, {12.2f, 2.7f}, hands ? tr("Y: exchange") : "", true);
   s.call({11.1f, 3.55f}, {12.2f, 3.6f}, e.lens ? tr("B: wipe the lens") : "", true);
