@@ -76,7 +76,7 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
     m_steps = monitor->steps();
     m_declares = training::asks_for_declaration(monitor->rules());
   }
-  stage.equipment = equipment_of(lesson.model, m_declares || !lesson.exercise);
+  stage.equipment = equipment_of(lesson.model, m_declares);
   stage.window.set_title(window_title(lesson));
 }
 
@@ -288,8 +288,12 @@ std::vector<std::string> AttemptWindow::key_lines_now(const attempt::Snapshot& n
   const training::StepNeeds needs = training::needs_of(monitor->rules(), now.current_step, {m_lesson.model, now.state});
   const bool box = m_plan.input.starts_with("box");
   if (!m_pilot && !box) return {};
-  const bool looking = m_pilot && m_pilot->leads_both() && m_pilot->both().looking;
-  const int led = !m_pilot ? kNobody : looking ? devices::kScope : m_pilot->hands().led;
+  int led = m_pilot ? m_pilot->hands().led : kNobody;
+  if (m_pilot && m_pilot->leads_both()) {
+    const devices::BothHands& both = m_pilot->both();
+    const bool of_pair = both.pair[devices::kLeft] == needs.hand || both.pair[devices::kRight] == needs.hand;
+    led = both.looking ? devices::kScope : of_pair ? needs.hand : led;
+  }
   return key_lines(
       {needs, m_steps[size_t(now.current_step)].hint_pattern, device_in_use(), led, m_lesson.model, now.state});
 }
