@@ -30,7 +30,7 @@ void draw_ring_at(ImDrawList& draw, ImVec2 at, const std::string& number) {
   text_on_dark(draw, {at.x + radius + 5 * ui::scale(), at.y - 0.5f * ImGui::GetTextLineHeight()}, number);
 }
 
-void draw_arrow(ImDrawList& draw, ImVec2 tip, ImVec2 towards, const std::string& text, const Area& area) {
+void draw_edge_arrow(ImDrawList& draw, ImVec2 tip, ImVec2 towards, const std::string& text, const Area& area) {
   const float size = 16 * ui::scale();
   const ImVec2 back{tip.x - size * towards.x, tip.y - size * towards.y};
   const ImVec2 aside{-0.6f * size * towards.y, 0.6f * size * towards.x};
@@ -70,8 +70,8 @@ void draw_control_mark(const sim::Model& model, const sim::State& state, int han
   const std::string number = std::to_string(hand + 1);
   if (at.in_view) return draw_ring_at(draw, {middle.x + radius * at.right, middle.y - radius * at.up}, number);
   const float edge = 0.94f * radius;
-  draw_arrow(draw, {middle.x + edge * at.right, middle.y - edge * at.up}, {at.right, -at.up},
-             tr("{}: out of view. {} brings it into view", number, key), area);
+  draw_edge_arrow(draw, {middle.x + edge * at.right, middle.y - edge * at.up}, {at.right, -at.up},
+                  tr("{}: out of view. {} brings it into view", number, key), area);
 }
 
 }  // namespace trocar::app

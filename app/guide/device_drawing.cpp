@@ -90,23 +90,24 @@ bool key_is_used(const Equipment& e, std::string_view key) {
   return key == "P";
 }
 
-void draw_key(const Sketch& s, const Equipment& e, float x, float y, float width, const char* key, const char* name) {
+void draw_keyboard_key(const Sketch& s, const Equipment& e, float x, float y, float width, const char* key,
+                       const char* name) {
   const bool used = key_is_used(e, key);
   s.box(x, y, width, 0.84f, used ? kUsed : kBody);
   s.name(x + 0.5f * width, y + 0.42f, name, used ? ui::kWhite : ImVec4{0.45f, 0.48f, 0.52f, 1});
 }
 
-void draw_keys(const Sketch& s, const Equipment& e, float top) {
+void draw_keyboard(const Sketch& s, const Equipment& e, float top) {
   constexpr const char* kRows[] = {"1234567890", "QWERTYUIOP", "ASDFGHJKL", "ZXCVBNM"};
   constexpr float kIndent[] = {0.6f, 1.0f, 1.3f, 1.8f};
   for (int row = 0; row < 4; ++row)
     for (int i = 0; kRows[row][i] != 0; ++i) {
       const char key[2] = {kRows[row][i], 0};
-      draw_key(s, e, kIndent[row] + 0.92f * float(i), top + 0.92f * float(row), 0.84f, key, key);
+      draw_keyboard_key(s, e, kIndent[row] + 0.92f * float(i), top + 0.92f * float(row), 0.84f, key, key);
     }
-  draw_key(s, e, 0, top + 2.76f, 1.7f, "Shift", "Shift");
-  draw_key(s, e, 2.7f, top + 3.68f, 4.2f, "Space", tr("Space"));
-  draw_key(s, e, 0, top + 0.92f, 0.92f, "Tab", "Tab");
+  draw_keyboard_key(s, e, 0, top + 2.76f, 1.7f, "Shift", "Shift");
+  draw_keyboard_key(s, e, 2.7f, top + 3.68f, 4.2f, "Space", tr("Space"));
+  draw_keyboard_key(s, e, 0, top + 0.92f, 0.92f, "Tab", "Tab");
   const float x = 9.4f, y = top + 3.22f;
   constexpr struct {
     const char *key, *name;
@@ -115,7 +116,7 @@ void draw_keys(const Sketch& s, const Equipment& e, float top) {
                  {"Left", "\u2190", 0, 0.92f},
                  {"Down", "\u2193", 0.92f, 0.92f},
                  {"Right", "\u2192", 1.84f, 0.92f}};
-  for (const auto& arrow : kArrows) draw_key(s, e, x + arrow.x, y + arrow.y, 0.84f, arrow.key, arrow.name);
+  for (const auto& arrow : kArrows) draw_keyboard_key(s, e, x + arrow.x, y + arrow.y, 0.84f, arrow.key, arrow.name);
 }
 
 }  // namespace
@@ -124,7 +125,7 @@ float draw_mouse_and_keys(const Equipment& equipment, bool left_handed, ImVec2 a
   constexpr float kUnits = 12.4f, kHigh = 10.2f, kKeysTop = 4.9f;
   const Sketch s(at, width / kUnits);
   draw_mouse(s, equipment, left_handed);
-  draw_keys(s, equipment, kKeysTop);
+  draw_keyboard(s, equipment, kKeysTop);
   return s.length(kHigh);
 }
 

@@ -36,7 +36,7 @@ void draw_ring(const Nearness& row, ImVec2 middle, float radius) {
   draw.PathStroke(colour, 0, line);
 }
 
-void draw_bar(const Nearness& row, ImVec2 at, float width, float height) {
+void draw_nearness_bar(const Nearness& row, ImVec2 at, float width, float height) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const NearnessBar bar = bar_of(row);
   const auto x = [&](float share) { return at.x + width * share; };
@@ -56,7 +56,7 @@ std::string row_text(const Nearness& row) {
   return row.wanted ? row.label : tr("not: {}", row.label);
 }
 
-void draw_row(const Nearness& row) {
+void draw_nearness_row(const Nearness& row) {
   const float scale = ui::scale(), line = ImGui::GetTextLineHeight(), width = ImGui::GetContentRegionAvail().x;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float indent = line + 4 * scale;
@@ -71,7 +71,7 @@ void draw_row(const Nearness& row) {
     const float x = at.x + width - right;
     draw.AddText({x, at.y}, ImGui::GetColorU32(colour_of_row(row)), value.c_str());
     draw.AddText({x + ImGui::CalcTextSize(value.c_str()).x + gap, at.y}, ImGui::GetColorU32(ui::kGrey), target.c_str());
-    draw_bar(row, {at.x + indent, at.y + line + 2 * scale}, width - indent, kBar * scale);
+    draw_nearness_bar(row, {at.x + indent, at.y + line + 2 * scale}, width - indent, kBar * scale);
   }
   ImGui::Dummy({width, line + (row.is_truth ? 0 : (kBar + kGap) * scale)});
 }
@@ -106,7 +106,7 @@ float nearness_height(const std::vector<Nearness>& rows) {
 }
 
 void draw_nearness(const std::vector<Nearness>& rows) {
-  for (const Nearness& row : rows) draw_row(row);
+  for (const Nearness& row : rows) draw_nearness_row(row);
 }
 
 }  // namespace trocar::app
