@@ -68,9 +68,9 @@ def help_of(program, command):
 
 
 def subcommands(text):
-    """The names under "Subcommands:" of a help text."""
-    _, _, listed = text.partition("Subcommands:")
-    return set(re.findall(r"^ {2}([a-z][\w-]*)", listed, re.MULTILINE))
+    """The names under "Subcommands:" of a help text, in their order."""
+    listed = text.partition("Subcommands:")[2].strip("\n").partition("\n\n")[0]
+    return re.findall(r"^ {2}([a-z][\w-]*)", listed, re.MULTILINE)
 
 
 def fault_of(program, words):
@@ -130,7 +130,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--run", action="store_true")
     parser.add_argument("pages", nargs="*", type=Path)
-    wanted = parser.parse_args()
+    wanted = parser.parse_intermixed_args()
     roots = wanted.pages or [ROOT / p for p in PAGES]
     pages = [p for r in roots for p in (sorted(r.rglob("*.md")) if r.is_dir() else [r]) if p.exists()]
     found, count = [], 0

@@ -11,9 +11,11 @@ import json
 import re
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 from urllib.parse import unquote
 
+from check_commands import subcommands
 from check_links import slug
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -31,6 +33,11 @@ def cell(text):
     return str(text).replace("|", "\\|").replace("\n", " ").replace("<", "\\<").strip()
 
 
+def sentence(text):
+    """As lines of a page, with one full stop."""
+    return textwrap.fill(text.strip().rstrip(".") + ".", 118, break_long_words=False, break_on_hyphens=False)
+
+
 def table(heads, rows):
     lines = ["| " + " | ".join(heads) + " |", "|" + "-|" * len(heads)]
     return "\n".join(lines + ["| " + " | ".join(cell(c) for c in row) + " |" for row in rows])
@@ -45,20 +52,14 @@ def output(program, *words):
     return done.stdout.strip()
 
 
-def command_names(text):
-    """Names under "Subcommands:", in their order."""
-    _, _, listed = text.partition("Subcommands:")
-    return re.findall(r"^ {2}([a-z][\w-]*)", listed, re.MULTILINE)
-
-
 def commands(program):
     """The help text of each command, and of the commands below it."""
     top = output(program, "--help")
     parts = ["```text\n" + clean(top) + "\n```"]
-    for name in command_names(top):
+    for name in subcommands(top):
         text = output(program, name, "--help")
         parts.append(f"## {name}\n\n```text\n{clean(text)}\n```")
-        for below in command_names(text):
+        for below in subcommands(text):
             parts.append(f"### {name} {below}\n\n```text\n{clean(output(program, name, below, '--help'))}\n```")
     return page("Commands", "What `trocar COMMAND --help` prints, for every command.", *parts)
 
@@ -100,7 +101,7 @@ def arguments(entries):
 def facts(known):
     parts = []
     for fact in known["facts"]:
-        part = f"## {fact['name']}\n\n{fact['meaning']}.\nValue: {kind_of(fact)}.\n"
+        part = f"## {fact['name']}\n\n{sentence(fact['meaning'])}\nValue: {kind_of(fact)}.\n"
         if fact["arguments"]:
             part += "\n" + arguments(fact["arguments"])
         parts.append(part)
@@ -112,7 +113,7 @@ def facts(known):
 def events(known):
     parts = []
     for event in known["events"]:
-        part = f"## {event['name']}\n\n{event['meaning']}.\n"
+        part = f"## {event['name']}\n\n{sentence(event['meaning'])}\n"
         if event.get("on"):
             part += "`on` names bodies.\n"
         if event["arguments"]:
@@ -187,8 +188,8 @@ def hand_keys(file, name):
 
 def keys():
     about = ("Controls as the program's own help shows them (F1).\n"
-             "Keyboard, mouse and gamepad are each sufficient alone. With the setting *left-handed* the sides of mouse "
-             "and gamepad are exchanged.")
+             "Keyboard, mouse and gamepad are each sufficient alone.\n"
+             "With the setting *left-handed* the sides of mouse and gamepad are exchanged.")
     window = ("## In every window of an exercise\n\n" +
               table(["Control", "Action"],
                     [("P or Esc; gamepad: Start", "pause and menu"), ("F1; gamepad: Back", "help"),

@@ -352,6 +352,12 @@ void draw_steps(const PanelContent& c, float height) {
   ImGui::EndChild();
 }
 
+const char* foot_of(const PanelContent& c) {
+  if (attempt::hand_count(c.lesson.model) == 0)
+    return c.gamepad ? tr("Start: pause   Back: help") : tr("P: pause   F1: help");
+  return c.gamepad ? tr("Y: instruments   Start: pause   Back: help") : tr("X: instruments   P: pause   F1: help");
+}
+
 void draw_list(const Feedback& feedback, float height) {
   ImGui::BeginChild("events", {0, height}, false, ImGuiWindowFlags_NoNav);
   const std::vector<Notice>& all = feedback.all();
@@ -398,8 +404,7 @@ void draw_panel(const PanelContent& c, float left, float width, float height) {
   draw_steps(c, steps);
   ui::heading(tr("What happened"));
   draw_list(c.feedback, std::max(line, ImGui::GetContentRegionAvail().y - foot));
-  ui::text(c.gamepad ? tr("Y: instruments   Start: pause   Back: help") : tr("X: instruments   P: pause   F1: help"),
-           ui::kGrey);
+  ui::text(foot_of(c), ui::kGrey);
   ImGui::End();
 }
 

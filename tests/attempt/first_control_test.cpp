@@ -39,6 +39,16 @@ TEST(FirstControl, IsTheEndoscopeInCameraExercises) {
   EXPECT_EQ(first_of("basics/camera-30"), devices::kScope);
 }
 
+TEST(FirstControl, ADeclarationInASceneWithoutHandsIsToldAndEndsNothing) {
+  const std::unique_ptr<Lesson> lesson = load_lesson("basics/camera-0");
+  Session session(*lesson, 1);
+  sim::Input input = lesson->model.start;
+  input.pedals = sim::kDeclare;
+  session.advance(input);
+  ASSERT_EQ(session.moments().size(), 1u);
+  EXPECT_EQ(session.moments()[0].what, "declared");
+}
+
 TEST(FirstControl, IsTheHandThatHoldsTheNeedle) {
   const std::unique_ptr<Lesson> lesson = load_lesson("suturing/needle-through");
   EXPECT_EQ(hand_name(lesson->model, first_control(Session(*lesson, 1))), "right");

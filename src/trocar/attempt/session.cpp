@@ -160,10 +160,13 @@ BodyId body_of(const sim::Event& e, const sim::State& s) {
   return e.body();
 }
 
+/// A scene without hands has no instrument to name: a declaration happens there, too.
 std::string in_words(const sim::Event& e, const sim::Model& model, const sim::State& s) {
   const sim::EventWords& words = sim::words_of(e.kind);
-  return fmt::format(fmt::runtime(words.text), fmt::arg("tool", model.tool(s, size_t(e.tool)).name),
-                     fmt::arg("hand", model.hands[size_t(e.tool)].name),
+  const bool by_hand = e.tool >= 0 && size_t(e.tool) < model.hands.size();
+  const std::string tool = by_hand ? model.tool(s, size_t(e.tool)).name : "endoscope";
+  return fmt::format(fmt::runtime(words.text), fmt::arg("tool", tool),
+                     fmt::arg("hand", by_hand ? model.hands[size_t(e.tool)].name : tool),
                      fmt::arg("body", words.has_body ? sim::name_of(model, body_of(e, s)) : std::string()));
 }
 

@@ -18,7 +18,7 @@ const Shape& step_shape() {
       "A part of the task: a state that lasts (when) or an act (on).",
       {needed(keys::name("step", "its name, unique in the exercise")),
        needed(keys::text("title", "text for the trainee; {n}, {name}, {title}")),
-       keys::text("hint", "how to do it; {placeholders} for limits, {key:declare} for the key of the device in use"),
+       keys::text("hint", "how to do it; {placeholders} for limits, {key:NAME} for controls"),
        keys::number("weight", 0, 100, "weight in the quality share of the score, default 1"),
        keys::name("for_each", "set: one step for each element"),
        keys::any("after", "\"previous\", one step or several: this step counts only after those are closed"),
