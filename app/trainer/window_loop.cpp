@@ -54,10 +54,10 @@ class Preview {
     m_lesson = &lesson;
     m_drawn = 0;
     m_image = {};
-    const sim::State state = sim::initial_state(lesson.model);
+    m_state = std::make_unique<sim::State>(sim::initial_state(lesson.model));
     view::ViewOptions options;
     options.eye_index = 1;
-    m_frame = stage.view_of(lesson).frame(state, options);
+    m_frame = stage.view_of(lesson).frame(*m_state, options);
   }
   void upload(const render::Image& image) {
     if (m_texture == 0) glGenTextures(1, &m_texture);
@@ -69,6 +69,7 @@ class Preview {
   }
 
   const attempt::Lesson* m_lesson = nullptr;
+  std::unique_ptr<sim::State> m_state;  ///< as long as the frame
   render::Frame m_frame;
   render::Image m_image;
   int m_drawn = 0;
