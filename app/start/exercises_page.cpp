@@ -76,9 +76,14 @@ void draw_tiles(const StartContent& c, const Group& group, int next, StartMemory
 }
 
 void draw_search(StartMemory& memory) {
-  ImGui::SetNextItemWidth(-1);
+  constexpr float kClear = 30;
+  const bool clears = memory.search[0] != 0;
+  ImGui::SetNextItemWidth(clears ? -(kClear * ui::scale() + ImGui::GetStyle().ItemSpacing.x) : -1);
   ImGui::InputTextWithHint("##search", tr("Search"), memory.search, sizeof memory.search);
   ui::note_widget("Search");
+  if (!clears) return;
+  ImGui::SameLine();
+  if (ui::button("x##search", {.width = kClear, .tip = tr("Clear the search")})) memory.search[0] = 0;
 }
 
 void draw_list(const StartContent& c, const std::vector<Group>& groups, int next, StartMemory& memory) {

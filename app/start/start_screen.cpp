@@ -104,10 +104,10 @@ const char* name_of(StartPage page) {
 }
 
 void first_focus(StartMemory& memory) {
-  if (!memory.fresh || ImGui::GetIO().WantTextInput) return;
+  if (memory.fresh <= 0 || ImGui::GetIO().WantTextInput) return;
   ui::take_focus();
   ImGui::SetScrollHereY();
-  memory.fresh = false;
+  --memory.fresh;
 }
 
 void draw_messages(const StartContent& c, StartAnswer& answer) {

@@ -59,9 +59,10 @@ struct TeamForm {
 
 /// The screen's own memory.
 struct StartMemory {
+  static constexpr int kFresh = 4;  ///< Dear ImGui gives a new window's focus to its first widget once
   StartPage page = StartPage::person;
-  bool fresh = true;  ///< the page has just been opened: its first widget takes the focus
-  int selected = -1;  ///< exercise
+  int fresh = kFresh;  ///< pictures in which the first widget of a page that was opened takes the focus
+  int selected = -1;   ///< exercise
   std::uint64_t seed = 0;
   bool was_ready = false;
   char name[training::kLongestName + 1] = {};  ///< of a person to add
@@ -72,7 +73,7 @@ struct StartMemory {
   bool all_results = false;         ///< attempts that were left after a few seconds, too
   TeamForm team;
 
-  void open(StartPage where) { page = where, fresh = true, was_ready = false; }
+  void open(StartPage where) { page = where, fresh = kFresh, was_ready = false; }
 };
 
 struct StartAnswer {

@@ -55,10 +55,10 @@ class Preview {
     m_lesson = &lesson;
     m_drawn = 0;
     m_image = {};
-    const sim::State state = sim::initial_state(lesson.model);
+    m_state = std::make_unique<sim::State>(sim::initial_state(lesson.model));
     view::ViewOptions options;
     options.eye_index = 1;
-    m_frame = stage.view_of(lesson).frame(state, options);
+    m_frame = stage.view_of(lesson).frame(*m_state, options);
   }
   void upload(const render::Image& image) {
     if (m_texture == 0) glGenTextures(1, &m_texture);
@@ -70,6 +70,7 @@ class Preview {
   }
 
   const attempt::Lesson* m_lesson = nullptr;
+  std::unique_ptr<sim::State> m_state;  ///< as long as the frame
   render::Frame m_frame;
   render::Image m_image;
   int m_drawn = 0;
@@ -186,26 +187,11 @@ class Trainer {
   Json m_result;
 };
 
-/// One line for each step, in the order of the exercise; a step that is done for many elements of a set is named once.
-std::vector<std::string> step_lines(const training::Steps& steps) {
-  std::vector<std::string> lines;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const auto same = [&](const training::StepStatus& s) { return s.task == steps[i].task; };
-    const auto first = std::find_if(steps.begin(), steps.end(), same);
-    constexpr std::ptrdiff_t kFew = 2;  // both sides are named
-    const std::ptrdiff_t times = std::count_if(steps.begin(), steps.end(), same);
-    if (times <= kFew)
-      lines.push_back(steps[i].name);
-    else if (first == steps.begin() + std::ptrdiff_t(i))
-      lines.push_back(tr("{} (and {} more)", steps[i].name, times - 1));
-  }
-  return lines;
-}
-
 ExerciseFacts Trainer::facts_of(const attempt::Lesson* lesson) {
   ExerciseFacts facts;
   facts.aspect = float(kPreviewWidth) / float(kPreviewHeight);
-  if (lesson && lesson->exercise) facts.steps = step_lines(lesson->monitor()->steps());
+  if (lesson && lesson->exercise)
+    for (const training::StepStatus& step : lesson->monitor()->steps()) facts.steps.push_back(step.name);
   return facts;
 }
 

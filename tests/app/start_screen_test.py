@@ -57,8 +57,7 @@ def search(eyes, hands):
     xdo("type", "hump")
     eyes.wait("only what was searched for", lambda: "cholecystectomy/calot-hump" in eyes.screen["widgets"] and
               "basics/camera-0" not in eyes.screen["widgets"], 30)
-    for _ in range(4):
-        xdo("key", "BackSpace")
+    hands.press("x##search")
     eyes.where("basics/camera-0")
 
 
