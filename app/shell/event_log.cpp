@@ -147,7 +147,7 @@ void EventLog::pose(const sim::Model& model, const attempt::Snapshot& now, int l
                  {"seconds", now.seconds},
                  {"speed", now.speed},
                  {"step", now.current_step},
-                 {"led", led < 0 ? "scope" : model.hands[size_t(led)].name},
+                 {"led", led < 0 || size_t(led) >= model.hands.size() ? "scope" : model.hands[size_t(led)].name},
                  {"both", pair_of(model, both)},
                  {"picture",
                   {{"port_mm", millimetres(model.scope.port)},
