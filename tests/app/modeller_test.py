@@ -55,8 +55,10 @@ class Modeller:
         x, y = self.eyes.where(field)
         xdo("mousemove", x, y)
         time.sleep(0.3)
-        xdo("click", "--repeat", 2, "--delay", 120, 1)  # all of it is chosen
+        xdo("click", 1)
         time.sleep(0.4)
+        xdo("key", "ctrl+a")  # all of it is chosen
+        time.sleep(0.2)
         xdo("type", "--delay", 30, text)
         time.sleep(0.3)
 
