@@ -190,8 +190,9 @@ class Trainer {
 ExerciseFacts Trainer::facts_of(const attempt::Lesson* lesson) {
   ExerciseFacts facts;
   facts.aspect = float(kPreviewWidth) / float(kPreviewHeight);
-  if (lesson && lesson->exercise)
-    for (const training::StepStatus& step : lesson->monitor()->steps()) facts.steps.push_back(step.name);
+  if (!lesson || !lesson->exercise) return facts;
+  const auto monitor = lesson->monitor();
+  for (const training::StepStatus& step : monitor->steps()) facts.steps.push_back(step.name);
   return facts;
 }
 
