@@ -55,6 +55,7 @@ WORD = re.compile(r"[\w'’-]*[A-Za-z][\w'’-]*")
 SENTENCE_END = re.compile(r"(?<=[.!?])[)\"'”*_]*\s+(?=[\"'“(*_]*[A-Z0-9{`])")
 ABBREVIATION = re.compile(r"(?<![\w/.`-])([A-Z]{2,6})s?(?![\w/-])")
 CODE_SPAN = re.compile(r"``.*?``|`[^`]*`")
+PLACEHOLDER = re.compile(r"\{[^{}]*\}")
 LINK = re.compile(r"!?\[([^\]]*)\]\([^)]*\)")
 # Words written in capitals that abbreviate nothing.
 NO_ABBREVIATION = {"README", "CHANGELOG", "NOTICE", "LICENSE", "AND", "NOT", "OR", "II", "III", "IV", "VI", "VII", "VIII",
@@ -78,8 +79,8 @@ def sentence_faults(text):
 
 
 def plain(markdown):
-    """A line without code and targets of links: what is read."""
-    return LINK.sub(lambda m: m.group(1), CODE_SPAN.sub("code", markdown))
+    """A line without code, {placeholders} and targets of links: what is read."""
+    return LINK.sub(lambda m: m.group(1), CODE_SPAN.sub("code", PLACEHOLDER.sub("value", markdown)))
 
 
 def page_faults(path, lines, explained):
@@ -178,8 +179,13 @@ def script_texts(source):
             yield number, text
 
 
+QUERY = re.compile(r"\s*(CREATE|SELECT|INSERT|UPDATE|DELETE|PRAGMA|WITH|ALTER)\b")
+
+
 def text_faults(texts):
     for line, text in texts:
+        if QUERY.match(text):  # for the database
+            continue
         for _, message in sentence_faults(text.replace("\\n", " ")):
             yield line, message
 

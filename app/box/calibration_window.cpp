@@ -17,6 +17,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/devices/box/box_thread.hpp>
 
 #include "shell/event_log.hpp"
@@ -361,14 +362,14 @@ void CalibrationWindow::save() {
   before += ".before";
   if (std::filesystem::exists(m_options.output, error)) {
     std::filesystem::rename(m_options.output, before, error);
-    m_saved = error ? "" : fmt::format("What was there is {} now. ", before.generic_string());
+    m_saved = error ? "" : tr("The earlier file is now {}. ", before.generic_string());
   }
   if (m_options.output.has_parent_path()) std::filesystem::create_directories(m_options.output.parent_path(), error);
   const std::string text = attempt::box_file_text(m_assistant->wiring());
   const std::string fault = core::write_file(m_options.output, text.data(), text.size(), 0600);
   m_written = fault.empty();
-  m_saved += m_written ? "Saved: " + m_options.output.generic_string()
-                       : fmt::format("{} cannot be written: {}", m_options.output.generic_string(), fault);
+  m_saved += m_written ? tr("Saved: {}", m_options.output.generic_string())
+                       : tr("Cannot write {}: {}", m_options.output.generic_string(), fault);
   m_log.event("saved", {{"file", m_options.output.generic_string()}, {"written", m_written}});
 }
 

@@ -12,7 +12,7 @@
 #include <trocar/core/json.hpp>
 #include <trocar/scene/files/reader.hpp>
 
-#include "commands/gallery_names.hpp"
+#include "commands/gallery/gallery_names.hpp"
 #include "commands/program.hpp"
 
 namespace trocar::app {

@@ -10,7 +10,7 @@
 #include <trocar/pictures/pictures.hpp>
 #include <trocar/sim/stages/step.hpp>
 
-#include "commands/gallery_events.hpp"
+#include "commands/gallery/gallery_events.hpp"
 #include "picture_difference.hpp"
 
 namespace trocar::app {

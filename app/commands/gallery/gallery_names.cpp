@@ -1,4 +1,4 @@
-#include "commands/gallery_names.hpp"
+#include "commands/gallery/gallery_names.hpp"
 
 #include <algorithm>
 

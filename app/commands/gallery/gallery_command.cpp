@@ -19,8 +19,8 @@
 #include <trocar/sim/stages/visibility.hpp>
 
 #include "commands/command.hpp"
-#include "commands/gallery_events.hpp"
-#include "commands/gallery_names.hpp"
+#include "commands/gallery/gallery_events.hpp"
+#include "commands/gallery/gallery_names.hpp"
 
 namespace trocar::app {
 namespace {

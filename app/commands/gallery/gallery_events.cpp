@@ -1,4 +1,4 @@
-#include "commands/gallery_events.hpp"
+#include "commands/gallery/gallery_events.hpp"
 
 #include <algorithm>
 
