@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
+std::string content_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -73,7 +73,7 @@ TEST(Help, EveryEnvironmentVariableIsInTheTable) {
   for (const char* root : {TROCAR_SOURCE_DIR "/src", TROCAR_SOURCE_DIR "/app"})
     for (const fs::directory_entry& file : fs::recursive_directory_iterator(root)) {
       if (file.path().extension() != ".cpp" && file.path().extension() != ".hpp") continue;
-      const std::string text = text_of(file.path());
+      const std::string text = content_of(file.path());
       for (const char* call : {"getenv(\"", "environment(\""})
         for (std::size_t at = text.find(call); at != std::string::npos; at = text.find(call, at + 1)) {
           const std::size_t from = at + std::string(call).size();
@@ -88,14 +88,14 @@ TEST(Help, ManualPagesAndCompletionHaveEveryCommandAndOption) {
   const std::string folder = testing::TempDir() + "trocar_help_files";
   fs::remove_all(folder);
   ASSERT_EQ(trocar({"help", "--write-files", folder}).exit, 0);
-  const std::string completion = text_of(folder + "/bash-completion/completions/trocar");
-  const std::string program = without_backslashes(text_of(folder + "/man/man1/trocar.1"));
+  const std::string completion = content_of(folder + "/bash-completion/completions/trocar");
+  const std::string program = without_backslashes(content_of(folder + "/man/man1/trocar.1"));
   for (const EnvironmentVariable& v : environment_variables()) EXPECT_NE(program.find(v.name), std::string::npos);
   const std::vector<std::string> all = commands();
   EXPECT_GE(all.size(), 19u);
   for (const std::string& command : all) {
     EXPECT_NE(program.find("trocar-" + command + " (1)"), std::string::npos) << command;
-    const std::string page = without_backslashes(text_of(folder + "/man/man1/trocar-" + command + ".1"));
+    const std::string page = without_backslashes(content_of(folder + "/man/man1/trocar-" + command + ".1"));
     EXPECT_NE(page.find(".SH EXAMPLES\n.nf\n  trocar "), std::string::npos) << command;
     for (const std::string& option : options_in(trocar({command, "--help"}).out)) {
       EXPECT_NE(page.find(option), std::string::npos) << command << ' ' << option;
@@ -103,7 +103,7 @@ TEST(Help, ManualPagesAndCompletionHaveEveryCommandAndOption) {
     }
     EXPECT_NE(completion.find("\n    " + command + ")"), std::string::npos) << command;
   }
-  EXPECT_NE(text_of(folder + "/man/man1/trocar-box.1").find(".SH SIMULATE"), std::string::npos);
+  EXPECT_NE(content_of(folder + "/man/man1/trocar-box.1").find(".SH SIMULATE"), std::string::npos);
 }
 
 }  // namespace
