@@ -178,7 +178,7 @@ void add_trials(CLI::App& program, Chosen& chosen) {
   };
   auto o = std::make_shared<Options>();
   CLI::App* c = add_command(program, chosen, "trials", tr("Compute metrics and learning curve of motion files"),
-                            "trocar report --traces motions --names && trocar trials motions --html trials.html");
+                            "trocar trials motions --html trials.html");
   c->add_option("motions", o->where,
                 tr("a CSV file of motion or a folder of them: tables of `trocar report --trace`, or one row a moment "
                    "with the columns operator, trial, t_ms, xL, yL, zL, rollL, handleL, xR, ... handleR"))

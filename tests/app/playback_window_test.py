@@ -11,8 +11,9 @@ import os
 import sys
 import time
 
-from trainee import Failed, in_a_room, xdo
+from trainee import Failed, in_a_room, open_exercise, xdo
 
+EXERCISE = "basics/camera-0", "basics"
 PATIENCE = 420  # [s] for a demonstration to be recorded
 
 
@@ -35,12 +36,9 @@ def watch_attempt(eyes, hands):
     eyes.wait("some time to pass", lambda: eyes.pose and eyes.pose["tick"] > 1500, 120)
     hands.pause()
     eyes.on("pause")
-    finish = "Finish now" if "Finish now" in eyes.screen["widgets"] else "End exercise"
-    hands.press(finish)
-    time.sleep(1)
-    eyes.read()
-    if eyes.screen["name"] == "confirm":
-        hands.press(next(w for w in eyes.screen["widgets"] if w.startswith(("Finish", "End"))))
+    hands.press("End exercise")
+    eyes.on("confirm")
+    hands.press("Yes, end exercise")
     eyes.on("result")
     hands.press("Watch my attempt")
     eyes.on("player", 60)
@@ -52,13 +50,14 @@ def watch_attempt(eyes, hands):
     hands.press("Back to Trocar")
     eyes.on("result")
     hands.press("Back")
-    eyes.on("start", 60)
+    eyes.on("exercises", 60)
     print(f"watched an attempt of {last} ticks")
 
 
 def watch_demonstration(eyes, hands, data):
     captions = len(eyes.happened("caption"))
     pictures = len(eyes.happened("shown"))
+    open_exercise(eyes, hands, *EXERCISE)
     hands.press("Demonstration", 120)
     eyes.wait("the progress of the recording", lambda: "Cancel" in eyes.screen["widgets"], 60)
     started = time.monotonic()
@@ -85,7 +84,7 @@ def watch_demonstration(eyes, hands, data):
     hands.press("Do the same exercise with the same patient")
     eyes.on("exercise", 120)
     attempt = eyes.happened("attempt")[-1]
-    if attempt["mode"] != "assessed" or attempt["exercise"] != "basics/camera-0":
+    if attempt["mode"] != "assessed" or attempt["exercise"] != EXERCISE[0]:
         raise Failed(f"Now you began {attempt}")
 
 
@@ -93,18 +92,15 @@ def again(eyes, hands):
     """The second time it is there at once."""
     hands.pause()
     eyes.on("pause")
-    hands.press(next(w for w in eyes.screen["widgets"] if "tart screen" in w))
-    time.sleep(1)
-    eyes.read()
-    if eyes.screen["name"] == "confirm":
-        hands.enter()
-    eyes.on("start", 60)
+    hands.press("Start screen")
+    eyes.on("exercises", 60)
     pictures = len(eyes.happened("shown"))
+    open_exercise(eyes, hands, *EXERCISE)
     hands.press("Demonstration", 120)
     eyes.on("player", 30)
     eyes.wait("the kept demonstration", lambda: eyes.happened("shown")[pictures:], 30)
     hands.press("Back to Trocar")
-    eyes.on("start", 60)
+    eyes.on("exercises", 60)
 
 
 def whole(room):
@@ -116,4 +112,4 @@ def whole(room):
 
 
 if __name__ == "__main__":
-    sys.exit(in_a_room(__doc__, whole, ["--trainee", "Ada", "basics/camera-0"]))
+    sys.exit(in_a_room(__doc__, whole, ["--trainee", "Ada", EXERCISE[0]]))

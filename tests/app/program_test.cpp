@@ -119,9 +119,9 @@ TEST_F(Program, ListKnowsEveryKind) {
 constexpr const char* kOwnExercise = R"({
   "format": 3,
   "name": "mine",
-  "title": "My camera",
-  "like": "../basics/camera-0.json",
-  "scene": "../box_pegs/scene.json"
+  "title": "My clips",
+  "like": "../basics/clip-application.json",
+  "scene": "../box_vessels/scene.json"
 })";
 
 TEST_F(Program, OwnExercisesAreListedAndNameShippedFilesAsNeighbours) {
@@ -129,7 +129,7 @@ TEST_F(Program, OwnExercisesAreListedAndNameShippedFilesAsNeighbours) {
   std::ofstream(file("data/scenes/own/mine.json")) << kOwnExercise;
   const Json all = trocar({"list", "exercises", "--json"}).json();
   EXPECT_TRUE(std::any_of(all["exercises"].begin(), all["exercises"].end(),
-                          [](const Json& e) { return e["name"] == "own/mine" && e["title"] == "My camera"; }));
+                          [](const Json& e) { return e["name"] == "own/mine" && e["title"] == "My clips"; }));
   EXPECT_EQ(trocar({"check", file("data/scenes/own/mine.json")}).exit, core::kDone);
   const Outcome run =
       trocar({"train", "own/mine", "--input", "motion:" + motion_file(), "--headless", "--seconds", "0.02", "--json"});
