@@ -32,7 +32,7 @@ std::string row_of(const std::string& name, const std::string& text, std::size_t
 }  // namespace
 
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App*) { return true; });
+  return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
 }
 
 std::string program_footer() {

@@ -10,7 +10,7 @@
 
 namespace trocar::app {
 
-/// The commands below `app`, in their order.
+/// The commands below `app`, in their order, without hidden ones.
 std::vector<const CLI::App*> commands_of(const CLI::App& app);
 
 /// Example, environment variables, exit codes.

@@ -20,9 +20,9 @@ namespace {
 /// "trocar repot": the nearest command is named.
 void check_command(const CLI::App& program, const std::string& word) {
   std::vector<std::string> known;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    if (command->get_name() == word) return;
   for (const CLI::App* command : commands_of(program)) known.push_back(command->get_name());
-  for (const std::string& name : known)
-    if (name == word) return;
   throw core::BadInput({{{"trocar", 0, 0}, scene::unknown_name("command", word, known)}});
 }
 

@@ -1,4 +1,4 @@
-#include "commands/report_trace.hpp"
+#include "commands/report/report_trace.hpp"
 
 #include <cerrno>
 #include <cstring>

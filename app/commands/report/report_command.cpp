@@ -15,8 +15,8 @@
 #include <trocar/training/store/store.hpp>
 
 #include "commands/command.hpp"
-#include "commands/report_forget.hpp"
-#include "commands/report_trace.hpp"
+#include "commands/report/report_forget.hpp"
+#include "commands/report/report_trace.hpp"
 
 namespace trocar::app {
 namespace {

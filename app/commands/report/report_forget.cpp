@@ -1,4 +1,4 @@
-#include "commands/report_forget.hpp"
+#include "commands/report/report_forget.hpp"
 
 #include <cstdio>
 
