@@ -13,7 +13,6 @@ import time
 
 from trainee import Failed, in_a_room, open_exercise, xdo
 
-EXERCISE = "basics/camera-0", "basics"
 PATIENCE = 420  # [s] for a demonstration to be recorded
 
 
@@ -50,14 +49,13 @@ def watch_attempt(eyes, hands):
     hands.press("Back to Trocar")
     eyes.on("result")
     hands.press("Back")
-    eyes.on("exercises", 60)
     print(f"watched an attempt of {last} ticks")
 
 
 def watch_demonstration(eyes, hands, data):
+    open_exercise(eyes, hands, "basics/camera-0", "basics")
     captions = len(eyes.happened("caption"))
     pictures = len(eyes.happened("shown"))
-    open_exercise(eyes, hands, *EXERCISE)
     hands.press("Demonstration", 120)
     eyes.wait("the progress of the recording", lambda: "Cancel" in eyes.screen["widgets"], 60)
     started = time.monotonic()
@@ -84,7 +82,7 @@ def watch_demonstration(eyes, hands, data):
     hands.press("Do the same exercise with the same patient")
     eyes.on("exercise", 120)
     attempt = eyes.happened("attempt")[-1]
-    if attempt["mode"] != "assessed" or attempt["exercise"] != EXERCISE[0]:
+    if attempt["mode"] != "assessed" or attempt["exercise"] != "basics/camera-0":
         raise Failed(f"Now you began {attempt}")
 
 
@@ -93,14 +91,13 @@ def again(eyes, hands):
     hands.pause()
     eyes.on("pause")
     hands.press("Start screen")
-    eyes.on("exercises", 60)
+    open_exercise(eyes, hands, "basics/camera-0", "basics")
     pictures = len(eyes.happened("shown"))
-    open_exercise(eyes, hands, *EXERCISE)
     hands.press("Demonstration", 120)
     eyes.on("player", 30)
     eyes.wait("the kept demonstration", lambda: eyes.happened("shown")[pictures:], 30)
     hands.press("Back to Trocar")
-    eyes.on("exercises", 60)
+    eyes.wait("the start screen", lambda: eyes.screen["name"] != "player", 60)
 
 
 def whole(room):
@@ -112,4 +109,4 @@ def whole(room):
 
 
 if __name__ == "__main__":
-    sys.exit(in_a_room(__doc__, whole, ["--trainee", "Ada", EXERCISE[0]]))
+    sys.exit(in_a_room(__doc__, whole, ["--trainee", "Ada", "basics/camera-0"]))
