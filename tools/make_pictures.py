@@ -67,16 +67,13 @@ def clean(folder):
 
 
 def shots_of(exercise):
-    """The folder of a demonstration's pictures, made once a run of this program."""
+    """The folder of a demonstration's recording and pictures, made again when the program is newer."""
     folder = WORK / "shots" / exercise
-    if exercise not in shots_of.made:
+    newer = (folder / "shots/index.json").exists() and (folder / "a.rec").stat().st_mtime > Path(PROGRAM).stat().st_mtime
+    if not newer:
         run(PROGRAM, "train", exercise, "--input", "demo", "--headless", "--no-store", "--size", "800x600",
             "--record", clean(folder) / "a.rec", "--shots", folder / "shots")
-        shots_of.made.add(exercise)
     return folder
-
-
-shots_of.made = set()
 
 
 def moment_file(exercise, moment):
@@ -135,14 +132,14 @@ def make_film():
     """The demonstration's clips and cuts, speeded up to so many seconds, as an animated picture of limited size."""
     exercise, seconds, most = FILM
     folder = shots_of(exercise)
-    run(PROGRAM, "replay", folder / "a.rec", "--video", folder / "a.mp4", "--size", "640x480", "--headless")
-    probe = subprocess.run(["ffprobe", "-v", "error", "-show_entries", "format=duration", "-of", "csv=p=0",
-                            str(folder / "a.mp4")], capture_output=True, text=True, check=True)
-    speed = max(1.0, float(probe.stdout) / seconds)
+    pictures = json.loads((folder / "shots/index.json").read_text(encoding="utf-8"))["pictures"]
+    speed = max(1.0, pictures[-1]["seconds"] / seconds)
+    run(PROGRAM, "replay", folder / "a.rec", "--video", folder / "a.mp4", "--slow", f"{speed:.2f}", "--size", "480x360",
+        "--headless")
     file = IMAGES / "film.webp"
     for quality in (60, 45, 30, 20):
         run("ffmpeg", "-v", "error", "-y", "-i", folder / "a.mp4", "-vf",
-            f"setpts=PTS/{speed:.3f},fps=10,scale=480:-1", "-loop", "0", "-c:v", "libwebp_anim", "-quality", quality,
+            "fps=10,crop=360:360", "-loop", "0", "-c:v", "libwebp_anim", "-quality", quality,
             "-compression_level", "6", file)
         if file.stat().st_size <= most:
             return
