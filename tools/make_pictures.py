@@ -3,7 +3,7 @@
 
 A picture is a row of tiles. A tile is a moment of a demonstration: "start", "end", or the first moment whose text in the
 index of `trocar train --shots` has these words ("clip#2": the second such moment). Other pictures come from `trocar
-gallery`, from the operating room, from films and from windows (tools/window_pictures.py).
+gallery`, from the operating room, and from windows (tools/window_pictures.py).
 """
 import json
 import shutil
@@ -20,6 +20,7 @@ WORK = ROOT / "build/pictures"
 
 # Picture -> (size of a tile, [(exercise, moment), ...])
 ROWS = {
+    "clip_and_cut": ((600, 600), [("cholecystectomy/clip-and-cut", "scissors cut cystic_artery")]),
     "camera_0": ((620, 600), [("basics/camera-0", "start"), ("basics/camera-0", "5 of 10")]),
     "camera_30": ((620, 600), [("basics/camera-30", "start"), ("basics/camera-30", "2 of 10")]),
     "clip_application": ((620, 600), [("basics/clip-application", "start")]),
@@ -129,21 +130,17 @@ def make_room(name):
 
 
 def make_film():
-    """The demonstration's clips and cuts, speeded up to so many seconds, as an animated picture of limited size."""
+    """The moments of a demonstration one after the other, as an animated picture of limited size."""
     exercise, seconds, most = FILM
-    folder = shots_of(exercise)
-    pictures = json.loads((folder / "shots/index.json").read_text(encoding="utf-8"))["pictures"]
-    speed = max(1.0, pictures[-1]["seconds"] / seconds)
-    run(PROGRAM, "replay", folder / "a.rec", "--video", folder / "a.mp4", "--slow", f"{speed:.2f}", "--size", "480x360",
-        "--headless")
+    folder = shots_of(exercise) / "shots"
+    moments = {p["seconds"]: folder / p["file"]
+               for p in json.loads((folder / "index.json").read_text(encoding="utf-8"))["pictures"]}
+    frames = [fitted(file, (420, 420)) for _, file in sorted(moments.items())]
     file = IMAGES / "film.webp"
-    for quality in (60, 45, 30, 20):
-        run("ffmpeg", "-v", "error", "-y", "-i", folder / "a.mp4", "-vf",
-            "fps=10,crop=360:360", "-loop", "0", "-c:v", "libwebp_anim", "-quality", quality,
-            "-compression_level", "6", file)
-        if file.stat().st_size <= most:
-            return
-    raise RuntimeError(f"the film has {file.stat().st_size} bytes: at most {most}")
+    frames[0].save(file, save_all=True, append_images=frames[1:], duration=1000 * seconds // len(frames), loop=0,
+                   quality=70)
+    if file.stat().st_size > most:
+        raise RuntimeError(f"the film has {file.stat().st_size} bytes: at most {most}")
 
 
 def make_windows():
