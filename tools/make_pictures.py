@@ -3,7 +3,7 @@
 
 A picture is a row of tiles. A tile is a moment of a demonstration: "start", "end", or the first moment whose text in the
 index of `trocar train --shots` has these words ("clip#2": the second such moment). Other pictures come from `trocar
-gallery`, from the operating room, from films and from windows (tools/window_pictures.py).
+gallery`, from the operating room, and from windows (tools/window_pictures.py).
 """
 import json
 import shutil
@@ -20,6 +20,7 @@ WORK = ROOT / "build/pictures"
 
 # Picture -> (size of a tile, [(exercise, moment), ...])
 ROWS = {
+    "clip_and_cut": ((600, 600), [("cholecystectomy/clip-and-cut", "scissors cut cystic_artery")]),
     "camera_0": ((620, 600), [("basics/camera-0", "start"), ("basics/camera-0", "5 of 10")]),
     "camera_30": ((620, 600), [("basics/camera-30", "start"), ("basics/camera-30", "2 of 10")]),
     "clip_application": ((620, 600), [("basics/clip-application", "start")]),
@@ -67,16 +68,13 @@ def clean(folder):
 
 
 def shots_of(exercise):
-    """The folder of a demonstration's pictures, made once a run of this program."""
+    """The folder of a demonstration's recording and pictures, made again when the program is newer."""
     folder = WORK / "shots" / exercise
-    if exercise not in shots_of.made:
+    newer = (folder / "shots/index.json").exists() and (folder / "a.rec").stat().st_mtime > Path(PROGRAM).stat().st_mtime
+    if not newer:
         run(PROGRAM, "train", exercise, "--input", "demo", "--headless", "--no-store", "--size", "800x600",
             "--record", clean(folder) / "a.rec", "--shots", folder / "shots")
-        shots_of.made.add(exercise)
     return folder
-
-
-shots_of.made = set()
 
 
 def moment_file(exercise, moment):
@@ -132,21 +130,17 @@ def make_room(name):
 
 
 def make_film():
-    """The demonstration's clips and cuts, speeded up to so many seconds, as an animated picture of limited size."""
+    """The moments of a demonstration one after the other, as an animated picture of limited size."""
     exercise, seconds, most = FILM
-    folder = shots_of(exercise)
-    run(PROGRAM, "replay", folder / "a.rec", "--video", folder / "a.mp4", "--size", "640x480", "--headless")
-    probe = subprocess.run(["ffprobe", "-v", "error", "-show_entries", "format=duration", "-of", "csv=p=0",
-                            str(folder / "a.mp4")], capture_output=True, text=True, check=True)
-    speed = max(1.0, float(probe.stdout) / seconds)
+    folder = shots_of(exercise) / "shots"
+    moments = {p["seconds"]: folder / p["file"]
+               for p in json.loads((folder / "index.json").read_text(encoding="utf-8"))["pictures"]}
+    frames = [fitted(file, (420, 420)) for _, file in sorted(moments.items())]
     file = IMAGES / "film.webp"
-    for quality in (60, 45, 30, 20):
-        run("ffmpeg", "-v", "error", "-y", "-i", folder / "a.mp4", "-vf",
-            f"setpts=PTS/{speed:.3f},fps=10,scale=480:-1", "-loop", "0", "-c:v", "libwebp_anim", "-quality", quality,
-            "-compression_level", "6", file)
-        if file.stat().st_size <= most:
-            return
-    raise RuntimeError(f"the film has {file.stat().st_size} bytes: at most {most}")
+    frames[0].save(file, save_all=True, append_images=frames[1:], duration=1000 * seconds // len(frames), loop=0,
+                   quality=70)
+    if file.stat().st_size > most:
+        raise RuntimeError(f"the film has {file.stat().st_size} bytes: at most {most}")
 
 
 def make_windows():
