@@ -118,7 +118,7 @@ def leave(m):
 
 
 def session(m, only):
-    m.eyes.on("start")
+    m.eyes.on("start", 180)
     shown("start")
     count = 0
 
