@@ -63,7 +63,7 @@ def team(room):
         goes_on(eyes)
         camera.kill()
         camera.wait()
-        eyes.wait("the window to miss the camera", lambda: "any more" in waits(eyes), 30)
+        eyes.wait("the window to miss the camera", lambda: "disconnected" in waits(eyes), 30)
         time.sleep(0.5)
         eyes.read()
         tick = eyes.pose["tick"]

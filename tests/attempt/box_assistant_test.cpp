@@ -137,11 +137,11 @@ TEST(BoxAssistant, TakesNoRowFromAHandThatMovesOrHasNotMovedSinceTheLast) {
   Sitter sitter(odd_box());
   ASSERT_EQ(assistant.choose(5), "");
   for (int i = 0; i < 40; ++i) sitter.show(assistant, 5, 1000 + 4 * i);
-  EXPECT_NE(assistant.take().find("it moves"), std::string::npos);
+  EXPECT_NE(assistant.take().find("the axis is moving"), std::string::npos);
   for (int i = 0; i < 40; ++i) sitter.show(assistant, 5, 1000);
   EXPECT_EQ(assistant.take(), "");
   for (int i = 0; i < 40; ++i) sitter.show(assistant, 5, 1000);
-  EXPECT_NE(assistant.take().find("held before"), std::string::npos);
+  EXPECT_NE(assistant.take().find("the previous position"), std::string::npos);
   for (int i = 0; i < 40; ++i) sitter.show(assistant, 5, 2000);
   EXPECT_EQ(assistant.take(), "");
   for (int i = 0; i < 40; ++i) sitter.show(assistant, 5, 1500);

@@ -159,7 +159,7 @@ TEST(Chains, FaultsOfADescriptionAreAllTold) {
   circle.actuators.clear();
   circle.couplings = {{"crank", {}, {{"rocker", {1}}}}, {"rocker", {}, {{"crank", {1}}}}};
   int circles = 0;
-  for (const MechanismFault& f : check(circle)) circles += f.message.find("circle") != f.message.npos;
+  for (const MechanismFault& f : check(circle)) circles += f.message.find("cycle") != f.message.npos;
   EXPECT_EQ(circles, 4) << "two links, two couplings";
 }
 
