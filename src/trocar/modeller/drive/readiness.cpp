@@ -9,6 +9,7 @@
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/modeller/document/outline.hpp>
 #include <trocar/modeller/drive/readiness.hpp>
+#include <trocar/modeller/materials/materials.hpp>
 #include <trocar/modeller/operations/body_mesh.hpp>
 #include <trocar/modeller/operations/values.hpp>
 #include <trocar/numerics/portable.hpp>
@@ -172,16 +173,16 @@ void check_view(const scene::Description& d, const std::vector<Checked>& bodies,
   out.push_back(std::move(finding));
 }
 
-bool is_known(const std::vector<scene::Tissue>& tissues, const std::string& name) {
-  return std::any_of(tissues.begin(), tissues.end(), [&](const scene::Tissue& t) { return t.name == name; });
-}
-
-void check_tissues(const Document& document, const scene::Description& d, std::vector<Finding>& out) {
+void check_tissues(const Document& document, std::vector<Finding>& out) {
+  const std::vector<TissueChoice> known = tissue_choices(document);
+  const auto is_known = [&known](const std::string& name) {
+    return std::any_of(known.begin(), known.end(), [&name](const TissueChoice& t) { return t.name == name; });
+  };
   for (const Thing& thing : outline(document)) {
     if (thing.kind != "solid" && thing.kind != "pouch") continue;
     const JsonValue value = value_of(document, thing);
     const scene::JsonMember* tissue = value.find("tissue");
-    if (tissue && is_known(d.tissues, tissue->value.text)) continue;
+    if (tissue && is_known(tissue->value.text)) continue;
     out.push_back({About::tissue,
                    thing.kind + ":" + thing.name,
                    tissue ? tr("The tissue \"{}\" of {} is not known.", tissue->value.text, thing.name)
@@ -278,10 +279,8 @@ std::optional<Vec3d> place_in_view(const scene::Description& description, Vec3d 
 std::vector<Finding> readiness(const Document& document, const scene::Description* description,
                                const std::vector<core::Fault>& faults) {
   std::vector<Finding> out;
-  if (description) {
-    check_tissues(document, *description, out);
-    check_surfaces(document, faults, out);
-  }
+  check_tissues(document, out);
+  check_surfaces(document, faults, out);
   if (out.empty() && !faults.empty()) out.push_back({About::file, "", core::to_string(faults.front()), "", {}});
   if (!description || !faults.empty()) return out;
   if (!has_organ(*description)) {
