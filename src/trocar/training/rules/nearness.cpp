@@ -224,7 +224,11 @@ void count_alike(std::vector<Nearness>& rows) {
   }
 }
 
-std::string number(double v) { return fmt::format("{:.{}f}", v, std::abs(v) < 10 && v != std::round(v) ? 1 : 0); }
+std::string number(double v) {
+  const bool coarse = std::abs(v) >= 10 || std::abs(v - std::round(v)) < 0.05;
+  const double shown = coarse ? std::round(v) : v;
+  return fmt::format("{:.{}f}", shown == 0 ? 0.0 : shown, coarse ? 0 : 1);  // not "-0"
+}
 
 }  // namespace
 
