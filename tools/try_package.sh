@@ -66,7 +66,9 @@ screen() {  # screen NAME SECONDS COMMAND...: starts it, waits until the window 
   local name=$1 most=$2 begun=$SECONDS colours=0 child
   shift 2
   if [ -z "$server" ]; then
-    shown=:93
+    local number=95
+    while [ -e "/tmp/.X11-unix/X$number" ]; do number=$((number + 1)); done
+    shown=:$number
     Xvfb $shown -screen 0 1280x720x24 -nolisten tcp >/dev/null 2>&1 &
     server=$!
     sleep 2

@@ -85,7 +85,7 @@ void print_names(const char* what, const Json& list, const char* key) {
     if (const int n = item.value("watched", 1); n > 1) word += fmt::format(" x{}", n);
     line += (line.empty() ? "" : ", ") + word;
   }
-  fmt::print("  {:2} {}: {}\n", list.size(), what, line);
+  fmt::print("  {} ({}): {}\n", what, list.size(), line);
 }
 
 }  // namespace

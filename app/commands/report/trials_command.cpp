@@ -74,7 +74,7 @@ struct ReadTrials {
     m_seconds += trace.size() > 1 ? trace.time(trace.size() - 1) - trace.start : 0;
   }
   void say() const {
-    core::log::info("{}", tr("{} trials of {} people, {:.0f} s", attempts.size(), m_repetitions.size(), m_seconds));
+    core::log::info("{}", tr("trials: {}, people: {}, {:.0f} s", attempts.size(), m_repetitions.size(), m_seconds));
   }
 
  private:
@@ -127,7 +127,7 @@ std::vector<std::string> remarks_of(const ReadTrials& read) {
 
 void print_summary(const training::Study& study) {
   fmt::print("{}\n\n{:34} {:>10} {:>23}   {:>28}\n",
-             tr("{} attempts of {} people", study.attempts.size(), study.persons.size()), "", tr("median"),
+             tr("Attempts: {}, people: {}", study.attempts.size(), study.persons.size()), "", tr("median"),
              tr("quartiles"), tr("rho with repetition (range)"));
   for (const training::MetricStudy& m : study.metrics) {
     if (m.all.count == 0) continue;
