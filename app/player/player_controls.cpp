@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include <imgui.h>
 
@@ -132,6 +133,7 @@ void Player::seek(std::uint64_t tick) {
 
 void Player::play_on() {
   if (!m_playing) return;
+  if (std::exchange(m_first_picture, false)) return;  // the time before it was the loading
   m_now += m_window.picture_time() * double(core::kTicksPerSecond) * m_speed;
   m_asked_at = Clock::now();
   if (m_now < double(m_line.last())) return;

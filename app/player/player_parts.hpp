@@ -120,7 +120,7 @@ class Player {
   double m_speed = 1;
   bool m_playing = false, m_exact = false;
   bool m_help = false, m_menu = false, m_display = false, m_views = false, m_picture_wanted = false;
-  bool m_show_captions = true;
+  bool m_show_captions = true, m_first_picture = true;
   std::optional<PlayerEnd> m_end;         ///< it is being left
   std::vector<view::PartStyle> m_styles;  ///< of the scene's parts
   int m_preset = 1;

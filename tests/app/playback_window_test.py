@@ -11,7 +11,7 @@ import os
 import sys
 import time
 
-from trainee import Failed, in_a_room, xdo
+from trainee import Failed, in_a_room, open_exercise, xdo
 
 PATIENCE = 420  # [s] for a demonstration to be recorded
 
@@ -35,12 +35,9 @@ def watch_attempt(eyes, hands):
     eyes.wait("some time to pass", lambda: eyes.pose and eyes.pose["tick"] > 1500, 120)
     hands.pause()
     eyes.on("pause")
-    finish = "Finish now" if "Finish now" in eyes.screen["widgets"] else "End exercise"
-    hands.press(finish)
-    time.sleep(1)
-    eyes.read()
-    if eyes.screen["name"] == "confirm":
-        hands.press(next(w for w in eyes.screen["widgets"] if w.startswith(("Finish", "End"))))
+    hands.press("End exercise")
+    eyes.on("confirm")
+    hands.press("Yes, end exercise")
     eyes.on("result")
     hands.press("Watch my attempt")
     eyes.on("player", 60)
@@ -52,11 +49,11 @@ def watch_attempt(eyes, hands):
     hands.press("Back to Trocar")
     eyes.on("result")
     hands.press("Back")
-    eyes.on("start", 60)
     print(f"watched an attempt of {last} ticks")
 
 
 def watch_demonstration(eyes, hands, data):
+    open_exercise(eyes, hands, "basics/camera-0", "basics")
     captions = len(eyes.happened("caption"))
     pictures = len(eyes.happened("shown"))
     hands.press("Demonstration", 120)
@@ -93,18 +90,14 @@ def again(eyes, hands):
     """The second time it is there at once."""
     hands.pause()
     eyes.on("pause")
-    hands.press(next(w for w in eyes.screen["widgets"] if "tart screen" in w))
-    time.sleep(1)
-    eyes.read()
-    if eyes.screen["name"] == "confirm":
-        hands.enter()
-    eyes.on("start", 60)
+    hands.press("Start screen")
+    open_exercise(eyes, hands, "basics/camera-0", "basics")
     pictures = len(eyes.happened("shown"))
     hands.press("Demonstration", 120)
     eyes.on("player", 30)
     eyes.wait("the kept demonstration", lambda: eyes.happened("shown")[pictures:], 30)
     hands.press("Back to Trocar")
-    eyes.on("start", 60)
+    eyes.wait("the start screen", lambda: eyes.screen["name"] != "player", 60)
 
 
 def whole(room):

@@ -29,7 +29,7 @@ constexpr const char* kResult = R"({
               {"name": "Left: Cut", "step": "cut", "side": "left", "done": true, "at_s": 130},
               {"name": "Right: Cut", "step": "cut", "side": "right", "done": false}],
     "elements": {"left": "Left", "right": "Right", "target_6": "disc 6"},
-    "details": [{"side": "", "lost_mL": 2.5}, {"side": "target_6", "clipped": [{"on": "tube", "angle_deg": 12.25}]},
+    "details": [{"side": "", "lost_mL": 2.5}, {"side": "target_6", "clipped": [{"on": "tube", "angle_deg": 12.26}]},
                 {"side": "right"}],
     "thresholds": {"blind_speed_mm_s": {"value": 5, "source": "ours"}, "blind_s": {"value": 0.2, "source": "ours"},
                    "pinch_impulse_N_s": {"value": 300, "source": "ours"}, "lost_mL": {"value": 10, "source": "ours"},
