@@ -100,15 +100,16 @@ def fault_of(program, words):
 
 
 def run(page, program):
-    """Faults of running all blocks of a page, in one folder and one data folder."""
+    """Faults of running all blocks of a page, in one folder that is the home folder, too."""
     with tempfile.TemporaryDirectory() as folder:
         here = Path(folder)
         for entry in ("docs", "scenes", "tools", "src", "README.md"):
             (here / entry).symlink_to(ROOT / entry)
         (here / "bin").mkdir()
         (here / "bin" / "trocar").symlink_to(Path(program).resolve())
-        environment = dict(os.environ, PATH=f"{here}/bin:{os.environ['PATH']}", TROCAR_DATA=f"{here}/data",
-                           HOME=folder)
+        environment = dict(os.environ, PATH=f"{here}/bin:{os.environ['PATH']}", HOME=folder)
+        for name in [n for n in environment if n.startswith(("TROCAR_", "XDG_"))]:
+            del environment[name]  # a reader's defaults: the data folder is below HOME
         for number, kind, text in blocks(page):
             if kind or re.match(r"\s*(\./run\.sh|\./test\.sh|git |cmake )", text):
                 continue

@@ -111,7 +111,7 @@ void draw_player_panel(const PlayerPanelContent& c, float left, float width, flo
   ui::heading(tr("Steps"));
   draw_guide(c);
   draw_errors(c);
-  ui::heading(tr("Instruments"));
+  if (attempt::hand_count(c.lesson.model) > 0) ui::heading(tr("Instruments"));
   draw_tools(c);
   if (!c.message.empty()) {
     ui::heading(tr("Last action"));

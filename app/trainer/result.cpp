@@ -1,6 +1,7 @@
 #include "trainer/result.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <imgui.h>
 
@@ -117,7 +118,7 @@ void draw_paths(const ResultSummary& s) {
 
 void draw_details(const ResultSummary& s) {
   const float most = 0.97f * ImGui::GetIO().DisplaySize.y - 280 * ui::scale();
-  const float high = std::clamp(most, 60 * ui::scale(), 400 * ui::scale());
+  const float high = std::floor(std::clamp(most, 60 * ui::scale(), 400 * ui::scale()));
   const float left = kShare * ImGui::GetContentRegionAvail().x;
   ImGui::BeginChild("details", {left, high}, false);
   if (!s.parts.empty()) ui::heading(tr("Points"));

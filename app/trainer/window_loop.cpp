@@ -48,6 +48,10 @@ class Preview {
     return m_texture;
   }
   void forget() { m_lesson = nullptr; }
+  /// The scene's view may have gone: what is not ready begins again.
+  void forget_unfinished() {
+    if (m_drawn < kPreviewPictures) forget();
+  }
   const render::Image& image() const { return m_image; }  ///< empty while it is not ready
 
  private:
@@ -308,6 +312,7 @@ StartChoice Trainer::start_screen() {
   m_past = read_past(m_stage.options.store, m_stage.settings.trainee);
   if (m_memory.page == StartPage::details) m_memory.open(StartPage::exercises);
   m_shown = nullptr;
+  m_preview.forget_unfinished();
   double time = 0;
   while (!m_stage.wants_to_close()) {
     const StartChoice choice = draw().choice;

@@ -57,22 +57,20 @@ def watch_demonstration(eyes, hands, data):
     captions = len(eyes.happened("caption"))
     pictures = len(eyes.happened("shown"))
     hands.press("Demonstration", 120)
-    eyes.wait("the progress of the recording", lambda: "Cancel" in eyes.screen["widgets"], 60)
-    started = time.monotonic()
+    eyes.wait("the recording to begin, or already the player",
+              lambda: "Cancel" in eyes.screen["widgets"] or eyes.screen["name"] == "player", 60)
     eyes.on("player", PATIENCE)
-    print(f"the demonstration was recorded in {time.monotonic() - started:.0f} s")
     files = glob.glob(os.path.join(data, "demonstrations", "*"))
     if len(files) != 1 or not files[0].endswith(".rec"):
         raise Failed(f"the folder of demonstrations holds {files}")
-    last = eyes.wait("the demonstration to play",
-                     lambda: next((e for e in eyes.happened("shown")[pictures:] if e["playing"] and e["tick"] > 300), None),
-                     120)
+    eyes.wait("the demonstration to play", lambda: any(e["tick"] > 300 for e in eyes.happened("shown")[pictures:]), 120)
     caption = eyes.wait("captions", lambda: eyes.happened("caption")[captions:], 30)[-1]
     if not (caption["step"] and caption["hint"] and caption["doing"]):
         raise Failed(f"the caption says too little: {caption}")
-    press_key(eyes, "space")
+    press_key(eyes, "space", "Home")
+    shown(eyes, "the start", lambda e: not e["playing"] and e["tick"] == 0)
     press_key(eyes, "shift+Next")
-    step = shown(eyes, "the next step", lambda e: not e["playing"] and e["tick"] > last["tick"])
+    step = shown(eyes, "the first step", lambda e: not e["playing"] and e["tick"] > 0)
     press_key(eyes, "shift+Next")
     shown(eyes, "the step after it", lambda e: not e["playing"] and e["tick"] > step["tick"])
     later = eyes.wait("another caption", lambda: [c for c in eyes.happened("caption")[captions:]
