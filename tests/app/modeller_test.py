@@ -57,7 +57,8 @@ class Modeller:
         time.sleep(0.3)
         xdo("click", 1)
         time.sleep(0.4)
-        xdo("key", "ctrl+a")  # all of it is chosen
+        xdo("key", "End")
+        xdo("key", "--repeat", 30, "--delay", 30, "BackSpace")  # whatever stands there
         time.sleep(0.2)
         xdo("type", "--delay", 30, text)
         time.sleep(0.3)
