@@ -302,7 +302,11 @@ class Pad:
             self.eyes.read()
             at, goal = self.eyes.screen.get("focus"), self.eyes.screen["widgets"][widget]
             if at == widget:
-                return self.tap("a")
+                time.sleep(0.3)  # a page that has just become ready takes the focus to its first button
+                self.eyes.read()
+                if self.eyes.screen.get("focus") == widget:
+                    return self.tap("a")
+                continue
             here = self.eyes.screen["widgets"].get(at)
             dx, dy = (0, 99) if here is None else (goal[0] - here[0], goal[1] - here[1])
             ways = ["down" if dy > 0 else "up", "right" if dx > 0 else "left"]

@@ -201,6 +201,7 @@ def operate(eyes, hands, folder):
     eyes.on("exercise")
     eyes.wait("time to go on", lambda: eyes.pose["tick"] < 20000 and len(eyes.happened("attempt")) == 3, 30)
     if isinstance(hands, Pad):
+        trainee.lead(trainee.names()[0])  # the first step is about the picture: the endoscope is controlled
         hands.hold(0.3, lx=0.5)
         before = eyes.tool()["tip_mm"]
         hands.unplug()
