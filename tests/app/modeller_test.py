@@ -58,7 +58,7 @@ class Modeller:
         xdo("click", 1)
         time.sleep(0.4)
         xdo("key", "End")
-        xdo("key", "--repeat", 30, "--delay", 30, "BackSpace")  # whatever stands there
+        xdo("key", "--repeat", 100, "--delay", 12, "BackSpace")  # whatever stands there
         time.sleep(0.2)
         xdo("type", "--delay", 30, text)
         time.sleep(0.3)
@@ -232,6 +232,8 @@ def unready(m):
     m.happened("checks", 1)
     shown("checks")
     m.hands.press("Attach here")
+    m.eyes.wait("the next finding", lambda: "Attach here" not in m.eyes.screen["widgets"], 60)
+    time.sleep(1)  # the panel finds its new size
     m.hands.press("Bring into view")
     trainer_opens_and_ends(m, 2)
     m.menu("File", "Start screen")
