@@ -55,9 +55,10 @@ def grasp(m, pid, what, middle):
     trainee = Trainee(eyes, hands)
     eyes.wait("the first pose", lambda: eyes.pose and eyes.screen, 120)
     shown(f"{what}_trainer")
-    if "Begin" in eyes.screen["widgets"]:
-        hands.press("Begin")
-        time.sleep(1)
+    try:  # the hint for newcomers, once
+        hands.press("Begin", 20)
+    except Failed:
+        pass
     hand = next(t["name"] for t in eyes.pose["tools"] if t["instrument"] == "grasper")
     trainee.lead(hand)
 
