@@ -30,7 +30,10 @@ const char* unit_word(double metres) { return metres >= 1 ? tr("metres") : metre
 
 std::string size_in_words(Vec3d mm) { return tr("{:.4g} x {:.4g} x {:.4g} mm", mm.x, mm.y, mm.z); }
 
-std::string volume_in_words(double mL) { return mL >= 1000 ? tr("{:.3g} L", 1e-3 * mL) : tr("{:.3g} mL", mL); }
+std::string volume_in_words(double mL) {
+  if (mL >= 1e6) return tr("{:.0f} L", 1e-3 * mL);
+  return mL >= 1000 ? tr("{:.3g} L", 1e-3 * mL) : tr("{:.3g} mL", mL);
+}
 
 }  // namespace
 

@@ -53,24 +53,27 @@ def grasp(m, pid, what, middle):
     eyes = Eyes(str(m.folder / "data/modeller/trainer_log.jsonl"), Child(pid))
     hands = MouseAndKeys(eyes)
     trainee = Trainee(eyes, hands)
-    eyes.wait("the first pose", lambda: eyes.pose, 120)
+    eyes.wait("the first pose", lambda: eyes.pose and eyes.screen, 120)
     shown(f"{what}_trainer")
-    hand = next(n for n in trainee.names() if "grasper" in n)
+    try:  # the hint for newcomers, once
+        hands.press("Begin", 20)
+    except Failed:
+        pass
+    hand = next(t["name"] for t in eyes.pose["tools"] if t["instrument"] == "grasper")
     trainee.lead(hand)
 
     def holds():
-        return [e for e in eyes.events if e["event"] in ("grasped", "grasp")]
+        return eyes.tool(hand)["holds"]
     for depth in (12, 6, 0, -6, -12, -20):  # [mm] before the middle
         def goal():
             tool = eyes.tool(hand)
             return add(middle, unit(add(tool["port_mm"], middle, -1)), depth)
         try:
-            trainee.move(goal, 3.0, f"{what}: to the organ", limit=45)
+            trainee.move(goal, 4.0, f"{what}: to the organ", limit=60)
         except Failed:
             pass  # the organ's surface is in between
         hands.close()
-        time.sleep(2)
-        eyes.read()
+        eyes.later(0.7)
         if holds():
             break
         hands.let_go()

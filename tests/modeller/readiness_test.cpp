@@ -126,7 +126,8 @@ TEST(Materials, NamesSuggestTissueAndMaterial) {
   EXPECT_EQ(tissue_for_name("VH_F_Uterus", tissues), "uterus");
   EXPECT_EQ(tissue_for_name("VH_F_Gallbladder", tissues), "gallbladder_wall");
   EXPECT_EQ(tissue_for_name("something", tissues), "");
-  EXPECT_EQ(material_for("liver-smooth", "uterus"), "liver");
+  EXPECT_EQ(material_for("liver-smooth", "uterus"), "liver_lifted");
+  EXPECT_EQ(material_of_tissue("liver"), "liver_lifted");
   EXPECT_EQ(material_for("something", "gallbladder_wall"), "gallbladder");
   EXPECT_GT(material_choices().size(), 20u);
 }

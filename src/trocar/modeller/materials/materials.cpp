@@ -36,8 +36,8 @@ constexpr Hint kHints[] = {{"gallbladder", "gallbladder_wall", "gallbladder"},
                            {"ovaries", "ovary", "ovary"},
                            {"fallopian", "tube", "tube"},
                            {"tube", "tube", "tube"},
-                           {"liver", "liver", "liver"},
-                           {"hepar", "liver", "liver"},
+                           {"liver", "liver", "liver_lifted"},
+                           {"hepar", "liver", "liver_lifted"},
                            {"bladder", "bladder", "bladder"},
                            {"stomach", "stomach_wall", "stomach"},
                            {"appendix", "large_bowel_wall", "appendix"},
@@ -51,8 +51,8 @@ constexpr Hint kHints[] = {{"gallbladder", "gallbladder_wall", "gallbladder"},
                            {"mesentery", "mesentery", "mesentery"},
                            {"omentum", "fat", "omentum"},
                            {"fat", "fat", "fat"},
-                           {"spleen", "liver", "liver"},
-                           {"kidney", "liver", "liver"}};
+                           {"spleen", "liver", "liver_lifted"},
+                           {"kidney", "liver", "liver_lifted"}};
 
 const Hint* hint_for(const std::string& name) {
   const std::string letters = letters_of(name);
@@ -106,6 +106,7 @@ const std::vector<MaterialChoice>& material_choices() {
 
 std::string material_of_tissue(std::string tissue) {
   if (const std::size_t wall = tissue.rfind("_wall"); wall != tissue.npos) tissue.resize(wall);
+  if (tissue == "liver") return "liver_lifted";  // as a body of its own: the material "liver" draws the dome above it
   const std::optional<fs::path> scenes = scene::found_scenes_folder();
   std::error_code error;
   return scenes && fs::is_regular_file(*scenes / "looks" / (tissue + ".json"), error) ? tissue : std::string();
@@ -121,9 +122,8 @@ std::string tissue_for_name(const std::string& name, const std::vector<TissueCho
 }
 
 std::string material_for(const std::string& name, const std::string& tissue) {
-  if (is_material(name)) return name;
   if (const Hint* hint = hint_for(name); hint && is_material(hint->material)) return hint->material;
-  return material_of_tissue(tissue);
+  return is_material(name) ? name : material_of_tissue(tissue);
 }
 
 }  // namespace trocar::modeller
