@@ -5,6 +5,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/scene/files/library.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/json/json_edit.hpp>
 #include <trocar/scene/json/json_text.hpp>
@@ -19,9 +20,8 @@ using Renames = std::vector<std::pair<std::string, JsonValue>>;
 
 void rename(const JsonValue& name, const std::string& path, const fs::path& from, const fs::path& to, Renames& out) {
   if (name.kind != JsonValue::Kind::string) return;
-  fs::path file = whole_path(from / name.text);
+  const fs::path file = scene::located(whole_path(from / name.text));
   std::error_code error;
-  if (!fs::exists(file, error)) file = scene::in_installed_scenes(name.text).value_or(file);
   const bool from_outside = !scene::name_in_installed_scenes(to / "any.json");
   if (const std::optional<std::string> installed = scene::name_in_installed_scenes(file); installed && from_outside) {
     out.emplace_back(path, scene::json_text(*installed));
@@ -56,10 +56,7 @@ std::string named(const std::string& text) {
 
 fs::path named_file(const Document& document, const fs::path& folder, const std::string& name) {
   const fs::path near = whole_path(folder / name);
-  std::error_code error;
-  if (document.holds(near) || fs::exists(near, error)) return near;
-  const std::optional<fs::path> installed = scene::in_installed_scenes(name);
-  return installed ? whole_path(*installed) : near;
+  return document.holds(near) ? near : whole_path(scene::located(near));
 }
 
 bool names_files(std::string_view key) {

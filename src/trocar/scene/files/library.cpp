@@ -64,21 +64,6 @@ std::optional<fs::path> found_scenes_folder() {
   return programs_scenes_folder();
 }
 
-std::optional<fs::path> in_installed_scenes(const fs::path& name) {
-  const std::optional<fs::path> scenes = found_scenes_folder();
-  if (!scenes) return {};
-  fs::path tail;
-  bool within = false;
-  for (const fs::path& step : name) {
-    if (within) tail /= step;
-    if (step == "scenes") within = true, tail.clear();
-  }
-  std::error_code error;
-  const fs::path found = resolved(*scenes / tail);
-  if (tail.empty() || !lies_in(found, resolved(*scenes)) || !fs::is_regular_file(found, error)) return {};
-  return found;
-}
-
 std::optional<std::string> name_in_installed_scenes(const fs::path& file) {
   const std::optional<fs::path> scenes = found_scenes_folder();
   const fs::path whole = resolved(file), tree = scenes ? resolved(*scenes) : fs::path();

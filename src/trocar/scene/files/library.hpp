@@ -13,10 +13,6 @@ namespace trocar::scene {
 /// PREFIX/share/trocar), else where it was compiled. None where there is no such folder.
 std::optional<std::filesystem::path> found_scenes_folder();
 
-/// A name that goes through a folder "scenes" ("scenes/modelling/place.json", "../../scenes/tissues.json"), looked up in
-/// the installed folder `scenes`: documents outside it name its files so, and can be moved. None where it has no such
-/// file.
-std::optional<std::filesystem::path> in_installed_scenes(const std::filesystem::path& name);
 /// How a document outside the installed folder `scenes` names a file of it; none for other files.
 std::optional<std::string> name_in_installed_scenes(const std::filesystem::path& file);
 

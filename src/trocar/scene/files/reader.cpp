@@ -81,11 +81,7 @@ void Reading::include(const fs::path& path, const core::Location& from, const Sh
 }
 
 fs::path Reading::place_of(const fs::path& folder, const fs::path& named) const {
-  fs::path near = (folder / named).lexically_normal();
-  std::error_code error;
-  const bool there = !m_library || (m_memory && m_memory->text_of(near)) || fs::exists(near, error);
-  if (there) return near;
-  return in_installed_scenes(named).value_or(std::move(near));
+  return found((folder / named).lexically_normal(), m_memory);
 }
 
 void Reading::include_named(const JsonObject& o, const core::Location& at, const JsonValue& name,
@@ -96,7 +92,7 @@ void Reading::include_named(const JsonObject& o, const core::Location& at, const
   else if (const fs::path path = place_of(folder, named); m_library && !m_library->holds(path))
     o.fault(at, m_library->refusal(name.text));
   else
-    include(found(path, m_memory), at, shape, read);
+    include(path, at, shape, read);
 }
 
 void Reading::includes(const JsonObject& o, const char* key, const fs::path& folder, const Shape& shape,
