@@ -17,6 +17,7 @@ from trainee import Eyes, Failed, MouseAndKeys, xdo  # noqa: E402
 
 SIZE = "1280x720"
 PERSON = "Anna Muster"
+PICTURES_OF_TILES = 150  # [s] they are drawn one after the other
 
 
 class Window:
@@ -34,6 +35,15 @@ class Window:
         subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "x11grab", "-i", os.environ["DISPLAY"], "-frames:v",
                         "1", str(self.images / f"{name}.png")], check=True)
         print(f"  {name}.png", flush=True)
+
+    def runs(self, ticks, limit=600):
+        """Waits until so much of the attempt has passed; what is told before the first one is closed."""
+        def there():
+            if (self.eyes.screen or {}).get("name") == "hint":
+                self.hands.press("Begin")
+                time.sleep(2)
+            return self.eyes.pose and self.eyes.pose["tick"] > ticks
+        self.eyes.wait(f"{ticks} ms of the attempt", there, limit)
 
     def menu(self, menu, item):
         self.hands.press(f"menu {menu}")
@@ -66,7 +76,7 @@ def operation_pictures(program, folder, images):
         w.shot("window_person")
         w.hands.press("Add")
         w.eyes.where("basics/camera-0", 60)
-        w.shot("window_start", 20)  # the pictures of the tiles are drawn one after the other
+        w.shot("window_start", PICTURES_OF_TILES)
         w.hands.press("basics/camera-0")
         w.eyes.where("Start", 120)
         w.shot("window_details", 4)
@@ -74,14 +84,12 @@ def operation_pictures(program, folder, images):
         exercise_and_result(w)
     with Window(program, folder, ["train", "cholecystectomy/clip-and-cut", "--input", "demo", "--size", SIZE],
                 images) as w:
-        w.eyes.wait("the operation", lambda: w.eyes.pose and w.eyes.pose["tick"] > 9000, 600)
+        w.runs(18500, 1200)
         w.shot("window_operation")
 
 
 def exercise_and_result(w):
-    if "hint" in (w.eyes.screen or {}).get("name", ""):
-        w.hands.enter()
-    w.eyes.wait("the exercise", lambda: w.eyes.pose and w.eyes.pose["tick"] > 300, 120)
+    w.runs(300)
     w.hands.look(0.05, 0.05, 0.012)
     w.shot("window_exercise", 2)
     w.hands.pause()
@@ -95,7 +103,7 @@ def exercise_and_result(w):
 
 
 def modeller_pictures(program, folder, images):
-    with Window(program, folder, ["model", "--size", SIZE], images) as w:
+    with Window(program, folder, ["model"], images) as w:
         w.eyes.on("start", 60)
         w.shot("window_modeller_start")
         w.hands.press("New organ")
@@ -109,7 +117,7 @@ def modeller_pictures(program, folder, images):
 def operate_picture(program, folder, images, words, name):
     """A scene of one's own in the trainer."""
     with Window(program, folder, ["train", *words, "--size", SIZE], images) as w:
-        w.eyes.wait("the trainer", lambda: w.eyes.pose and w.eyes.pose["tick"] > 500, 240)
+        w.runs(500)
         w.shot(name, 2)
 
 
@@ -122,7 +130,7 @@ def ct_pictures(program, folder, images):
     if not scan:
         print("  no CT: TROCAR_PICTURES_CT names none")
         return
-    with Window(program, folder, ["model", "--size", SIZE], images) as w:
+    with Window(program, folder, ["model"], images) as w:
         w.eyes.on("start", 60)
         w.hands.press("Open a scan")
         w.type_into("file name", scan)
@@ -133,7 +141,7 @@ def ct_pictures(program, folder, images):
 
 def make_all(program, images):
     failed = []
-    for make in (operation_pictures, modeller_pictures, made_operate_pictures, ct_pictures):
+    for make in (modeller_pictures, ct_pictures, made_operate_pictures, operation_pictures):
         with tempfile.TemporaryDirectory() as folder:
             try:
                 make(program, folder, images)
