@@ -66,10 +66,6 @@ class Window:
 
 def operation_pictures(program, folder, images):
     """Person, exercises, an exercise's page, the exercise, its result."""
-    for exercise in ("basics/camera-0", "basics/clip-application"):  # something to show as past results
-        subprocess.run([program, "train", exercise, "--input", "demo", "--headless", "--trainee", PERSON],
-                       env=dict(os.environ, TROCAR_DATA=str(Path(folder) / "data")), check=False,
-                       stdout=subprocess.DEVNULL)
     with Window(program, folder, ["train", "--size", SIZE], images) as w:
         w.eyes.on("person", 120)
         w.type_into("Name", PERSON)
@@ -93,11 +89,8 @@ def exercise_and_result(w):
     w.hands.look(0.05, 0.05, 0.012)
     w.shot("window_exercise", 2)
     w.hands.pause()
-    for button in ("End exercise", "End"):  # the second confirms
-        try:
-            w.hands.press(button, 20)
-        except Failed:
-            break
+    w.hands.press("End exercise")
+    w.hands.press("Yes, end exercise")
     w.eyes.on("result", 60)
     w.shot("window_result", 2)
 
@@ -130,11 +123,13 @@ def ct_pictures(program, folder, images):
     if not scan:
         print("  no CT: TROCAR_PICTURES_CT names none")
         return
+    name = "scan" + "".join(Path(scan).suffixes[-2:])
+    (Path(folder) / name).symlink_to(scan)
     with Window(program, folder, ["model"], images) as w:
         w.eyes.on("start", 60)
         w.hands.press("Open a scan")
-        w.type_into("file name", scan)
-        xdo("key", "Return")
+        w.hands.press(name)
+        w.hands.press("Open")
         w.eyes.where("5 Grow", 120)
         w.shot("window_ct", 8)
 
