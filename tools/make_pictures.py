@@ -20,7 +20,6 @@ WORK = ROOT / "build/pictures"
 
 # Picture -> (size of a tile, [(exercise, moment), ...])
 ROWS = {
-    "clip_and_cut": ((600, 600), [("cholecystectomy/clip-and-cut", "scissors cut cystic_artery")]),
     "camera_0": ((620, 600), [("basics/camera-0", "start"), ("basics/camera-0", "5 of 10")]),
     "camera_30": ((620, 600), [("basics/camera-30", "start"), ("basics/camera-30", "2 of 10")]),
     "clip_application": ((620, 600), [("basics/clip-application", "start")]),

@@ -17,6 +17,7 @@ from trainee import Eyes, Failed, MouseAndKeys, xdo  # noqa: E402
 
 SIZE = "1280x720"
 PERSON = "Anna Muster"
+PICTURES_OF_TILES = 150  # [s] they are drawn one after the other
 
 
 class Window:
@@ -34,6 +35,15 @@ class Window:
         subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "x11grab", "-i", os.environ["DISPLAY"], "-frames:v",
                         "1", str(self.images / f"{name}.png")], check=True)
         print(f"  {name}.png", flush=True)
+
+    def runs(self, ticks, limit=600):
+        """Waits until so much of the attempt has passed; what is told before the first one is closed."""
+        def there():
+            if (self.eyes.screen or {}).get("name") == "hint":
+                self.hands.press("Begin")
+                time.sleep(2)
+            return self.eyes.pose and self.eyes.pose["tick"] > ticks
+        self.eyes.wait(f"{ticks} ms of the attempt", there, limit)
 
     def menu(self, menu, item):
         self.hands.press(f"menu {menu}")
@@ -56,17 +66,13 @@ class Window:
 
 def operation_pictures(program, folder, images):
     """Person, exercises, an exercise's page, the exercise, its result."""
-    for exercise in ("basics/camera-0", "basics/clip-application"):  # something to show as past results
-        subprocess.run([program, "train", exercise, "--input", "demo", "--headless", "--trainee", PERSON],
-                       env=dict(os.environ, TROCAR_DATA=str(Path(folder) / "data")), check=False,
-                       stdout=subprocess.DEVNULL)
     with Window(program, folder, ["train", "--size", SIZE], images) as w:
         w.eyes.on("person", 120)
         w.type_into("Name", PERSON)
         w.shot("window_person")
         w.hands.press("Add")
         w.eyes.where("basics/camera-0", 60)
-        w.shot("window_start", 20)  # the pictures of the tiles are drawn one after the other
+        w.shot("window_start", PICTURES_OF_TILES)
         w.hands.press("basics/camera-0")
         w.eyes.where("Start", 120)
         w.shot("window_details", 4)
@@ -74,28 +80,23 @@ def operation_pictures(program, folder, images):
         exercise_and_result(w)
     with Window(program, folder, ["train", "cholecystectomy/clip-and-cut", "--input", "demo", "--size", SIZE],
                 images) as w:
-        w.eyes.wait("the operation", lambda: w.eyes.pose and w.eyes.pose["tick"] > 9000, 600)
+        w.runs(18500, 1200)
         w.shot("window_operation")
 
 
 def exercise_and_result(w):
-    if "hint" in (w.eyes.screen or {}).get("name", ""):
-        w.hands.enter()
-    w.eyes.wait("the exercise", lambda: w.eyes.pose and w.eyes.pose["tick"] > 300, 120)
+    w.runs(300)
     w.hands.look(0.05, 0.05, 0.012)
     w.shot("window_exercise", 2)
     w.hands.pause()
-    for button in ("End exercise", "End"):  # the second confirms
-        try:
-            w.hands.press(button, 20)
-        except Failed:
-            break
+    w.hands.press("End exercise")
+    w.hands.press("Yes, end exercise")
     w.eyes.on("result", 60)
     w.shot("window_result", 2)
 
 
 def modeller_pictures(program, folder, images):
-    with Window(program, folder, ["model", "--size", SIZE], images) as w:
+    with Window(program, folder, ["model"], images) as w:
         w.eyes.on("start", 60)
         w.shot("window_modeller_start")
         w.hands.press("New organ")
@@ -109,7 +110,7 @@ def modeller_pictures(program, folder, images):
 def operate_picture(program, folder, images, words, name):
     """A scene of one's own in the trainer."""
     with Window(program, folder, ["train", *words, "--size", SIZE], images) as w:
-        w.eyes.wait("the trainer", lambda: w.eyes.pose and w.eyes.pose["tick"] > 500, 240)
+        w.runs(500)
         w.shot(name, 2)
 
 
@@ -122,18 +123,20 @@ def ct_pictures(program, folder, images):
     if not scan:
         print("  no CT: TROCAR_PICTURES_CT names none")
         return
-    with Window(program, folder, ["model", "--size", SIZE], images) as w:
+    name = "scan" + "".join(Path(scan).suffixes[-2:])
+    (Path(folder) / name).symlink_to(scan)
+    with Window(program, folder, ["model"], images) as w:
         w.eyes.on("start", 60)
         w.hands.press("Open a scan")
-        w.type_into("file name", scan)
-        xdo("key", "Return")
+        w.hands.press(name)
+        w.hands.press("Open")
         w.eyes.where("5 Grow", 120)
         w.shot("window_ct", 8)
 
 
 def make_all(program, images):
     failed = []
-    for make in (operation_pictures, modeller_pictures, made_operate_pictures, ct_pictures):
+    for make in (modeller_pictures, ct_pictures, made_operate_pictures, operation_pictures):
         with tempfile.TemporaryDirectory() as folder:
             try:
                 make(program, folder, images)

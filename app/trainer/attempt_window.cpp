@@ -614,7 +614,12 @@ void AttemptWindow::summarise_result() {
   if (m_stage.options.store && counts())
     standing = training::read_standing(*m_stage.options.store, m_log.attempt().trainee, m_lesson.name);
   m_summary = summarise(m_result, standing);
-  if (!counts()) return;
+  if (!counts()) {  // a demonstration or practice: nobody passes or fails
+    if (m_summary.verdict != ResultSummary::Verdict::simulation_failed)
+      m_summary.verdict = ResultSummary::Verdict::no_score;
+    m_summary.advice.clear();
+    return;
+  }
   const bool passed = m_summary.verdict == ResultSummary::Verdict::passed;
   m_summary.next = next_training(attempt::list_exercises(attempt::scenes_folder()), m_lesson.name, passed);
 }
