@@ -55,10 +55,10 @@ def grasp(m, pid, what, middle):
     trainee = Trainee(eyes, hands)
     eyes.wait("the first pose", lambda: eyes.pose and eyes.screen, 120)
     shown(f"{what}_trainer")
-    try:  # the hint for newcomers, once
-        hands.press("Begin", 20)
-    except Failed:
-        pass
+    eyes.wait("the hint for newcomers, or time to pass",
+              lambda: "Begin" in eyes.screen["widgets"] or eyes.pose["tick"] > 200, 180)
+    if "Begin" in eyes.screen["widgets"]:
+        hands.press("Begin")
     hand = next(t["name"] for t in eyes.pose["tools"] if t["instrument"] == "grasper")
     trainee.lead(hand)
 
