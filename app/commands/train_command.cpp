@@ -18,7 +18,7 @@
 #include <trocar/pictures/analysis_choice.hpp>
 #include <trocar/pictures/headless.hpp>
 #include <trocar/reports/report_page.hpp>
-#include <trocar/scene/checks/standing.hpp>
+#include <trocar/scene/checks/equilibrium_check.hpp>
 
 #include "commands/command.hpp"
 #include "commands/number_options.hpp"

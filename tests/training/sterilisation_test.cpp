@@ -8,7 +8,7 @@
 #include <trocar/sim/stages/step.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/exercise/monitor.hpp>
-#include <trocar/training/operator/camera_hand.hpp>
+#include <trocar/training/surgeon/camera_hand.hpp>
 
 namespace trocar::training {
 namespace {

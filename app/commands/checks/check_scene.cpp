@@ -9,7 +9,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/text.hpp>
-#include <trocar/scene/checks/standing.hpp>
+#include <trocar/scene/checks/equilibrium_check.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/sim/model/bodies.hpp>

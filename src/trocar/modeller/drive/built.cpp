@@ -4,7 +4,7 @@
 #include <trocar/core/text.hpp>
 #include <trocar/modeller/drive/body_memory.hpp>
 #include <trocar/modeller/drive/built.hpp>
-#include <trocar/scene/checks/standing.hpp>
+#include <trocar/scene/checks/equilibrium_check.hpp>
 
 namespace trocar::modeller {
 namespace {

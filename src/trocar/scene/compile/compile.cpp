@@ -5,7 +5,6 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/compile/compile_contacts.hpp>
-#include <trocar/scene/compile/compile_doubts.hpp>
 #include <trocar/scene/compile/compile_elastostatic.hpp>
 #include <trocar/scene/compile/compile_energy.hpp>
 #include <trocar/scene/compile/compile_fluids.hpp>
@@ -17,6 +16,7 @@
 #include <trocar/scene/compile/compile_targets.hpp>
 #include <trocar/scene/compile/compile_tets.hpp>
 #include <trocar/scene/compile/compile_vessels.hpp>
+#include <trocar/scene/compile/compile_warnings.hpp>
 #include <trocar/scene/description/capacity.hpp>
 #include <trocar/scene/description/variant.hpp>
 #include <trocar/sim/model/bodies.hpp>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <trocar/sim/model/step_context.hpp>
-#include <trocar/sim/verbs/book.hpp>
+#include <trocar/sim/verbs/record_buffer.hpp>
 
 namespace trocar::sim {
 

@@ -1,5 +1,5 @@
 // An instrument moves, or goes in, where the camera does not look.
-#include <trocar/training/events/mishaps.hpp>
+#include <trocar/training/events/incidents.hpp>
 #include <trocar/training/events/registry.hpp>
 #include <trocar/training/observe/hands.hpp>
 

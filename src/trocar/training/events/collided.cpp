@@ -1,4 +1,4 @@
-#include <trocar/training/events/mishaps.hpp>
+#include <trocar/training/events/incidents.hpp>
 #include <trocar/training/events/registry.hpp>
 
 namespace trocar::training {

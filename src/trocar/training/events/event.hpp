@@ -7,8 +7,8 @@
 #include <array>
 
 #include <trocar/sim/model/step_report.hpp>
+#include <trocar/training/facts/event_instance.hpp>
 #include <trocar/training/facts/fact.hpp>
-#include <trocar/training/facts/happening.hpp>
 
 namespace trocar::training {
 

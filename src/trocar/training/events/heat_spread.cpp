@@ -1,4 +1,4 @@
-#include <trocar/training/events/mishaps.hpp>
+#include <trocar/training/events/incidents.hpp>
 #include <trocar/training/events/registry.hpp>
 #include <trocar/training/facts/needs.hpp>
 #include <trocar/training/observe/energy_watch.hpp>

@@ -62,7 +62,7 @@ struct LaterError {
   std::string code, name, needs;
 };
 
-/// At a moment of choice of the demonstration, counted from 0, it went on in this way (expert/ways.hpp).
+/// At a moment of choice of the demonstration, counted from 0, it went on in this way (expert/perturbation.hpp).
 struct Choice {
   int at = 0, way = 0;
 };

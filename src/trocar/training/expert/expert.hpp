@@ -9,7 +9,7 @@
 #include <trocar/sim/model/state.hpp>
 #include <trocar/sim/model/step_report.hpp>
 #include <trocar/training/exercise/exercise.hpp>
-#include <trocar/training/operator/arms.hpp>
+#include <trocar/training/surgeon/arms.hpp>
 
 namespace trocar::training {
 

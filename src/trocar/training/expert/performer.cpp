@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <trocar/training/expert/performer.hpp>
-#include <trocar/training/expert/ways.hpp>
+#include <trocar/training/expert/perturbation.hpp>
 #include <trocar/training/observe/sampling.hpp>
 
 namespace trocar::training {

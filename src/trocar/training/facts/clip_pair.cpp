@@ -1,4 +1,4 @@
-#include <trocar/training/facts/happening.hpp>
+#include <trocar/training/facts/event_instance.hpp>
 #include <trocar/training/facts/needs.hpp>
 #include <trocar/training/facts/registry.hpp>
 #include <trocar/training/observe/clip_pair.hpp>

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include <trocar/training/facts/argument.hpp>
-#include <trocar/training/operator/operator.hpp>
+#include <trocar/training/surgeon/surgeon.hpp>
 
 namespace trocar::training {
 

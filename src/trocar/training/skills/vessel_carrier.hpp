@@ -1,7 +1,7 @@
 // What jaws take when they shall close a vessel: the strand that carries it there, or the vessel itself.
 #pragma once
 
-#include <trocar/training/operator/operator.hpp>
+#include <trocar/training/surgeon/surgeon.hpp>
 
 namespace trocar::training {
 

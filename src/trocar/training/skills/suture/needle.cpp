@@ -5,9 +5,9 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/model/mark.hpp>
 #include <trocar/training/observe/stitches.hpp>
-#include <trocar/training/operator/needle_lead.hpp>
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
+#include <trocar/training/surgeon/needle_lead.hpp>
 
 namespace trocar::training {
 namespace {

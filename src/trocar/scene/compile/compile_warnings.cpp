@@ -5,7 +5,7 @@
 
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
-#include <trocar/scene/compile/compile_doubts.hpp>
+#include <trocar/scene/compile/compile_warnings.hpp>
 #include <trocar/scene/compile/mesh_cost.hpp>
 #include <trocar/sim/model/bodies.hpp>
 

@@ -13,9 +13,9 @@
 
 #include <trocar/sim/model/host_views.hpp>
 #include <trocar/suture/knots/knots.hpp>
-#include <trocar/training/operator/arms.hpp>
-#include <trocar/training/operator/camera_hand.hpp>
-#include <trocar/training/operator/posture.hpp>
+#include <trocar/training/surgeon/arms.hpp>
+#include <trocar/training/surgeon/camera_hand.hpp>
+#include <trocar/training/surgeon/posture.hpp>
 
 namespace trocar::training {
 

@@ -6,7 +6,7 @@
 
 #include <trocar/core/log.hpp>
 #include <trocar/core/text.hpp>
-#include <trocar/scene/checks/standing.hpp>
+#include <trocar/scene/checks/equilibrium_check.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/step.hpp>
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <trocar/training/expert/plan.hpp>
-#include <trocar/training/operator/arms.hpp>
+#include <trocar/training/surgeon/arms.hpp>
 
 namespace trocar::training {
 

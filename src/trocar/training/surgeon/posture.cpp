@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <trocar/training/observe/hands.hpp>
-#include <trocar/training/operator/operator.hpp>
+#include <trocar/training/surgeon/surgeon.hpp>
 
 namespace trocar::training {
 

@@ -2,7 +2,7 @@
 
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/observe/hands.hpp>
-#include <trocar/training/operator/operator.hpp>
+#include <trocar/training/surgeon/surgeon.hpp>
 
 namespace trocar::training {
 namespace {

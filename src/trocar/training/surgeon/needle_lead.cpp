@@ -3,7 +3,7 @@
 
 #include <trocar/numerics/portable.hpp>
 #include <trocar/training/observe/stitches.hpp>
-#include <trocar/training/operator/needle_lead.hpp>
+#include <trocar/training/surgeon/needle_lead.hpp>
 
 namespace trocar::training {
 namespace {

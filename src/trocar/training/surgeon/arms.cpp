@@ -3,7 +3,7 @@
 
 #include <trocar/numerics/portable.hpp>
 #include <trocar/training/observe/hands.hpp>
-#include <trocar/training/operator/arms.hpp>
+#include <trocar/training/surgeon/arms.hpp>
 
 namespace trocar::training {
 namespace {

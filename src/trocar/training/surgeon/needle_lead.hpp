@@ -3,7 +3,7 @@
 #pragma once
 
 #include <trocar/interactions/objects/suture.hpp>
-#include <trocar/training/operator/operator.hpp>
+#include <trocar/training/surgeon/surgeon.hpp>
 
 namespace trocar::training {
 

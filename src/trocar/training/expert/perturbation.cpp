@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include <trocar/core/random.hpp>
-#include <trocar/training/expert/ways.hpp>
+#include <trocar/training/expert/perturbation.hpp>
 
 namespace trocar::training {
 namespace {

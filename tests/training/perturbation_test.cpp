@@ -1,7 +1,7 @@
 // Ways of doing a task: the same number is the same way, and only what a hand may do otherwise differs.
 #include <gtest/gtest.h>
 
-#include <trocar/training/expert/ways.hpp>
+#include <trocar/training/expert/perturbation.hpp>
 
 namespace trocar::training {
 namespace {

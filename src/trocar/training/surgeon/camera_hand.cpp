@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <trocar/numerics/portable.hpp>
-#include <trocar/training/operator/camera_hand.hpp>
+#include <trocar/training/surgeon/camera_hand.hpp>
 
 namespace trocar::training {
 namespace {
