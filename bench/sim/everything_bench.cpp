@@ -94,9 +94,9 @@ struct Scene {
 
 enum Part { kTissue, kVessels, kHeat, kFluids, kParts };
 Part part_of(std::string_view stage) {
-  if (stage == "pose vessels" || stage == "beat" || stage == "let blood flow") return kVessels;
-  if (stage == "adhere" || stage == "heat tissue") return kHeat;
-  if (stage == "press with drops" || stage == "move fluids") return kFluids;
+  if (stage == "pose vessels" || stage == "apply pulse loads" || stage == "update blood flow") return kVessels;
+  if (stage == "apply adhesion" || stage == "heat tissue") return kHeat;
+  if (stage == "apply drop impacts" || stage == "move fluids") return kFluids;
   return kTissue;
 }
 

@@ -102,10 +102,10 @@ TEST(FlagNames, EveryFlagOfAStepHasOne) {
        {std::uint32_t(tissue::StepReport::kNonFinite), std::uint32_t(tissue::StepReport::kInverted),
         std::uint32_t(tissue::StepReport::kBadLoad), std::uint32_t(tissue::StepReport::kIndefinite),
         std::uint32_t(sim::StepReport::kTooManyLoads), std::uint32_t(sim::StepReport::kBadInput),
-        std::uint32_t(sim::StepReport::kBookFull), std::uint32_t(sim::StepReport::kBloodFlow),
+        std::uint32_t(sim::StepReport::kRecordsFull), std::uint32_t(sim::StepReport::kBloodFlow),
         std::uint32_t(sim::StepReport::kHeatFull), std::uint32_t(sim::StepReport::kDropsFull)})
     EXPECT_EQ(attempt::flag_names(flag).size(), 1u) << flag;
-  EXPECT_EQ(attempt::flag_names(sim::StepReport::kDropsFull | sim::StepReport::kBookFull).size(), 2u);
+  EXPECT_EQ(attempt::flag_names(sim::StepReport::kDropsFull | sim::StepReport::kRecordsFull).size(), 2u);
 }
 
 TEST(LensInWords, SaysFogAndAWipeAndNothingOfAClearLensOrWhereThereAreNoFluids) {

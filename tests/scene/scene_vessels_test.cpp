@@ -97,7 +97,7 @@ struct Blood {
     std::array<std::int64_t, 2> out{};
     for (int i = 0; i < 2000; ++i, ++s.tick) {
       sim::StepContext c{pelvis(), pelvis().start, s, w, report};
-      let_blood_flow(c);
+      update_blood_flow(c);
       for (int k = 0; i >= 1000 && k < w.bleed_count; ++k)
         out[size_t(w.bleeds[size_t(k)].side)] += w.bleeds[size_t(k)].picolitres;
     }
@@ -109,7 +109,7 @@ struct Blood {
     std::array<double, 10> lost{};
     for (size_t i = 0; i < 1000; ++i, ++s.tick) {
       sim::StepContext c{pelvis(), pelvis().start, s, w, report};
-      let_blood_flow(c);
+      update_blood_flow(c);
       for (int k = 0; k < w.bleed_count; ++k) lost[i / 100] += 600e-9 * double(w.bleeds[size_t(k)].picolitres);
     }
     const auto [low, high] = std::minmax_element(lost.begin(), lost.end());

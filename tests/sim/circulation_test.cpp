@@ -252,7 +252,7 @@ struct Still {
     Lost lost;
     StepContext c = context();
     for (int i = 0; i < ticks; ++i, ++s.tick) {
-      let_blood_flow(c);
+      update_blood_flow(c);
       for (int k = 0; k < w.bleed_count; ++k)
         if (w.bleeds[size_t(k)].opening == 0)
           lost.picolitres[w.bleeds[size_t(k)].side] += w.bleeds[size_t(k)].picolitres;
@@ -313,7 +313,7 @@ TEST(Circulation, NoMoreOpeningsThanThereIsRoomForAndThatIsTold) {
   const interactions::VesselSpot spot = vessel_spot(path, t.w.vessel_points[small::kTubeArtery], {}, 0.5);
   open_vessels(c, geometry::square_blade(spot.place, spot.along, 0.002), {}, small::kScissors);
   EXPECT_EQ(t.s.opening_count, interactions::kMaxOpenings);
-  EXPECT_NE(t.report.flags & StepReport::kBookFull, 0u);
+  EXPECT_NE(t.report.flags & StepReport::kRecordsFull, 0u);
 }
 
 TEST(Circulation, VesselsGoWithWhatCarriesThem) {

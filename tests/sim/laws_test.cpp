@@ -86,7 +86,7 @@ TEST(Step, WhatNoLongerFitsTheBooksIsNeitherCutNorClippedAndIsTold) {
       EXPECT_NE(report.events[i].kind, Event::cut);
     }
   }
-  EXPECT_NE(flags & StepReport::kBookFull, 0u);
+  EXPECT_NE(flags & StepReport::kRecordsFull, 0u);
   for (const tissue::StrandState& strand : s.strands)
     EXPECT_EQ(std::count(strand.alive.begin(), strand.alive.end(), 0), 0);
   for (const auto& torn : s.torn) EXPECT_EQ(std::count(torn.begin(), torn.end(), 1), 0);

@@ -236,8 +236,8 @@ TEST(Peristalsis, ItsLoadsOnTheOrganSumToZero) {
   StepReport report;
   StepContext c{m, m.start, s, w, report};
   for (const Stage& stage : stages()) {
-    if (std::string(stage.name) == "contract") w.organ_loads[0].clear();  // without the bed's
-    if (std::string(stage.name) == "work jaws") break;
+    if (std::string(stage.name) == "apply peristalsis") w.organ_loads[0].clear();  // without the bed's
+    if (std::string(stage.name) == "actuate jaws") break;
     stage.run(c);
   }
   Vec3d force{0, 0, 0}, moment{0, 0, 0};

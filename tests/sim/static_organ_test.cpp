@@ -147,7 +147,7 @@ TEST(StaticOrgan, ACutHandsItOver) {
 
 TEST(StaticOrgan, HandedOverItDoesNotJumpAndRestsWhereItsNetworkDoes) {
   const Model by_angle = compiled([](scene::Description& d) {
-    d.solids[0].beyond = scene::BeyondLinear::hand_over;
+    d.solids[0].beyond = scene::BeyondLinear::switch_to_dynamic;
     d.solids[0].beyond_angle = 0.01;
   });
   const Vec3d from{0.055, 0, 0.04}, over{-0.014, 0, 0.022}, on{-0.014, 0, 0.0095};

@@ -22,16 +22,11 @@ struct FlagName {
   const char* name;
 };
 constexpr FlagName kFlags[] = {
-    {tissue::StepReport::kNonFinite, "non_finite"},
-    {tissue::StepReport::kInverted, "inverted_cells"},
-    {tissue::StepReport::kBadLoad, "bad_load"},
-    {tissue::StepReport::kIndefinite, "indefinite"},
-    {sim::StepReport::kTooManyLoads, "too_many_loads"},
-    {sim::StepReport::kBadInput, "bad_input"},
-    {sim::StepReport::kBookFull, "book_full"},
-    {sim::StepReport::kHeatFull, "heat_full"},
-    {sim::StepReport::kDropsFull, "drops_full"},
-    {sim::StepReport::kBloodFlow, "blood_flow"},
+    {tissue::StepReport::kNonFinite, "non_finite"},       {tissue::StepReport::kInverted, "inverted_cells"},
+    {tissue::StepReport::kBadLoad, "bad_load"},           {tissue::StepReport::kIndefinite, "indefinite"},
+    {sim::StepReport::kTooManyLoads, "too_many_loads"},   {sim::StepReport::kBadInput, "bad_input"},
+    {sim::StepReport::kRecordsFull, "book_full"},         {sim::StepReport::kHeatFull, "heat_full"},
+    {sim::StepReport::kDropsFull, "drops_full"},          {sim::StepReport::kBloodFlow, "blood_flow"},
     {tissue::StepReport::kBeyondLinear, "beyond_linear"},
 };
 

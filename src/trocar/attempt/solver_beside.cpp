@@ -49,7 +49,7 @@ std::unique_ptr<Lesson> load_beside(const std::string& exercise, std::uint64_t s
     for (const scene::Solid& s : scene.solids)
       if (s.name == organ)
         return set_solver(scene, organ,
-                          s.answers_at_once() ? scene::Solver::dynamic_network : scene::Solver::elastostatic, asked);
+                          s.is_quasi_static() ? scene::Solver::dynamic_network : scene::Solver::elastostatic, asked);
     set_solver(scene, organ, scene::Solver::elastostatic, asked);  // tells what organs there are
   });
 }

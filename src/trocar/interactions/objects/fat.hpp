@@ -149,8 +149,9 @@ struct Fat {
 };
 
 /// Roots and ties pull on lobules and on what they hold on, and give way.
-void pull_on_fat(const FatBody& body, FatBodyState& state, const Holders& holders, const TiedWalls& walls, double dt,
-                 FatBodyWork& work, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads) noexcept;
+void apply_fat_loads(const FatBody& body, FatBodyState& state, const Holders& holders, const TiedWalls& walls,
+                     double dt, FatBodyWork& work, std::span<StrandLoads> strand_loads,
+                     std::span<NetworkLoads> organ_loads) noexcept;
 
 /// Septa, roots and ties between whose ends the blade passes hold no more. @return how many
 int sever_fat(const FatBody& body, const geometry::Blade& blade, const Holders& holders, const TiedWalls& walls,

@@ -77,8 +77,9 @@ int sever(BondState& state) noexcept {
 
 }  // namespace
 
-void pull_on_fat(const FatBody& body, FatBodyState& s, const Holders& holders, const TiedWalls& walls, double dt,
-                 FatBodyWork& w, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads) noexcept {
+void apply_fat_loads(const FatBody& body, FatBodyState& s, const Holders& holders, const TiedWalls& walls, double dt,
+                     FatBodyWork& w, std::span<StrandLoads> strand_loads,
+                     std::span<NetworkLoads> organ_loads) noexcept {
   const BondedNodes nodes{body.fat.network, s.fat.network, w.loads};
   weaken_roots(body, nodes, holders, dt, s);
   bond_loads(body.roots, s.roots, nodes, holders, dt, strand_loads, organ_loads);

@@ -194,7 +194,7 @@ void compile_one(const Solid& solid, const Tissue& tissue, int organ, const Orga
   sim::StaticOrgan out;
   out.organ = organ;
   out.beyond = solid.beyond_angle;
-  out.hands_over = solid.beyond == BeyondLinear::hand_over;
+  out.hands_over = solid.beyond == BeyondLinear::switch_to_dynamic;
   out.solver = tissue::make_elastostatic({d.points, d.held, d.row_of_node, d.origin, gravity}, kept, c.columns,
                                          c.fields, sim::kTick);
   model.statics.push_back(std::move(out));
@@ -235,7 +235,7 @@ void compile_elastostatic(const Description& d, sim::Model& model, std::vector<c
                           CompileReport* report) {
   for (const Solid& solid : d.solids)
     for (const Tissue& tissue : d.tissues)
-      if (solid.answers_at_once() && tissue.name == solid.tissue)
+      if (solid.is_quasi_static() && tissue.name == solid.tissue)
         compile_organ(solid, tissue, d.gravity, model, faults, report);
 }
 

@@ -93,7 +93,7 @@ enum class Solver { dynamic_network, elastostatic };
 /// What the elastostatic solver's stiffness is made of.
 enum class Elasticity { springs, tetrahedra };
 /// What an elastostatic organ does that has turned further than its solver is good for.
-enum class BeyondLinear { warn, hand_over };
+enum class BeyondLinear { warn, switch_to_dynamic };
 
 /// Where the masses of an organ are: in what fills it, or at the control points of its NURBS surface and below them.
 enum class Masses { inside, control_points };
@@ -126,7 +126,7 @@ struct Solid {
   core::Location at, cell_at, solver_at;
 
   bool at_control_points() const { return masses == Masses::control_points; }
-  bool answers_at_once() const { return solver == Solver::elastostatic; }
+  bool is_quasi_static() const { return solver == Solver::elastostatic; }
   /// Do fibres turn, or stiffness change, from place to place?
   bool differs_by_place() const { return !fibre_strokes.empty() || fibres_along || !regions.empty(); }
 };

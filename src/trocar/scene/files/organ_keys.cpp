@@ -139,7 +139,7 @@ void check_shape(const JsonObject& o, const Solid& s) {
   const bool lattice = is_lattice(o, s);
   check_fibres(o, s);
   for (const char* key : {"elasticity", "beyond_deg", "beyond"})
-    if (o.names(key) && !s.answers_at_once())
+    if (o.names(key) && !s.is_quasi_static())
       o.fault(key, "expected \"solver\": \"static\" beside it, got an organ that is solved step by step");
   for (const char* key : {"skin_edge_mm", "fine_edge_mm"})
     if (o.names(key) && !lattice && !s.at_control_points())
@@ -150,7 +150,7 @@ void check_shape(const JsonObject& o, const Solid& s) {
 void check_masses(const JsonObject& o, const Solid& s) {
   if (!s.at_control_points()) return;
   if (!o.names("nurbs")) return o.fault("masses", "expected control points of \"nurbs\", got another shape");
-  if (s.answers_at_once() && s.elasticity == Elasticity::tetrahedra)
+  if (s.is_quasi_static() && s.elasticity == Elasticity::tetrahedra)
     o.fault("elasticity", "expected springs where masses are control points, got tetrahedra");
   if (s.cuttable) o.fault("cuttable", "expected an organ that is not cuttable where masses are control points");
   if (!s.shape.nurbs) return;
@@ -350,9 +350,10 @@ const Table<Solid>& solid() {
                "beyond_deg", units::deg, &Solid::beyond_angle, 0.1, 180,
                "of a static solver: turn of the whole organ, or largest displacement beside that over the organ's size "
                "(57.3 degrees: as large as it), beyond which the solver is inaccurate, default {}"),
-           R::choice("beyond",
-                     Choices<BeyondLinear>{{"warn", BeyondLinear::warn}, {"hand_over", BeyondLinear::hand_over}},
-                     &Solid::beyond, "then: warn, or switch to the dynamic solver permanently; default {}")}),
+           R::choice(
+               "beyond",
+               Choices<BeyondLinear>{{"warn", BeyondLinear::warn}, {"hand_over", BeyondLinear::switch_to_dynamic}},
+               &Solid::beyond, "then: warn, or switch to the dynamic solver permanently; default {}")}),
       check_solid};
   return table;
 }

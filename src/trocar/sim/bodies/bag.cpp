@@ -149,7 +149,7 @@ void rest_bags(StepContext& c) noexcept {
   });
 }
 
-void hold_in_bags(StepContext& c) noexcept {
+void update_bags(StepContext& c) noexcept {
   for_bags(c, [&c](const BagModel& m, BagState& s, BagWork& w) {
     if (!follow(c, s, w)) return;
     look_at_rigids(c, m, w);

@@ -9,6 +9,6 @@ namespace trocar::sim {
 /// Cloth on organs and walls.
 void rest_bags(StepContext& context) noexcept;
 /// Stage: the hoop goes with its hand, the cloth hangs from it, and holds what is in it.
-void hold_in_bags(StepContext& context) noexcept;
+void update_bags(StepContext& context) noexcept;
 
 }  // namespace trocar::sim

@@ -21,7 +21,7 @@ interactions::BondedNodes nodes_of(StepContext& c, const interactions::BondSet& 
 
 }  // namespace
 
-void pull_on_bonds(StepContext& c) noexcept {
+void apply_bond_loads(StepContext& c) noexcept {
   const interactions::Holders holders = holders_of(c);
   for (size_t i = 0; i < c.model.bonds.size(); ++i)
     interactions::bond_loads(c.model.bonds[i], c.state.bonds[i], nodes_of(c, c.model.bonds[i]), holders, kTick,

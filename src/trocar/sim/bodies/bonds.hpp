@@ -7,7 +7,7 @@
 namespace trocar::sim {
 
 /// Stage: bonds pull, and give way where they are opened too far.
-void pull_on_bonds(StepContext& context) noexcept;
+void apply_bond_loads(StepContext& context) noexcept;
 
 /// Bonds between whose ends the blade passes hold no more. @return how many
 int sever_bonds(StepContext& context, const geometry::Blade& blade) noexcept;

@@ -25,7 +25,7 @@ void pose_again(StepContext& c, CuttableRef r) noexcept {
 void hang(StepContext& c, CuttableRef r) noexcept {
   interactions::NetworkLoads& loads = c.work.organ_loads[r.organ()];
   loads.clear();
-  if (answers_at_once(c, r.organ())) return;  // the springs that hang it are in its compliance
+  if (is_quasi_static(c, r.organ())) return;  // the springs that hang it are in its compliance
   hang(model_of(c.model, r).body.anchors, r.organ(), carried(c, r), loads);
 }
 
@@ -74,7 +74,7 @@ void advance(StepContext& c, CuttableRef r) noexcept {
                   c.state.cuttables[r.index].nodes});
 }
 
-void contain(StepContext& c, CuttableRef r) noexcept {
+void clamp_to_cavity(StepContext& c, CuttableRef r) noexcept {
   const tissue::CuttableModel& body = model_of(c.model, r).body;
   turn_back(c.model.cavity, body.row_of_node, body.origin, c.state.tick, c.state.cuttables[r.index].nodes);
 }
@@ -85,8 +85,8 @@ Parting cut(StepContext& c, CuttableRef r, const geometry::Blade& blade) noexcep
   place_inner_nodes(c, r);
   const geometry::CutResult book =
       tissue::cut(model_of(c.model, r).body, blade, c.state.cuttables[r.index], c.work.cuttable_work[r.index]);
-  if (book.snapped + book.parted > 0) hand_over(c, r);
-  if (book.full) c.report.flags |= StepReport::kBookFull;
+  if (book.snapped + book.parted > 0) switch_to_dynamic(c, r);
+  if (book.full) c.report.flags |= StepReport::kRecordsFull;
   return {book.parted > 0, blade, -1, book.snapped + book.parted};
 }
 
@@ -100,8 +100,8 @@ Parting tear(StepContext& c, CuttableRef r) noexcept {
       tissue::springs_of(organ.body, c.state.cuttables[r.index], c.work.cuttable_work[r.index]), organ.failure_strain,
       turn_of(c, r.organ()), counters, c.work.beyond);
   if (!tear.found) return {};
-  if (!answers_at_once(c, r.organ())) return opened(cut(c, r, tear.blade(1.0)), counters);
-  hand_over(c, r);  // whether it tears is for the network to say
+  if (!is_quasi_static(c, r.organ())) return opened(cut(c, r, tear.blade(1.0)), counters);
+  switch_to_dynamic(c, r);  // whether it tears is for the network to say
   return {};
 }
 

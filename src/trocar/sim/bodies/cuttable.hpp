@@ -23,7 +23,7 @@ std::span<const std::int32_t> pieces_of(const StepContext& context, CuttableRef 
 std::span<const std::uint8_t> folded_of(StepContext& context, CuttableRef organ) noexcept;
 /// Explicit, in its own sub-steps.
 void advance(StepContext& context, CuttableRef organ) noexcept;
-void contain(StepContext& context, CuttableRef organ) noexcept;
+void clamp_to_cavity(StepContext& context, CuttableRef organ) noexcept;
 
 /// Half the length of the cut that a wire makes [m].
 double wire_cut(const Model& model, CuttableRef organ) noexcept;

@@ -28,13 +28,14 @@ interactions::TiedWalls walls_of(StepContext& c) noexcept {
 
 bool has_fat(const Model& model) noexcept { return !interactions::part_of<Fat>(model.objects).list.empty(); }
 
-void pull_on_fat(StepContext& c) noexcept {
+void apply_fat_loads(StepContext& c) noexcept {
   if (!has_fat(c.model)) return;
   const interactions::Holders holders = holders_of(c);
-  for_fat(c, [&](const interactions::FatBody& body, interactions::FatBodyState& state,
-                 interactions::FatBodyWork& work) {
-    interactions::pull_on_fat(body, state, holders, walls_of(c), kTick, work, c.work.strand_loads, c.work.organ_loads);
-  });
+  for_fat(c,
+          [&](const interactions::FatBody& body, interactions::FatBodyState& state, interactions::FatBodyWork& work) {
+            interactions::apply_fat_loads(body, state, holders, walls_of(c), kTick, work, c.work.strand_loads,
+                                          c.work.organ_loads);
+          });
 }
 
 int sever_fat(StepContext& c, const geometry::Blade& blade) noexcept {

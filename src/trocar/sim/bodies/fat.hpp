@@ -9,7 +9,7 @@ namespace trocar::sim {
 bool has_fat(const Model& model) noexcept;
 
 /// Stage: roots and ties of fat pull, and give way where they are opened too far.
-void pull_on_fat(StepContext& context) noexcept;
+void apply_fat_loads(StepContext& context) noexcept;
 
 /// Septa, roots and ties that the blade passes hold no more. @return how many
 int sever_fat(StepContext& context, const geometry::Blade& blade) noexcept;

@@ -67,7 +67,7 @@ void advance(StepContext& c, MembraneRef r) noexcept {
                   c.work.sheet_gaps.data() + i, c.model.membranes.size(), c.state.membranes[i].network.nodes});
 }
 
-void contain(StepContext& c, MembraneRef r) noexcept {
+void clamp_to_cavity(StepContext& c, MembraneRef r) noexcept {
   const tissue::NetworkModel& network = model_of(c.model, r).sheet.network;
   turn_back(c.model.cavity, network.row_of_node, network.origin, c.state.tick,
             c.state.membranes[r.index].network.nodes);

@@ -19,7 +19,7 @@ void find_pulls(StepContext& context, MembraneRef membrane) noexcept;
 void pull_on_holders(StepContext& context, MembraneRef membrane) noexcept;
 /// Borders go where their holders have gone.
 void advance(StepContext& context, MembraneRef membrane) noexcept;
-void contain(StepContext& context, MembraneRef membrane) noexcept;
+void clamp_to_cavity(StepContext& context, MembraneRef membrane) noexcept;
 
 /// Half the length of the cut that a wire makes [m].
 double wire_cut(const Model& model, MembraneRef membrane) noexcept;

@@ -78,7 +78,7 @@ void cut_through(StepContext& c, SlingState& g, SlingAround& a) noexcept {
   a.cutting = 0;
   if (!c.state.strands[strand.index].alive[std::size_t(a.element)]) return;
   open_vessels(c, strand.id(), cut(c, strand, a.element), g.hand);
-  tell(c, Event::loop_cut, std::max(0, g.hand), strand.id());
+  emit_event(c, Event::loop_cut, std::max(0, g.hand), strand.id());
   g.was_closed = 0;
 }
 
@@ -89,16 +89,16 @@ void watch(StepContext& c, SlingState& g) noexcept {
     if (a.squeeze > kTightFrom && has_sunk_in(c.model.strand_bodies[std::size_t(a.strand)], a)) is |= kWasTight;
     if (cover_at(c, a) >= kLoopCloses) {
       if (!(g.was_closed & kWasClosed))
-        tell(c, Event::loop_tightened, std::max(0, g.hand), BodyId::strand(std::size_t(a.strand)));
+        emit_event(c, Event::loop_tightened, std::max(0, g.hand), BodyId::strand(std::size_t(a.strand)));
       is |= kWasClosed;
     }
     g.last = a.strand;
     if (a.cutting >= kCutsAfter) return cut_through(c, g, a);
   }
   if (g.was_closed != 0 && g.around_count == 0 && g.last >= 0)
-    tell(c, Event::loop_slipped, std::max(0, g.hand), BodyId::strand(std::size_t(g.last)));
+    emit_event(c, Event::loop_slipped, std::max(0, g.hand), BodyId::strand(std::size_t(g.last)));
   if ((g.was_closed & kWasClosed) && !(is & kWasClosed) && g.around_count > 0)
-    tell(c, Event::loop_loosened, std::max(0, g.hand), BodyId::strand(std::size_t(g.last)));
+    emit_event(c, Event::loop_loosened, std::max(0, g.hand), BodyId::strand(std::size_t(g.last)));
   g.was_closed = is;
 }
 
@@ -112,7 +112,7 @@ void notice_cut(StepContext& c, std::size_t i) noexcept {
   int hand = std::max(0, s.sling.hand);
   for (std::size_t t = 0; t < c.model.hands.size(); ++t)
     if (c.model.tool(c.state, t).can().cut) hand = int(t);
-  tell(c, Event::thread_cut, hand, BodyId(BodyKind::suture, i));
+  emit_event(c, Event::thread_cut, hand, BodyId(BodyKind::suture, i));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ void pose(StepContext& c, SolidRef s) noexcept {
 void hang(StepContext& c, SolidRef s) noexcept {
   interactions::NetworkLoads& loads = c.work.organ_loads[s.organ()];
   loads.clear();
-  if (answers_at_once(c, s.organ())) return;  // the springs that hang it are in its compliance
+  if (is_quasi_static(c, s.organ())) return;  // the springs that hang it are in its compliance
   hang(model_of(c.model, s).anchors, s.organ(), carried(c, s), loads);
 }
 
@@ -56,7 +56,7 @@ void advance(StepContext& c, SolidRef s) noexcept {
   settle_held_nodes(c, s);
 }
 
-void contain(StepContext& c, SolidRef s) noexcept {
+void clamp_to_cavity(StepContext& c, SolidRef s) noexcept {
   const tissue::NetworkModel& network = model_of(c.model, s).network;
   turn_back(c.model.cavity, network.row_of_node, network.origin, c.state.tick, c.state.solids[s.index].nodes);
 }
@@ -68,7 +68,7 @@ Parting cut(StepContext& c, SolidRef s, const geometry::Blade& blade) noexcept {
   place_inner_nodes(c, s);
   const int severed = interactions::cut_organ(blade, solid.network, solid.fine, c.state.solids[s.index],
                                               c.state.parted[s.index], c.work.parts);
-  if (severed > 0) hand_over(c, s);
+  if (severed > 0) switch_to_dynamic(c, s);
   return {severed > 0, blade, -1, severed};
 }
 
@@ -82,8 +82,8 @@ Parting tear(StepContext& c, SolidRef s) noexcept {
       tissue::find_overstretch(tissue::springs_of(solid.network, c.state.solids[s.index]), solid.failure_strain,
                                turn_of(c, s.organ()), counters, c.work.beyond);
   if (!tear.found) return {};
-  if (!answers_at_once(c, s.organ())) return opened(cut(c, s, tear.blade()), counters);
-  hand_over(c, s);  // whether it tears is for the network to say
+  if (!is_quasi_static(c, s.organ())) return opened(cut(c, s, tear.blade()), counters);
+  switch_to_dynamic(c, s);  // whether it tears is for the network to say
   return {};
 }
 

@@ -19,7 +19,7 @@ std::span<const std::int32_t> pieces_of(const StepContext& context, SolidRef sol
 std::span<const std::uint8_t> folded_of(StepContext& context, SolidRef solid) noexcept;
 /// Explicit, in its own sub-steps.
 void advance(StepContext& context, SolidRef solid) noexcept;
-void contain(StepContext& context, SolidRef solid) noexcept;
+void clamp_to_cavity(StepContext& context, SolidRef solid) noexcept;
 
 /// Half the length of the cut that a wire makes [m].
 double wire_cut(const Model& model, SolidRef solid) noexcept;

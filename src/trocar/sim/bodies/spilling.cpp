@@ -96,7 +96,7 @@ tissue::Leak leak_by_duct(const StepContext& c, MembraneRef r) noexcept {
                               c.work.membrane_work[r.index], c.state.membranes[r.index]);
 }
 
-void let_stones_fall(StepContext& c) noexcept {
+void update_spilled_stones(StepContext& c) noexcept {
   const interactions::RigidModels& models = interactions::part_of<Rigid>(c.model.objects);
   Rigid::States& states = interactions::part_of<Rigid>(c.state.objects);
   for (size_t i = 0; i < states.size(); ++i) {

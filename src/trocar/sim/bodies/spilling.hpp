@@ -14,6 +14,6 @@ tissue::Leak leak_by_duct(const StepContext& c, MembraneRef r) noexcept;
 /// Stage: stones lie in the middle of what encloses them until one falls out, where the wall is open. One passes that
 /// is no thicker than the hole, as a circle of its area is wide, while something runs out or the hole faces down, and
 /// no other one is in the way; of several the first.
-void let_stones_fall(StepContext& c) noexcept;
+void update_spilled_stones(StepContext& c) noexcept;
 
 }  // namespace trocar::sim

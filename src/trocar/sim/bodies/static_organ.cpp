@@ -29,7 +29,7 @@ bool advance_one(StepContext& c, Ref r) noexcept {
                       rows_of(c, r), c.work.static_work[std::size_t(i)].solver);
   if (state.body.turn <= organ.beyond) return true;
   if (organ.hands_over)
-    hand_over(c, r);
+    switch_to_dynamic(c, r);
   else
     c.work.organ_reports[r.organ()].flags |= tissue::StepReport::kBeyondLinear;
   return true;
@@ -44,7 +44,7 @@ void place_one(StepContext& c, Ref r) noexcept {
 }
 
 template <class Ref>
-void hand_one_over(StepContext& c, Ref r) noexcept {
+void switch_one_to_dynamic(StepContext& c, Ref r) noexcept {
   const int i = static_number(c.model, r.organ());
   if (i < 0 || !c.state.statics[std::size_t(i)].at_once()) return;
   place_one(c, r);
@@ -87,7 +87,7 @@ void after_one(StepContext& c, Ref r) noexcept {
 
 }  // namespace
 
-bool answers_at_once(const StepContext& c, std::size_t organ) noexcept {
+bool is_quasi_static(const StepContext& c, std::size_t organ) noexcept {
   const int i = static_number(c.model, organ);
   return i >= 0 && c.state.statics[std::size_t(i)].at_once();
 }
@@ -96,8 +96,8 @@ bool advance_at_once(StepContext& c, SolidRef s) noexcept { return advance_one(c
 bool advance_at_once(StepContext& c, CuttableRef r) noexcept { return advance_one(c, r); }
 void place_inner_nodes(StepContext& c, SolidRef s) noexcept { place_one(c, s); }
 void place_inner_nodes(StepContext& c, CuttableRef r) noexcept { place_one(c, r); }
-void hand_over(StepContext& c, SolidRef s) noexcept { hand_one_over(c, s); }
-void hand_over(StepContext& c, CuttableRef r) noexcept { hand_one_over(c, r); }
+void switch_to_dynamic(StepContext& c, SolidRef s) noexcept { switch_one_to_dynamic(c, s); }
+void switch_to_dynamic(StepContext& c, CuttableRef r) noexcept { switch_one_to_dynamic(c, r); }
 void before_network(StepContext& c, SolidRef s) noexcept { before_one(c, s); }
 void before_network(StepContext& c, CuttableRef r) noexcept { before_one(c, r); }
 void after_network(StepContext& c, SolidRef s) noexcept { after_one(c, s); }

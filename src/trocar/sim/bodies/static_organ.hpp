@@ -13,7 +13,7 @@
 namespace trocar::sim {
 
 /// Does its elastostatic solver move it in this tick?
-bool answers_at_once(const StepContext& context, std::size_t organ) noexcept;
+bool is_quasi_static(const StepContext& context, std::size_t organ) noexcept;
 
 /// The solver's tick. @return whether the organ is such a one: its network is not to be advanced then
 bool advance_at_once(StepContext& context, SolidRef solid) noexcept;
@@ -23,8 +23,8 @@ bool advance_at_once(StepContext& context, CuttableRef organ) noexcept;
 void place_inner_nodes(StepContext& context, SolidRef solid) noexcept;
 void place_inner_nodes(StepContext& context, CuttableRef organ) noexcept;
 /// To its network, for good. Nothing for other organs.
-void hand_over(StepContext& context, SolidRef solid) noexcept;
-void hand_over(StepContext& context, CuttableRef organ) noexcept;
+void switch_to_dynamic(StepContext& context, SolidRef solid) noexcept;
+void switch_to_dynamic(StepContext& context, CuttableRef organ) noexcept;
 
 /// Around a tick of the network of an organ that has just been handed over.
 void before_network(StepContext& context, SolidRef solid) noexcept;

@@ -60,7 +60,7 @@ void pull_on_hosts(StepContext& c, StrandRef r) noexcept {
   }
 }
 
-void contain(StepContext& c, StrandRef r) noexcept { turn_back(c.model.cavity, c.state.strands[r.index]); }
+void clamp_to_cavity(StepContext& c, StrandRef r) noexcept { turn_back(c.model.cavity, c.state.strands[r.index]); }
 
 Parting cut(StepContext& c, StrandRef r, int element) noexcept {
   tissue::cut_element(c.state.strands[r.index], element);

@@ -15,7 +15,7 @@ void touch(StepContext& context, StrandRef strand, HandContact& hand) noexcept;
 void advance(StepContext& context, StrandRef strand) noexcept;
 /// What its ends then do to their hosts.
 void pull_on_hosts(StepContext& context, StrandRef strand) noexcept;
-void contain(StepContext& context, StrandRef strand) noexcept;
+void clamp_to_cavity(StepContext& context, StrandRef strand) noexcept;
 
 /// An element is cut through.
 Parting cut(StepContext& context, StrandRef strand, int element) noexcept;

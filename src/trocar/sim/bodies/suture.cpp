@@ -34,7 +34,7 @@ void rest_sutures(StepContext& c) noexcept {
   rest_slings(c);
 }
 
-void sew(StepContext& c) noexcept {
+void step_sutures(StepContext& c) noexcept {
   if (!has_sutures(c)) return;
   see_again(c);
   lead_slings(c);
@@ -42,7 +42,7 @@ void sew(StepContext& c) noexcept {
       interactions::part_of<Suture>(c.model.objects), bodies_of(c), c.model.gravity, kTick, c.model.cavity,
       interactions::part_of<Suture>(c.state.objects), interactions::part_of<Suture>(c.work.objects));
   if (r.overflowed) c.report.flags |= StepReport::kTooManyLoads;
-  if (r.torn.exists()) tell(c, Event::torn, 0, r.torn);
+  if (r.torn.exists()) emit_event(c, Event::torn, 0, r.torn);
   watch_slings(c);
   if (!r.bad.exists() || c.report.first_bad_body.exists()) return;
   c.report.flags |= tissue::StepReport::kNonFinite;

@@ -8,7 +8,7 @@ namespace trocar::sim {
 /// What they lie on and press against; tissue bears what they did to it in the last tick.
 void rest_sutures(StepContext& context) noexcept;
 /// Stage: needles and threads move, pierce, and go through tissue.
-void sew(StepContext& context) noexcept;
+void step_sutures(StepContext& context) noexcept;
 /// Blades that have just closed part the thread between them. @return was there one?
 bool cut_threads(StepContext& context, std::size_t hand) noexcept;
 /// A clip that has closed on nothing else: on thread?

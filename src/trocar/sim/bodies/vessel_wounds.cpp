@@ -35,7 +35,7 @@ interactions::VesselOpening* opening_at(StepContext& c, int vessel, double s) no
 void open_vessel(StepContext& c, int vessel, double s, double share, int hand) noexcept {
   interactions::VesselOpening* o = opening_at(c, vessel, s);
   if (!o) {
-    c.report.flags |= StepReport::kBookFull;
+    c.report.flags |= StepReport::kRecordsFull;
     return;
   }
   const vessels::FlowSegment& segment = c.model.vessels.flow.segments[size_t(vessel)];
@@ -154,7 +154,7 @@ namespace {
 
 bool close_vessel(StepContext& c, const interactions::VesselClip& closed) noexcept {
   if (c.state.vessel_clip_count == interactions::kMaxVesselClips) {
-    c.report.flags |= StepReport::kBookFull;
+    c.report.flags |= StepReport::kRecordsFull;
     return false;
   }
   c.state.vessel_clips[size_t(c.state.vessel_clip_count++)] = closed;

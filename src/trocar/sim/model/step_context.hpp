@@ -14,13 +14,15 @@ struct StepContext {
   StepReport& report;
 };
 
-inline void tell(StepContext& c, Event::Kind kind, int tool, int index) noexcept {
+inline void emit_event(StepContext& c, Event::Kind kind, int tool, int index) noexcept {
   if (c.report.event_count < kMaxEvents - kRoomForTears) c.report.events[c.report.event_count++] = {kind, tool, index};
 }
-inline void tell(StepContext& c, Event::Kind kind, int tool, BodyId body) noexcept { tell(c, kind, tool, body.code()); }
+inline void emit_event(StepContext& c, Event::Kind kind, int tool, BodyId body) noexcept {
+  emit_event(c, kind, tool, body.code());
+}
 /// A grip has ended: tells whether it slipped, or the hand let go.
-inline void tell_lost(StepContext& c, size_t hand, int slips_before) noexcept {
-  tell(c, c.state.tools[hand].slipped > slips_before ? Event::slipped : Event::released, int(hand), -1);
+inline void emit_grip_end(StepContext& c, size_t hand, int slips_before) noexcept {
+  emit_event(c, c.state.tools[hand].slipped > slips_before ? Event::slipped : Event::released, int(hand), -1);
 }
 
 }  // namespace trocar::sim

@@ -91,11 +91,11 @@ struct StepReport {
     kTooManyLoads = 1u << 16,  ///< contacts did not fit the reserved capacity: some were left out this tick
     kBadInput =
         1u << 17,  ///< an input was not finite (that hand stayed), or its instrument not in the rack (not exchanged)
-    kBookFull = 1u << 18,   ///< the book of clips or cuts, or what an organ keeps for cuts, is full: clips are lost,
-                            ///< blades no longer cut, tears open no further
-    kBloodFlow = 1u << 19,  ///< blood flow found no solution and was not advanced; restore a State
-    kHeatFull = 1u << 22,   ///< no room for more heated tissue: raise "bricks" or "awake" of the scene's energy
-    kDropsFull = 1u << 20,  ///< no room for more drops of fluid: what flowed went straight into the pool
+    kRecordsFull = 1u << 18,  ///< the book of clips or cuts, or what an organ keeps for cuts, is full: clips are lost,
+                              ///< blades no longer cut, tears open no further
+    kBloodFlow = 1u << 19,    ///< blood flow found no solution and was not advanced; restore a State
+    kHeatFull = 1u << 22,     ///< no room for more heated tissue: raise "bricks" or "awake" of the scene's energy
+    kDropsFull = 1u << 20,    ///< no room for more drops of fluid: what flowed went straight into the pool
   };
   std::uint32_t flags = 0;
   BodyId first_bad_body;

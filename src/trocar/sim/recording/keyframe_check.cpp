@@ -86,8 +86,8 @@ bool sound(const Model& model, const State& s) {
     for (std::size_t r = 0; r < organ.dose.size(); ++r)
       if (!(organ.dose[r] >= 0 && organ.dose[r] < 1e6f) || organ.since[r] > s.tick + 1) return false;
   bool good = true;
-  visit_books(model, s, [&](auto verb, auto book) {
-    for (const auto& record : book.used()) good = good && verb.sound(model, record);
+  visit_record_buffers(model, s, [&](auto verb, auto buffer) {
+    for (const auto& record : buffer.used()) good = good && verb.sound(model, record);
   });
   return good;
 }

@@ -129,10 +129,10 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   }
   in.take(&s.tools, 1);
   in.take(&s.scope, 1);
-  visit_books(model, s, [&in](auto, auto book) {
-    in.take(&book.count, 1);
-    in.good = in.good && book.count >= 0 && size_t(book.count) <= book.records.size();
-    if (in.good) in.take(book.used().data(), book.used().size());
+  visit_record_buffers(model, s, [&in](auto, auto buffer) {
+    in.take(&buffer.count, 1);
+    in.good = in.good && buffer.count >= 0 && size_t(buffer.count) <= buffer.records.size();
+    if (in.good) in.take(buffer.used().data(), buffer.used().size());
   });
   for (auto* bodies : {&s.parted, &s.torn})
     for (std::vector<std::uint8_t>& parted : *bodies) {

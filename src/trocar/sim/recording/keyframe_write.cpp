@@ -79,9 +79,9 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
   }
   put(out, &s.tools, 1);
   put(out, &s.scope, 1);
-  visit_books(model, s, [&out](auto, auto book) {
-    put(out, &book.count, 1);
-    put(out, book.used().data(), book.used().size());
+  visit_record_buffers(model, s, [&out](auto, auto buffer) {
+    put(out, &buffer.count, 1);
+    put(out, buffer.used().data(), buffer.used().size());
   });
   for (const auto* bodies : {&s.parted, &s.torn})
     for (const std::vector<std::uint8_t>& parted : *bodies) {

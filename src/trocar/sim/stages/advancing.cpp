@@ -6,13 +6,13 @@
 namespace trocar::sim {
 
 // Loads start afresh with the springs that hang organs in space.
-void hang_organs(StepContext& c) noexcept {
+void apply_anchor_loads(StepContext& c) noexcept {
   visit_bodies(c.model, [&c](auto body) { hang(c, body); });
   hang_objects(c);
 }
 
 // Folds pull on what carries them.
-void pull_on_borders(StepContext& c) noexcept {
+void apply_border_loads(StepContext& c) noexcept {
   for_each(c.work.pool, c.work.membrane_order, [&c](size_t i) noexcept { find_pulls(c, MembraneRef{i}); });
   visit_membranes(c.model, [&c](auto body) { pull_on_holders(c, body); });
 }

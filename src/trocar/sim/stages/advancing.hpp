@@ -6,9 +6,9 @@
 namespace trocar::sim {
 
 /// Loads start afresh with the springs that hang organs in space.
-void hang_organs(StepContext& context) noexcept;
+void apply_anchor_loads(StepContext& context) noexcept;
 /// Folds pull on what carries them.
-void pull_on_borders(StepContext& context) noexcept;
+void apply_border_loads(StepContext& context) noexcept;
 /// Strands: implicit, ends where their hosts put them, pulling on them.
 void advance_strands(StepContext& context) noexcept;
 /// Organs: explicit networks in their own sub-steps.

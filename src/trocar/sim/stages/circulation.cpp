@@ -86,7 +86,7 @@ void push_hands(StepContext& c, const interactions::VesselPoint& p, Vec3d at, do
 }  // namespace
 
 // Bends count as drawn: arteries are held taut lengthwise, a pulse does not buckle them.
-void beat(StepContext& c) noexcept {
+void apply_pulse_loads(StepContext& c) noexcept {
   if (!c.model.vessels.there()) return;
   // A wave is through a vessel within a tick or two: its middle speaks for all of it.
   read_middles(c.model.vessels.flow, c.state.flow, c.work.walls, c.work.busy);
@@ -203,7 +203,7 @@ void note_bleeds(StepContext& c) noexcept {
 
 }  // namespace
 
-void let_blood_flow(StepContext& c) noexcept {
+void update_blood_flow(StepContext& c) noexcept {
   if (!c.model.vessels.there()) return;
   open_bleeder(c);
   lay_out(c);

@@ -10,9 +10,9 @@ namespace trocar::sim {
 void pose_vessels(StepContext& context) noexcept;
 
 /// The pulse moves what carries vessels: where a vessel bends, a pressure above the mean pushes it outwards.
-void beat(StepContext& context) noexcept;
+void apply_pulse_loads(StepContext& context) noexcept;
 
 /// A tick of blood flow with the openings and clips of the State; Work::bleeds says what leaves, where, which way.
-void let_blood_flow(StepContext& context) noexcept;
+void update_blood_flow(StepContext& context) noexcept;
 
 }  // namespace trocar::sim

@@ -13,7 +13,7 @@ size_t sides_of(size_t all, size_t hands) noexcept { return hands > 0 ? all / ha
 }  // namespace
 
 // Instruments on tissue: contact and hold.
-void touch_tissue(StepContext& c) noexcept {
+void resolve_instrument_contacts(StepContext& c) noexcept {
   const interactions::TissueView view = tissue_of(c);
   const size_t hands = c.model.hands.size();
   for (size_t t = 0; t < hands; ++t) {
@@ -33,7 +33,7 @@ void touch_tissue(StepContext& c) noexcept {
 }
 
 // Organs on organs.
-void touch_organs(StepContext& c) noexcept {
+void resolve_body_contacts(StepContext& c) noexcept {
   State& s = c.state;
   visit_cuttables(c.model, [&c](auto organ) { touch_itself(c, organ); });
   size_t at = 0;

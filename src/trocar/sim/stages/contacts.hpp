@@ -6,8 +6,8 @@
 namespace trocar::sim {
 
 /// Instruments on tissue: contact and hold.
-void touch_tissue(StepContext& context) noexcept;
+void resolve_instrument_contacts(StepContext& context) noexcept;
 /// Organs on organs.
-void touch_organs(StepContext& context) noexcept;
+void resolve_body_contacts(StepContext& context) noexcept;
 
 }  // namespace trocar::sim

@@ -28,8 +28,8 @@ tissue::Box cavity_around(const Model& model) {
   return {box.low - more, box.high + more};
 }
 
-void contain(StepContext& c) noexcept {
-  visit_bodies(c.model, [&c](auto body) { contain(c, body); });
+void clamp_to_cavity(StepContext& c) noexcept {
+  visit_bodies(c.model, [&c](auto body) { clamp_to_cavity(c, body); });
 }
 
 }  // namespace trocar::sim

@@ -13,6 +13,6 @@ tissue::Box cavity_around(const Model& model);
 
 /// Stage: what has left Model::cavity is turned back. Only speeds change: outward ones end, and inwards nothing gets
 /// more than would take it back within a quarter of a second. A body goes out by about its own thickness.
-void contain(StepContext& c) noexcept;
+void clamp_to_cavity(StepContext& c) noexcept;
 
 }  // namespace trocar::sim

@@ -59,7 +59,7 @@ void share_out_pending(StepContext& c, NeedleHand& n, bool drugged) noexcept {
   const size_t organ = n.entry.body.index();
   std::int64_t in = 0;
   if (takes_up(c, organ)) {
-    visit_organ(c.model, organ, [&c](auto body) { hand_over(c, body); });
+    visit_organ(c.model, organ, [&c](auto body) { switch_to_dynamic(c, body); });
     const double spread = tissue::spread_of(fluids::kM3PerPicolitre * double(n.here));
     in = tissue::infuse(c.model.injection.organs[organ].infusion, c.work.nodes[organ], n.at, n.pending, spread, drugged,
                         std::uint32_t(c.state.tick + 1), c.state.injection.organs[organ], c.work.infusion[organ]);
@@ -95,7 +95,7 @@ void go_in(StepContext& c, size_t hand, NeedleHand& n) noexcept {
   n.here = n.blood = 0;
   n.drawn_for = 0;
   ++n.punctures;
-  tell(c, Event::pierced, int(hand), n.entry.body);
+  emit_event(c, Event::pierced, int(hand), n.entry.body);
 }
 
 /// The point at a skin that it has not pierced.
@@ -203,7 +203,7 @@ void push(StepContext& c, size_t hand, const interactions::NeedleModel& needle, 
   n.tip_pressure = p.tip;
   n.plunger = p.force;
   book(c, hand, std::min(n.left, fluids::whole_picolitres(p.flow, kTick, n.carry)), needle, n);
-  if (n.in() && p.flow > 0 && !n.pushing) tell(c, Event::injected, int(hand), n.entry.body);
+  if (n.in() && p.flow > 0 && !n.pushing) emit_event(c, Event::injected, int(hand), n.entry.body);
   n.pushing = p.flow > 0 ? 1 : 0;
 }
 

@@ -15,7 +15,7 @@ constexpr double kStillTouch = 2e-5;  // [m] apart that is touching: what roundi
 constexpr double kNearTrocar = 0.01;  // [m] of a shaft that does not move
 
 /// Where two instruments overlap most.
-struct Meeting {
+struct DeepestContact {
   collision::RodContact contact;
   bool there = false;
 };
@@ -26,9 +26,9 @@ ToolShape before_of_hand(const StepContext& c, size_t t) noexcept {
 }
 
 /// @param least  overlap that counts [m]
-Meeting meeting_of(const ToolShape& a0, const ToolShape& a, const ToolShape& b0, const ToolShape& b,
-                   double least) noexcept {
-  Meeting deepest;
+DeepestContact deepest_contact(const ToolShape& a0, const ToolShape& a, const ToolShape& b0, const ToolShape& b,
+                               double least) noexcept {
+  DeepestContact deepest;
   deepest.contact.depth = least;
   for (int p = 0; p < end_of(a); p = interactions::next(p))
     for (int q = 0; q < end_of(b); q = interactions::next(q)) {
@@ -57,7 +57,7 @@ void shift(const interactions::ToolModel& tool, Vec3d port, const ToolShape& sha
 }
 
 /// How far a hand wants its instrument along `n` from where it is, at the place where it is met.
-double wants(const StepContext& c, size_t t, const ToolShape& shape, Vec3d place, Vec3d n) noexcept {
+double commanded_displacement(const StepContext& c, size_t t, const ToolShape& shape, Vec3d place, Vec3d n) noexcept {
   const interactions::ToolModel& tool = c.model.tool(c.state, t);
   const ToolInput& in = c.input.tools[t];
   const WristInput& bent = c.input.wrists[t];
@@ -87,12 +87,12 @@ void add(double (&sum)[3], Vec3d f) noexcept {
 
 }  // namespace
 
-void part_instruments(StepContext& c) noexcept {
+void separate_instruments(StepContext& c) noexcept {
   if (!c.model.instruments_push) return;
   for (int round = 0; round < kRounds; ++round)
     for_pairs(c, [&c](size_t i, size_t j) noexcept {
       const ToolShape a = shape_of_hand(c, i), b = shape_of_hand(c, j);
-      const Meeting m = meeting_of(before_of_hand(c, i), a, before_of_hand(c, j), b, 0);
+      const DeepestContact m = deepest_contact(before_of_hand(c, i), a, before_of_hand(c, j), b, 0);
       if (!m.there) return;
       const Vec3d half = 0.5 * m.contact.depth * m.contact.normal;
       shift(c.model.tool(c.state, i), port_of(c.model, c.state, i), a, m.contact.on_first, -half, c.state.tools[i]);
@@ -104,10 +104,11 @@ void feel_instruments(StepContext& c) noexcept {
   if (!c.model.instruments_push) return;
   for_pairs(c, [&c](size_t i, size_t j) noexcept {
     const ToolShape a = shape_of_hand(c, i), b = shape_of_hand(c, j);
-    const Meeting m = meeting_of(a, a, b, b, -kStillTouch);
+    const DeepestContact m = deepest_contact(a, a, b, b, -kStillTouch);
     if (!m.there) return;
     const Vec3d n = m.contact.normal;
-    const double through = wants(c, i, a, m.contact.on_first, n) - wants(c, j, b, m.contact.on_second, n);
+    const double through = commanded_displacement(c, i, a, m.contact.on_first, n) -
+                           commanded_displacement(c, j, b, m.contact.on_second, n);
     const Vec3d force = std::clamp(kBothHands * through, 0.0, kMostPush) * n;
     add(c.state.tools[i].contact_force, -force);
     add(c.state.tools[j].contact_force, force);

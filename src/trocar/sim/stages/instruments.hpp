@@ -7,7 +7,7 @@ namespace trocar::sim {
 
 /// After the hands have moved: rods that overlap part, each by half, about their trocars. They were apart when the tick
 /// began, so what side each is on needs no memory.
-void part_instruments(StepContext& context) noexcept;
+void separate_instruments(StepContext& context) noexcept;
 
 /// What each hand feels of that, among its contacts: 250 N/m of how far both hands want to be through each other, at
 /// most 15 N. Two hands of 500 N/m (interactions/instrument/wall_stop.hpp) in a row.

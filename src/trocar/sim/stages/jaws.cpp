@@ -4,7 +4,7 @@
 namespace trocar::sim {
 
 // Every hand does what its instrument can.
-void work_jaws(StepContext& c) noexcept {
+void actuate_jaws(StepContext& c) noexcept {
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     const interactions::ToolModel& model = c.model.tool(c.state, t);
     c.work.shapes[t] = shape_of(c.model, c.state, t);

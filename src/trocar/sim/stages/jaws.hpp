@@ -5,6 +5,6 @@
 
 namespace trocar::sim {
 
-void work_jaws(StepContext& context) noexcept;
+void actuate_jaws(StepContext& context) noexcept;
 
 }  // namespace trocar::sim

@@ -3,7 +3,7 @@
 
 namespace trocar::sim {
 
-void contract(StepContext& c) noexcept {
+void apply_peristalsis(StepContext& c) noexcept {
   const double now = double(c.state.tick) * kTick;
   for (const PeristalsisModel& p : c.model.motion.peristalsis) {
     const std::size_t organ = std::size_t(p.solid);

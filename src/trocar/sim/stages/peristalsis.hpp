@@ -5,6 +5,6 @@
 
 namespace trocar::sim {
 
-void contract(StepContext& c) noexcept;
+void apply_peristalsis(StepContext& c) noexcept;
 
 }  // namespace trocar::sim

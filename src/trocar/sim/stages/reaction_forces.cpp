@@ -28,7 +28,7 @@ void account(StepContext& c, interactions::Tag tag, Vec3d force) noexcept {
 
 }  // namespace
 
-void gather_reaction_forces(StepContext& c) noexcept {
+void collect_reaction_forces(StepContext& c) noexcept {
   for (interactions::ToolState& tool : c.state.tools) {
     for (double& f : tool.contact_force) f = 0;
     for (interactions::Hold& h : tool.hold) h.force[0] = h.force[1] = h.force[2] = 0;
@@ -52,7 +52,7 @@ void gather_reaction_forces(StepContext& c) noexcept {
     const int held = tool.holds, slips = tool.slipped;
     slip_in_jaws(c, t);
     interactions::slip(c.model.tool(c.state, t), c.work.shapes[t], view, tool);
-    if (held > 0 && tool.holds == 0) tell_lost(c, t, slips);
+    if (held > 0 && tool.holds == 0) emit_grip_end(c, t, slips);
     interactions::remember(tool, joints_of(c.state, t), c.work.touches[t], c.state.touches[t], port_shift(c.state, t));
   }
 }

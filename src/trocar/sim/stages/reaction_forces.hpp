@@ -7,6 +7,6 @@
 namespace trocar::sim {
 
 /// Adds up what the tissue did to each instrument in this tick; what is pulled too hard slips out of the jaws.
-void gather_reaction_forces(StepContext& context) noexcept;
+void collect_reaction_forces(StepContext& context) noexcept;
 
 }  // namespace trocar::sim

@@ -27,10 +27,10 @@ namespace trocar::sim {
 namespace {
 
 // What the endoscope sees.
-void look_for_targets(StepContext& c) noexcept { update_visibility(c.model, c.state, c.work); }
+void update_target_visibility(StepContext& c) noexcept { update_visibility(c.model, c.state, c.work); }
 
 // Reports.
-void sum_up(StepContext& c) noexcept {
+void collect_report(StepContext& c) noexcept {
   visit_bodies(c.model, [&c](auto body) {
     const tissue::StepReport r = report_of(c, body);
     c.report.flags |= r.flags | (overloaded(c, body) ? StepReport::kTooManyLoads : 0u);
@@ -45,39 +45,39 @@ void sum_up(StepContext& c) noexcept {
 
 constexpr Stage kStages[] = {
     {"move hands", move_hands},
-    {"part instruments", part_instruments},
+    {"separate instruments", separate_instruments},
     {"pose skins", pose_skins},
     {"pose vessels", pose_vessels},
-    {"hang organs", hang_organs},
-    {"contract", contract},
-    {"work jaws", work_jaws},
-    {"touch tissue", touch_tissue},
+    {"apply anchor loads", apply_anchor_loads},
+    {"apply peristalsis", apply_peristalsis},
+    {"actuate jaws", actuate_jaws},
+    {"resolve instrument contacts", resolve_instrument_contacts},
     {"pierce tissue", pierce_tissue},
-    {"touch organs", touch_organs},
-    {"adhere", apply_adhesion},
-    {"gather scars", gather_scars},
-    {"beat", beat},
-    {"press with drops", press_with_drops},
-    {"pull on borders", pull_on_borders},
-    {"pull on bonds", pull_on_bonds},
-    {"pull on fat", pull_on_fat},
+    {"resolve body contacts", resolve_body_contacts},
+    {"apply adhesion", apply_adhesion},
+    {"apply scars", apply_scars},
+    {"apply pulse loads", apply_pulse_loads},
+    {"apply drop impacts", apply_drop_impacts},
+    {"apply border loads", apply_border_loads},
+    {"apply bond loads", apply_bond_loads},
+    {"apply fat loads", apply_fat_loads},
     {"advance strands", advance_strands},
     {"swell tissue", swell_tissue},
     {"advance organs", advance_organs},
     {"advance membranes", advance_membranes},
-    {"let stones fall", let_stones_fall},
+    {"update spilled stones", update_spilled_stones},
     {"advance objects", advance_objects},
-    {"sew", sew},
-    {"hold in bags", hold_in_bags},
-    {"contain", contain},
-    {"gather reactions", gather_reaction_forces},
+    {"step sutures", step_sutures},
+    {"update bags", update_bags},
+    {"clamp to cavity", clamp_to_cavity},
+    {"collect reaction forces", collect_reaction_forces},
     {"heat tissue", heat_tissue},
-    {"tear", tear_tissue},
-    {"let blood flow", let_blood_flow},
+    {"tear tissue", tear_tissue},
+    {"update blood flow", update_blood_flow},
     {"inject", inject},
     {"move fluids", move_fluids},
-    {"look for targets", look_for_targets},
-    {"sum up", sum_up},
+    {"update visibility", update_target_visibility},
+    {"collect report", collect_report},
 };
 
 }  // namespace

@@ -25,7 +25,7 @@ int culprit(const StepContext& c, BodyId body) noexcept {
   return hardest;
 }
 
-void tell_torn(StepContext& c, BodyId body) noexcept {
+void emit_torn(StepContext& c, BodyId body) noexcept {
   const int hand = culprit(c, body);
   if (c.report.event_count == kMaxEvents || hand < 0) return;
   c.report.events[c.report.event_count++] = {Event::torn, hand, body.code()};
@@ -50,7 +50,7 @@ bool tear_body(StepContext& c, Body body) noexcept {
   const Parting tear_of_it = tear(c, body);
   if (!tear_of_it.parted) return false;
   open_vessels(c, body.id(), tear_of_it, -1);
-  tell_torn(c, body.id());
+  emit_torn(c, body.id());
   return true;
 }
 

@@ -216,7 +216,7 @@ void press_strand(StepContext& c, size_t i, int node, const Push& push) noexcept
 
 }  // namespace
 
-void press_with_drops(StepContext& c) noexcept {
+void apply_drop_impacts(StepContext& c) noexcept {
   using interactions::WetTarget;
   const interactions::WetOrder order{size_t(c.model.surfaces()), c.model.membranes.size()};
   for (int i = 0; i < c.state.impact_count; ++i) {

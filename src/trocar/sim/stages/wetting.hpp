@@ -7,7 +7,7 @@
 namespace trocar::sim {
 
 /// What drops gave to tissue in the last tick (State::impacts) pushes it in this one.
-void press_with_drops(StepContext& context) noexcept;
+void apply_drop_impacts(StepContext& context) noexcept;
 
 void move_fluids(StepContext& context) noexcept;
 

@@ -19,9 +19,9 @@ void Clipping::work(StepContext& c, std::size_t t) noexcept {
     const int clip = s.clip_count - 1;
     clip_vessels(c, t, clip);
     if (s.clips[size_t(clip)].dropped()) clip_threads(c, t, clip);
-    tell(c, s.clips[size_t(clip)].dropped() ? Event::dropped_clip : Event::clipped, int(t), clip);
+    emit_event(c, s.clips[size_t(clip)].dropped() ? Event::dropped_clip : Event::clipped, int(t), clip);
   } else if (tool.clips_left < clips) {
-    c.report.flags |= StepReport::kBookFull;
+    c.report.flags |= StepReport::kRecordsFull;
   }
 }
 

@@ -55,7 +55,7 @@ void cut_cuttables(StepContext& c, size_t t, const geometry::Blade& blade) noexc
 }
 
 /// Where in the book these blades' cut of a membrane's strand stands that was made in this tick; else its end.
-int place_in_book(const State& s, size_t t, std::int32_t strand) noexcept {
+int place_in_buffer(const State& s, size_t t, std::int32_t strand) noexcept {
   for (int i = 0; i < s.cut_count; ++i) {
     const interactions::Cut& cut = s.cuts[size_t(i)];
     if (cut.tick == s.tick && cut.tool == std::int32_t(t) && cut.strand == strand) return i;
@@ -72,7 +72,7 @@ void cut_folds(StepContext& c, size_t t, const geometry::Blade& blade, bool clos
     const MembraneBody& m = model_of(c.model, r);
     if (m.sheet.closed() != closed_walls) return;
     if (!m.cuttable || !c.work.sheet_poses[r.index].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) return;
-    const int place = place_in_book(s, t, m.strand);
+    const int place = place_in_buffer(s, t, m.strand);
     if (place == interactions::kMaxCuts) return;  // what cannot be recorded is not cut
     const Parting fold = cut(c, r, blade);
     if (!fold.parted) return;
@@ -132,9 +132,9 @@ void Cutting::work(StepContext& c, std::size_t t) noexcept {
     cut_folds(c, t, blade, false);
     open_with_strands(c, t, before);
     open_vessels(c, blade, {}, int(t));
-    if (s.cut_count == interactions::kMaxCuts) c.report.flags |= StepReport::kBookFull;
+    if (s.cut_count == interactions::kMaxCuts) c.report.flags |= StepReport::kRecordsFull;
   }
-  for (int cut = before; cut < s.cut_count; ++cut) tell(c, Event::cut, int(t), cut);
+  for (int cut = before; cut < s.cut_count; ++cut) emit_event(c, Event::cut, int(t), cut);
 }
 
 bool Cutting::sound(const Model& model, const interactions::Cut& cut) noexcept {

@@ -11,8 +11,8 @@ struct Cutting {
   static void work(StepContext& context, std::size_t hand) noexcept;
   static constexpr bool kInAll = true;
   template <class S>
-  static auto book(S& state) noexcept {
-    return Book{state.cuts, state.cut_count};
+  static auto buffer(S& state) noexcept {
+    return RecordBuffer{state.cuts, state.cut_count};
   }
   static bool sound(const Model& model, const interactions::Cut& cut) noexcept;
 };

@@ -10,13 +10,13 @@ namespace trocar::sim {
 
 /// @tparam Record  const for who only reads
 template <class Record, class Count>
-struct Book {
+struct RecordBuffer {
   std::span<Record> records;  ///< all that there is room for
   Count& count;               ///< of them in use
 
   std::span<Record> used() const noexcept { return records.first(std::size_t(count)); }
 };
 template <class Records, class Count>
-Book(Records&, Count&) -> Book<std::remove_reference_t<decltype(std::declval<Records&>()[0])>, Count>;
+RecordBuffer(Records&, Count&) -> RecordBuffer<std::remove_reference_t<decltype(std::declval<Records&>()[0])>, Count>;
 
 }  // namespace trocar::sim

@@ -89,7 +89,7 @@ Vec3d middle_of(const ElectrodeTouch& touch) noexcept { return 0.5 * (touch.cont
 template <class Ref>
 void hand_over_if_scarred(StepContext& c, Ref organ) noexcept {
   for (int i = 0; i < c.state.scarred_count; ++i)
-    if (c.state.scarred[size_t(i)].body == organ.id()) return hand_over(c, organ);
+    if (c.state.scarred[size_t(i)].body == organ.id()) return switch_to_dynamic(c, organ);
 }
 
 void scar(StepContext& c, const ElectrodeTouch& touch, SolidRef solid) noexcept {
@@ -183,7 +183,7 @@ void scar_tissue(StepContext& c, const ElectrodeTouch& touch) noexcept {
   visit(c.model, touch.contact.body, [&](auto body) { scar(c, touch, body); });
 }
 
-void gather_scars(StepContext& c) noexcept {
+void apply_scars(StepContext& c) noexcept {
   for (Springs& of : c.work.organ_scars) of.clear();
   for (Springs& of : c.work.membrane_scars) of.clear();
   for (int i = 0; i < c.state.scarred_count; ++i) {

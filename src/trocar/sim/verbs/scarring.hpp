@@ -11,7 +11,7 @@
 namespace trocar::sim {
 
 /// What heat has changed, body by body, for their steps.
-void gather_scars(StepContext& context) noexcept;
+void apply_scars(StepContext& context) noexcept;
 
 /// Once in a step of the heat, for a hand whose electrode is at the tissue `touch`: what shrinks and stiffens there.
 void scar_tissue(StepContext& context, const interactions::ElectrodeTouch& touch) noexcept;

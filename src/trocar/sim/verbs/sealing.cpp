@@ -34,7 +34,7 @@ VesselSeal* seal_at(StepContext& c, int vessel, double from, double to, int open
     if (std::fabs(s.from - from) <= 0.5 * (to - from)) return &s;  // jaws move a little while they hold
   }
   if (c.state.seal_count == interactions::kMaxSeals) {
-    c.report.flags |= StepReport::kBookFull;
+    c.report.flags |= StepReport::kRecordsFull;
     return nullptr;
   }
   VesselSeal& fresh = c.state.seals[size_t(c.state.seal_count++)];

@@ -5,7 +5,7 @@
 //
 // and, where it leaves something that is drawn, records of that, which keyframes keep:
 //
-//   static auto book(State& state);                                the records and how many of them are in use
+//   static auto buffer(State& state);                                the records and how many of them are in use
 //   static bool sound(const Model& model, const Record& record);   does a record name what is there?
 //   static constexpr bool kInAll = true;                           also in scenes where no instrument does it
 //
@@ -31,15 +31,15 @@ bool is_done_in(const Model& model) noexcept {
   return false;
 }
 
-/// f(verb, book) of every verb that keeps one in this scene.
+/// f(verb, buffer) of every verb that keeps one in this scene.
 template <class S, class F>
-void visit_books(const Model& model, S& state, F&& f) {
+void visit_record_buffers(const Model& model, S& state, F&& f) {
   Verbs::for_each([&](auto verb) {
     using V = decltype(verb);
     if constexpr (requires { V::kInAll; }) {
-      f(verb, V::book(state));
-    } else if constexpr (requires { V::book(state); }) {
-      if (is_done_in<V>(model)) f(verb, V::book(state));
+      f(verb, V::buffer(state));
+    } else if constexpr (requires { V::buffer(state); }) {
+      if (is_done_in<V>(model)) f(verb, V::buffer(state));
     }
   });
 }
