@@ -74,7 +74,7 @@ class SutureAbuse {
   Vec3d some_place(size_t h) {
     const size_t i = some_suture();
     const interactions::SutureModel& m = m_model.objects.sutures.list[i];
-    const int place = m.grips > 0 && any_of(2) == 0 ? any_of(m.grips) : any_of(m.places());
+    const int place = m.grips > 0 && any_of(2) == 0 ? any_of(m.grips) : any_of(m.grip_point_count());
     const Vec3d p = interactions::suture_place(m, m_state.objects.sutures[i], place);
     return p + any(0.001, 0.005) * normalised(p - m_model.hands[h].port);
   }

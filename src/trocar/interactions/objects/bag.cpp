@@ -60,7 +60,7 @@ bool Bag::overloaded(const Work& work) noexcept {
   return std::any_of(work.list.begin(), work.list.end(), [](const BagWork& w) { return w.overflowed; });
 }
 
-bool Bag::sound(const States& states) noexcept {
+bool Bag::is_valid(const States& states) noexcept {
   for (const BagState& s : states) {
     if (!(s.hoop >= 0 && s.hoop <= 1 && s.unrolled >= 0 && s.unrolled <= 1)) return false;
     if (!within_reach(s.frame.tip) || !within_reach(s.frame.axis) || !within_reach(s.frame.up)) return false;

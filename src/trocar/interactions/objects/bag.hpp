@@ -206,7 +206,7 @@ struct BagWorks {
 /// of its own (sim/bodies/bag.hpp).
 struct Bag {
   static constexpr BodyKind kKind = BodyKind::bag;
-  static constexpr bool kHard = false;
+  static constexpr bool kRigidInJaws = false;
   using Models = BagModels;
   using States = std::vector<BagState>;
   using Work = BagWorks;
@@ -218,7 +218,7 @@ struct Bag {
   static int count(const Models& m) noexcept { return int(m.list.size()); }
   static const std::string& name(const Models& m, size_t i) noexcept { return m.list[i].name; }
   static const std::string& look(const Models& m, size_t i) noexcept { return m.list[i].look; }
-  static int places(const Models&, size_t) noexcept { return 0; }
+  static int grip_point_count(const Models&, size_t) noexcept { return 0; }
 
   static States start(const Models& models);
   static Work make_work(const Models& models, int hands);
@@ -235,7 +235,7 @@ struct Bag {
     return middle(models, states, hold.body.index());
   }
   static double thickness(const Models&, const Hold&) noexcept { return 0; }
-  static bool whole(const States&, const Hold&) noexcept { return false; }
+  static bool is_attached(const States&, const Hold&) noexcept { return false; }
   static void pull(const Models&, const States&, const Hold&, Vec3d, HoldLaw, Tag, Work&) noexcept {}
   static tissue::StepReport advance(const Models&, Vec3d, double, const tissue::Box&, States&, Work&) noexcept {
     return {};
@@ -248,13 +248,13 @@ struct Bag {
 
   /// Hoop and frame, what is where, and nodes to 10 um beside the hoop's middle.
   template <class States_, class F>
-  static void shown(const Models& models, States_& states, F&& f);
-  static bool sound(const States& states) noexcept;
+  static void serialize_display(const Models& models, States_& states, F&& f);
+  static bool is_valid(const States& states) noexcept;
   static void blend(const States& a, const States& b, double f, States& out) noexcept;
 };
 
 template <class States_, class F>
-void Bag::shown(const Models& models, States_& states, F&& f) {
+void Bag::serialize_display(const Models& models, States_& states, F&& f) {
   constexpr bool kWrites = std::is_const_v<States_>;
   constexpr double kStep = 1e-5, kMost = 32000;  // [m], steps
   for (size_t i = 0; i < states.size(); ++i) {

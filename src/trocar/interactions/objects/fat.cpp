@@ -159,13 +159,13 @@ double Fat::thickness(const Models& models, const Hold& hold) noexcept {
   return 2 * kFatCompressed * models.list[hold.body.index()].fat.radius;
 }
 
-bool Fat::whole(const States& states, const Hold& hold) noexcept {
+bool Fat::is_attached(const States& states, const Hold& hold) noexcept {
   return !states[hold.body.index()].fat.lobules[size_t(hold.element)].gone();
 }
 
 void Fat::pull(const Models&, const States& states, const Hold& hold, Vec3d target, HoldLaw law, Tag tag,
                Work& work) noexcept {
-  if (!whole(states, hold)) return;
+  if (!is_attached(states, hold)) return;
   tissue::NodeLoad load;
   load.node = hold.element;
   load.k = float(law.stiffness);
@@ -208,7 +208,7 @@ bool Fat::hides(const Models& models, const States& states, Vec3d from, Vec3d to
   return false;
 }
 
-bool Fat::sound(const States& states) noexcept {
+bool Fat::is_valid(const States& states) noexcept {
   for (const FatBodyState& s : states)
     for (const tissue::NodeState& n : s.fat.network.nodes)
       if (!(std::fabs(n.x) < 10 && std::fabs(n.y) < 10 && std::fabs(n.z) < 10)) return false;

@@ -105,7 +105,7 @@ struct TiedWalls {
 /// The kind, as object_kinds.hpp lists it.
 struct Fat {
   static constexpr BodyKind kKind = BodyKind::fat;
-  static constexpr bool kHard = false;
+  static constexpr bool kRigidInJaws = false;
   using Models = FatBodies;
   using States = std::vector<FatBodyState>;
   using Work = FatWorks;
@@ -117,7 +117,7 @@ struct Fat {
   static int count(const Models& m) noexcept { return int(m.list.size()); }
   static const std::string& name(const Models& m, size_t i) noexcept { return m.list[i].name; }
   static const std::string& look(const Models& m, size_t i) noexcept { return m.list[i].look; }
-  static int places(const Models& m, size_t i) noexcept { return m.list[i].fat.lobules(); }
+  static int grip_point_count(const Models& m, size_t i) noexcept { return m.list[i].fat.lobules(); }
 
   static States start(const Models& models);
   static Work make_work(const Models& models, int hands);
@@ -130,7 +130,7 @@ struct Fat {
   static Vec3d middle(const Models& models, const States& states, size_t i) noexcept;
   static Vec3d point(const Models& models, const States& states, const Hold& hold) noexcept;
   static double thickness(const Models& models, const Hold& hold) noexcept;
-  static bool whole(const States& states, const Hold& hold) noexcept;
+  static bool is_attached(const States& states, const Hold& hold) noexcept;
   static void pull(const Models& models, const States& states, const Hold& hold, Vec3d target, HoldLaw law, Tag tag,
                    Work& work) noexcept;
   static tissue::StepReport advance(const Models& models, Vec3d gravity, double tick, const tissue::Box& cavity,
@@ -143,8 +143,8 @@ struct Fat {
 
   /// Places to 10 um beside the drawn ones, which septa hold, and which lobules are gone.
   template <class States_, class F>
-  static void shown(const Models& models, States_& states, F&& f);
-  static bool sound(const States& states) noexcept;
+  static void serialize_display(const Models& models, States_& states, F&& f);
+  static bool is_valid(const States& states) noexcept;
   static void blend(const States& a, const States& b, double f, States& out) noexcept;
 };
 
@@ -191,7 +191,7 @@ void Fat::account(const Work& work, double /*tick*/, Account&& account) noexcept
 }
 
 template <class States_, class F>
-void Fat::shown(const Models& models, States_& states, F&& f) {
+void Fat::serialize_display(const Models& models, States_& states, F&& f) {
   constexpr bool kWrites = std::is_const_v<States_>;
   constexpr double kStep = 1e-5, kMost = 32000;  // [m], steps
   for (size_t i = 0; i < states.size(); ++i) {

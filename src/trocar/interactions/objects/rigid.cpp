@@ -221,7 +221,7 @@ tissue::StepReport Rigid::advance(const Models& models, Vec3d gravity, double h,
   return report;
 }
 
-bool Rigid::sound(const States& states) noexcept { return std::all_of(states.begin(), states.end(), finite); }
+bool Rigid::is_valid(const States& states) noexcept { return std::all_of(states.begin(), states.end(), finite); }
 
 void Rigid::blend(const States& a, const States& b, double f, States& out) noexcept {
   for (size_t i = 0; i < out.size(); ++i) {

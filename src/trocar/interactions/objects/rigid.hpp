@@ -143,7 +143,7 @@ struct RigidWork {
 /// The kind, as object_kinds.hpp lists it.
 struct Rigid {
   static constexpr BodyKind kKind = BodyKind::rigid;
-  static constexpr bool kHard = true;  ///< it keeps its shape between jaws, and lies where it is put down
+  static constexpr bool kRigidInJaws = true;  ///< it keeps its shape between jaws, and lies where it is put down
   using Models = RigidModels;
   using States = std::vector<RigidState>;
   using Work = RigidWork;
@@ -155,7 +155,7 @@ struct Rigid {
   static int count(const Models& m) noexcept { return int(m.list.size()); }
   static const std::string& name(const Models& m, size_t i) noexcept { return m.list[i].name; }
   static const std::string& look(const Models& m, size_t i) noexcept { return m.list[i].look; }
-  static int places(const Models& m, size_t i) noexcept { return int(m.list[i].grips.size()); }
+  static int grip_point_count(const Models& m, size_t i) noexcept { return int(m.list[i].grips.size()); }
 
   static States start(const Models& models);
   static Work make_work(const Models& models, int hands);
@@ -172,7 +172,7 @@ struct Rigid {
   static double thickness(const Models& models, const Hold& hold) noexcept {
     return 2 * models.list[hold.body.index()].radius;
   }
-  static bool whole(const States&, const Hold&) noexcept { return true; }
+  static bool is_attached(const States&, const Hold&) noexcept { return true; }
   static void pull(const Models& models, const States& states, const Hold& hold, Vec3d target, HoldLaw law, Tag tag,
                    Work& work) noexcept;
   /// @param cavity  nothing leaves it
@@ -188,10 +188,10 @@ struct Rigid {
 
   /// What a keyframe holds of them.
   template <class States_, class F>
-  static void shown(const Models&, States_& states, F&& f) {
+  static void serialize_display(const Models&, States_& states, F&& f) {
     f(states.data(), states.size());
   }
-  static bool sound(const States& states) noexcept;
+  static bool is_valid(const States& states) noexcept;
   /// From a to b.
   static void blend(const States& a, const States& b, double f, States& out) noexcept;
 };

@@ -228,7 +228,7 @@ void Suture::pull(const Models& models, const States&, const Hold& hold, Vec3d t
   ++p.count;
 }
 
-bool Suture::sound(const States& states) noexcept { return std::all_of(states.begin(), states.end(), finite_all); }
+bool Suture::is_valid(const States& states) noexcept { return std::all_of(states.begin(), states.end(), finite_all); }
 
 void Suture::blend(const States& a, const States& b, double f, States& out) noexcept {
   for (size_t i = 0; i < out.size(); ++i) {

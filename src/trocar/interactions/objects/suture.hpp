@@ -60,7 +60,7 @@ struct SutureModel {
 
   bool has_needle() const noexcept { return needle.beads > 0; }
   bool has_thread() const noexcept { return thread.nodes > 0; }
-  int places() const noexcept { return grips + thread.nodes; }
+  int grip_point_count() const noexcept { return grips + thread.nodes; }
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
@@ -259,7 +259,7 @@ void hold_from_start(const SutureModel& m, const SutureState& s, BodyId id, cons
 /// The kind, as object_kinds.hpp lists it.
 struct Suture {
   static constexpr BodyKind kKind = BodyKind::suture;
-  static constexpr bool kHard = true;
+  static constexpr bool kRigidInJaws = true;
   using Models = SutureModels;
   using States = std::vector<SutureState>;
   using Work = SutureWorks;
@@ -271,7 +271,7 @@ struct Suture {
   static int count(const Models& m) noexcept { return int(m.list.size()); }
   static const std::string& name(const Models& m, size_t i) noexcept { return m.list[i].name; }
   static const std::string& look(const Models& m, size_t i) noexcept { return m.list[i].look; }
-  static int places(const Models& m, size_t i) noexcept { return m.list[i].places(); }
+  static int grip_point_count(const Models& m, size_t i) noexcept { return m.list[i].grip_point_count(); }
 
   static States start(const Models& models);
   static Work make_work(const Models& models, int hands);
@@ -285,7 +285,7 @@ struct Suture {
   static Vec3d middle(const Models& models, const States& states, size_t i) noexcept;
   static Vec3d point(const Models& models, const States& states, const Hold& hold) noexcept;
   static double thickness(const Models& models, const Hold& hold) noexcept;
-  static bool whole(const States&, const Hold&) noexcept { return true; }
+  static bool is_attached(const States&, const Hold&) noexcept { return true; }
   static void pull(const Models& models, const States& states, const Hold& hold, Vec3d target, HoldLaw law, Tag tag,
                    Work& work) noexcept;
   /// It moves after tissue has (suture_stitch.hpp).
@@ -299,8 +299,8 @@ struct Suture {
 
   /// The needle's pose, the thread's nodes to 10 um beside its middle, what is whole of it, how often it was drawn in.
   template <class States_, class F>
-  static void shown(const Models& models, States_& states, F&& f);
-  static bool sound(const States& states) noexcept;
+  static void serialize_display(const Models& models, States_& states, F&& f);
+  static bool is_valid(const States& states) noexcept;
   static void blend(const States& a, const States& b, double f, States& out) noexcept;
 };
 
@@ -378,7 +378,7 @@ void Suture::account(const Work& work, double, Account&& account) noexcept {
 }
 
 template <class States_, class F>
-void Suture::shown(const Models&, States_& states, F&& f) {
+void Suture::serialize_display(const Models&, States_& states, F&& f) {
   constexpr bool kWrites = std::is_const_v<States_>;
   constexpr double kStep = 1e-5, kMost = 32000;  // [m], steps
   for (auto& s : states) {

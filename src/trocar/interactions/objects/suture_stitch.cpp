@@ -545,7 +545,7 @@ void follow_thread(const SutureModel& m, const SutureState& s, int hand, ToolSta
   for (int i = 0; i < tool.holds; ++i) {
     Hold h = tool.hold[i];
     h.element += shift;
-    if (h.element >= m.grips && h.element < m.places()) tool.hold[kept++] = h;
+    if (h.element >= m.grips && h.element < m.grip_point_count()) tool.hold[kept++] = h;
   }
   if (kept == 0 && tool.holds > 0) ++tool.slipped;
   tool.holds = kept;

@@ -75,14 +75,14 @@ Vec3d drawn(const OnObject<K>&, const Hold&) noexcept {
   return {};
 }
 
-bool whole(const OnStrand& on, const Hold& hold) noexcept { return on.state.alive[size_t(hold.element)] != 0; }
-bool whole(const OnOrgan& on, const Hold& hold) noexcept {
+bool is_attached(const OnStrand& on, const Hold& hold) noexcept { return on.state.alive[size_t(hold.element)] != 0; }
+bool is_attached(const OnOrgan& on, const Hold& hold) noexcept {
   return hold.element < on.surface.skin->size() && !on.surface.torn(hold.element);
 }
-bool whole(const OnMembrane&, const Hold&) noexcept { return true; }
+bool is_attached(const OnMembrane&, const Hold&) noexcept { return true; }
 template <class K>
-bool whole(const OnObject<K>& on, const Hold& hold) noexcept {
-  return K::whole(on.states, hold);
+bool is_attached(const OnObject<K>& on, const Hold& hold) noexcept {
+  return K::is_attached(on.states, hold);
 }
 
 double thickness(const OnStrand& on, const Hold& hold) noexcept {
@@ -144,7 +144,7 @@ Vec3d drawn_point(const TissueView& view, const Hold& hold) noexcept {
   return on_body(view, hold.body, Vec3d{}, [&](const auto& on) { return drawn(on, hold); });
 }
 bool is_whole(const TissueView& view, const Hold& hold) noexcept {
-  return on_body(view, hold.body, false, [&](const auto& on) { return whole(on, hold); });
+  return on_body(view, hold.body, false, [&](const auto& on) { return is_attached(on, hold); });
 }
 double held_thickness(const TissueView& view, const Hold& hold) noexcept {
   return on_body(view, hold.body, 0.0, [&](const auto& on) { return thickness(on, hold); });

@@ -37,7 +37,7 @@ Vec3d drawn_point(const TissueView& view, const Hold& hold) noexcept;
 /// Does it keep its shape between jaws? Objects do.
 inline bool is_hard(BodyId body) noexcept {
   bool hard = false;
-  visit_object(body, [&hard](auto kind) { hard = kind.kHard; });
+  visit_object(body, [&hard](auto kind) { hard = kind.kRigidInJaws; });
   return hard;
 }
 /// Is it a place of its body any more?

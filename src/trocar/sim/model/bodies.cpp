@@ -57,7 +57,7 @@ int places_on(const Model& model, BodyId body) {
   if (!has(model, body)) return 0;
   int count = visit(model, body, 0, [&](auto ref) { return places(model, ref); });
   interactions::visit_object(body, [&](auto kind) {
-    count = kind.places(interactions::part_of<decltype(kind)>(model.objects), body.index());
+    count = kind.grip_point_count(interactions::part_of<decltype(kind)>(model.objects), body.index());
   });
   return count;
 }

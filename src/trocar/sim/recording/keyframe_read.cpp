@@ -151,9 +151,9 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   if (model.wet.there) take_fluids(in, model, s.fluids);
   interactions::ObjectKinds::for_each([&](auto kind) {
     auto& states = interactions::part_of<decltype(kind)>(s.objects);
-    kind.shown(interactions::part_of<decltype(kind)>(model.objects), states,
-               [&in](auto* values, size_t n) { in.take(values, n); });
-    in.good = in.good && kind.sound(states);
+    kind.serialize_display(interactions::part_of<decltype(kind)>(model.objects), states,
+                           [&in](auto* values, size_t n) { in.take(values, n); });
+    in.good = in.good && kind.is_valid(states);
   });
   for (auto& bonds : s.bonds) in.take(bonds.data(), bonds.size());
   in.take(s.joints.data(), s.joints.size());

@@ -21,7 +21,7 @@ class Dropped final : public Noticer {
  public:
   Dropped(const sim::Model& model, const Arguments& a) : m_least(a[0].number()) {
     interactions::visit_objects(model.objects, [this](auto kind, BodyId id) {
-      if (kind.kHard) m_falls.emplace_back().body = id;
+      if (kind.kRigidInJaws) m_falls.emplace_back().body = id;
     });
   }
   void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
@@ -76,7 +76,7 @@ Value in_view(const Moment& moment, const Happening& h) {
 
 std::string_view needs_objects(const sim::Model& model) {
   bool any = false;
-  interactions::visit_objects(model.objects, [&any](auto kind, BodyId) { any = any || kind.kHard; });
+  interactions::visit_objects(model.objects, [&any](auto kind, BodyId) { any = any || kind.kRigidInJaws; });
   return any ? "" : "objects";
 }
 
