@@ -196,7 +196,7 @@ int train(const TrainChoice& o, bool json) {
   static_cast<void>(pictures::parse_analysis(o.analysis));
   const pictures::PictureSize size = pictures::parse_size(o.size.empty() ? "800x600" : o.size);
   std::unique_ptr<attempt::Lesson> lesson = o.exercise.empty() ? nullptr : attempt::load_lesson(o.exercise, o.seed);
-  if (lesson) scene::warn_of_sinking(lesson->model);
+  if (lesson) scene::warn_if_unstable(lesson->model);
   check_haptics(o, lesson.get());
   std::shared_ptr<const attempt::Lesson> other;
   if (!o.beside.empty()) other = attempt::load_beside(o.exercise, o.seed, o.beside, "--beside");

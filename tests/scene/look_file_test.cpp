@@ -15,8 +15,8 @@ namespace {
 
 const std::filesystem::path kLooks = TROCAR_SOURCE_DIR "/scenes/looks";
 
-const sim::Look* named(const LookShelf& shelf, const std::string& name) {
-  const auto& looks = shelf.book()->looks;
+const sim::Look* named(const MaterialFolders& materials, const std::string& name) {
+  const auto& looks = materials.library()->looks;
   const auto it = std::find_if(looks.begin(), looks.end(), [&](const sim::Look& l) { return l.name == name; });
   return it == looks.end() ? nullptr : &*it;
 }
@@ -24,22 +24,22 @@ const sim::Look* named(const LookShelf& shelf, const std::string& name) {
 struct Shelf {
   std::vector<core::Fault> faults;
   MemoryFiles files;
-  LookShelf shelf;
-  explicit Shelf(MemoryFiles texts) : files(std::move(texts)), shelf({"looks"}, faults, &files) {}
+  MaterialFolders materials;
+  explicit Shelf(MemoryFiles texts) : files(std::move(texts)), materials({"looks"}, faults, &files) {}
 };
 
 TEST(LookFile, EveryShippedLookIsSound) {
   std::vector<core::Fault> faults;
-  const LookShelf shelf({kLooks}, faults);
+  const MaterialFolders materials({kLooks}, faults);
   EXPECT_EQ(told(faults), std::vector<std::string>{});
-  EXPECT_GE(shelf.names().size(), 30u);
+  EXPECT_GE(materials.names().size(), 30u);
 }
 
 TEST(LookFile, FiguresArriveInMetresAndAsTheyStand) {
   const Shelf s(MemoryFiles{{"looks/pale.json", R"({"format": 1, "colour": [250, 240, 230], "film_size_mm": 2.5,
     "relief": {"broad_mm": 1.5}, "surroundings": [{"generator": "fat_tags", "count": 7}]})"}});
   ASSERT_EQ(told(s.faults), std::vector<std::string>{});
-  const sim::Look& pale = *named(s.shelf, "pale");
+  const sim::Look& pale = *named(s.materials, "pale");
   EXPECT_EQ(pale.colour, (Vec3d{250, 240, 230}));
   EXPECT_EQ(pale.film_size, 0.0025);
   EXPECT_EQ(pale.relief.broad, 0.0015);
@@ -56,7 +56,7 @@ TEST(LookFile, WhatALookDoesNotSayItInheritsWholeChainsOfThem) {
       {"looks/b.json", R"({"format": 1, "inherits": "a", "bump": 0.25})"},
       {"looks/c.json", R"({"format": 1, "inherits": "b", "relief": {"broad_mm": 2}, "surroundings": []})"}});
   ASSERT_EQ(told(s.faults), std::vector<std::string>{});
-  const sim::Look &b = *named(s.shelf, "b"), &c = *named(s.shelf, "c");
+  const sim::Look &b = *named(s.materials, "b"), &c = *named(s.materials, "c");
   EXPECT_EQ(b.name, "b");
   EXPECT_EQ(b.surroundings.size(), 1u);
   EXPECT_EQ(c.colour, (Vec3d{1, 2, 3}));

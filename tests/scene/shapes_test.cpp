@@ -212,7 +212,7 @@ TEST(ClosedShapes, AreFilledAndHangStill) {
       CompileReport report;
       const sim::Model model = compile(d, &report);
       const BodyReport& body = body_of(report);
-      EXPECT_EQ(report.doubts.size(), 0u) << report.doubts.front().message;
+      EXPECT_EQ(report.warnings.size(), 0u) << report.warnings.front().message;
       EXPECT_LE(body.substeps, 12);
       EXPECT_NEAR(body.volume / size_of(d.solids[0].shape).volume, 1, 0.12);
       EXPECT_LT(drift(model), 1e-5);
@@ -243,9 +243,9 @@ TEST(ClosedShapes, ThinPartsThatCellsLoseAreToldAndMuchOfABodyIsRefused) {
       "stations": [{"s_mm": 0, "radius_mm": 8}, {"s_mm": 60, "radius_mm": 1}]})" +
                        filled)),
           &report);
-  ASSERT_EQ(report.doubts.size(), 1u);
-  EXPECT_NE(report.doubts[0].message.find("'body' has thin parts: cells of 5 mm keep "), std::string::npos)
-      << report.doubts[0].message;
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_NE(report.warnings[0].message.find("'body' has thin parts: cells of 5 mm keep "), std::string::npos)
+      << report.warnings[0].message;
   EXPECT_THROW(compile(read(t.solid(kHollowTube + filled))), core::BadInput);
 }
 
@@ -272,7 +272,7 @@ TEST(SurfaceShapes, AreReadFromEveryFormatWithItsUnit) {
     ASSERT_TRUE(shape.surface) << name;
     EXPECT_NEAR(geometry::volume(shape.surface->mesh) / volume, 1, 1e-5) << name;
     EXPECT_NEAR(length(geometry::centre_of_volume(shape.surface->mesh) - Vec3d{0.001, 0.002, 0.003}), 0, 1e-4);
-    EXPECT_TRUE(shape.surface->doubts.empty());
+    EXPECT_TRUE(shape.surface->warnings.empty());
     const auto tenfold = read(t.solid(file + R"(, "unit_mm": 10}, "cell_mm": 60)")).solids.at(0).shape;
     EXPECT_NEAR(geometry::volume(tenfold.surface->mesh) / volume, 1000, 0.01) << name;
   }
@@ -280,8 +280,8 @@ TEST(SurfaceShapes, AreReadFromEveryFormatWithItsUnit) {
   for (Vec3d& p : in_metres.positions) p = p / 1000.0;
   t.folder.write("metres.obj", geometry::to_obj(in_metres));
   const auto metres = read(t.solid(R"("surface": {"file": "metres.obj"}, "cell_mm": 6)")).solids.at(0).shape;
-  ASSERT_EQ(metres.surface->doubts.size(), 1u) << "which nobody has said";
-  EXPECT_NE(metres.surface->doubts[0].find("its coordinates are millimetres; longest side"), std::string::npos);
+  ASSERT_EQ(metres.surface->warnings.size(), 1u) << "which nobody has said";
+  EXPECT_NE(metres.surface->warnings[0].find("its coordinates are millimetres; longest side"), std::string::npos);
   expect_only(t.faults(t.solid(R"("surface": {"file": "none.obj"}, "cell_mm": 6)")), "none of this name");
   expect_only(t.faults(t.solid(R"("surface": {"file": "ball.obj", "unit_mm": 1000}, "cell_mm": 60)")),
               "expected coordinates within 2000 mm");
@@ -297,9 +297,10 @@ TEST(SurfaceShapes, WhatIsNotClosedIsMendedAndTold) {
   const std::string file = R"("surface": {"file": "open.obj")";
   CompileReport report;
   compile(read(t.solid(file + R"(}, "cell_mm": 6)")), &report);
-  ASSERT_FALSE(report.doubts.empty());
-  EXPECT_NE(report.doubts[0].message.find("the surface 'open.obj' of 'body' has defects; mended: "), std::string::npos)
-      << report.doubts[0].message;
+  ASSERT_FALSE(report.warnings.empty());
+  EXPECT_NE(report.warnings[0].message.find("the surface 'open.obj' of 'body' has defects; mended: "),
+            std::string::npos)
+      << report.warnings[0].message;
   expect_only(t.faults(t.solid(file + R"(, "mend": false}, "cell_mm": 6)")),
               "expected a closed surface, as mending is off, got: ");
   geometry::TriMesh sheet;
@@ -335,8 +336,8 @@ TEST(SurfaceShapes, AnSTLThatIsNoManifoldIsMendedAndToldOrRefusedWithWhatIsLeftO
   t.folder.write("twins.stl", geometry::to_stl(twins));
   CompileReport report;
   compile(read(t.solid(R"("surface": {"file": "twins.stl"}, "cell_mm": 6)")), &report);
-  ASSERT_FALSE(report.doubts.empty());
-  EXPECT_NE(report.doubts[0].message.find("has defects; mended: "), std::string::npos) << report.doubts[0].message;
+  ASSERT_FALSE(report.warnings.empty());
+  EXPECT_NE(report.warnings[0].message.find("has defects; mended: "), std::string::npos) << report.warnings[0].message;
   EXPECT_NEAR(report.bodies[0].volume / (2e-9 * geometry::volume(ball)), 1, 0.05);
 }
 
@@ -385,7 +386,7 @@ TEST_P(SurfacesOfAnAtlas, AreMendedFilledAndHangStillInFewSubSteps) {
     CompileReport report;
     const sim::Model model = compile(read(t.scene(solid + filled)), &report);
     EXPECT_LE(body_of(report).substeps, 12);
-    EXPECT_FALSE(report.doubts.empty()) << "what was mended is told";
+    EXPECT_FALSE(report.warnings.empty()) << "what was mended is told";
     EXPECT_LT(drift(model), 1e-5);
   }
 }
@@ -499,7 +500,7 @@ TEST(ControlPoints, AnswerAtOnceAsWell) {
   CompileReport report;
   const sim::Model model =
       compile(read(t.solid(egg() + R"(, "masses": "control_points", "skin_edge_mm": 4, "solver": "static")")), &report);
-  EXPECT_TRUE(report.doubts.empty());
+  EXPECT_TRUE(report.warnings.empty());
   EXPECT_LT(drift(model), 1e-5);
   expect_only(
       t.faults(t.solid(egg() + R"(, "masses": "control_points", "solver": "static", "elasticity": "tetrahedra")")),

@@ -175,11 +175,11 @@ TEST(TetSolid, AMeshWithSliversIsToldWithWhatItCostsAndTheKeyThatMendsIt) {
   CompileReport report;
   compile(with(solid_of(bad)), &report);
   const auto of_slivers = [](const CompileReport& r) {
-    return std::count_if(r.doubts.begin(), r.doubts.end(),
+    return std::count_if(r.warnings.begin(), r.warnings.end(),
                          [](const core::Fault& f) { return f.message.find("slivers") != std::string::npos; });
   };
   ASSERT_EQ(of_slivers(report), 1);
-  for (const core::Fault& f : report.doubts)
+  for (const core::Fault& f : report.warnings)
     if (f.message.find("slivers") != std::string::npos) {
       EXPECT_NE(f.message.find("\"refill_mm\": "), std::string::npos) << f.message;
       EXPECT_NE(f.message.find(" sub-steps, about "), std::string::npos) << f.message;
@@ -213,10 +213,10 @@ TEST(TetSolid, ASurfaceIsFilledAnewByAKey) {
   EXPECT_GT(facts.smallest_dihedral, kSliver);
   EXPECT_EQ(facts.odd_edges, 0);
   EXPECT_NEAR(facts.volume, before.volume, 0.03 * before.volume);
-  EXPECT_TRUE(filled.doubts.empty()) << filled.doubts.front();
+  EXPECT_TRUE(filled.warnings.empty()) << filled.warnings.front();
   const TetSource coarse = mesh_with(R"(, "refill_mm": 12)");
-  ASSERT_EQ(coarse.doubts.size(), 1u) << geometry::inspect(coarse.mesh).volume / before.volume;
-  EXPECT_NE(coarse.doubts[0].find("a smaller \"refill_mm\" keeps more"), std::string::npos) << coarse.doubts[0];
+  ASSERT_EQ(coarse.warnings.size(), 1u) << geometry::inspect(coarse.mesh).volume / before.volume;
+  EXPECT_NE(coarse.warnings[0].find("a smaller \"refill_mm\" keeps more"), std::string::npos) << coarse.warnings[0];
   expect_one(o.faults(R"("mesh": {"file": "two.msh", "refill_mm": 60})"), "smaller cells expected");
   expect_one(o.faults(R"("mesh": {"file": "two.msh", "refill_mm": -1})"), "refill_mm");
 }

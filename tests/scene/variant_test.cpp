@@ -106,7 +106,7 @@ TEST(Variant, ASceneWithEachIsSoundAndSaysWhichItIs) {
     const sim::Model model = compile(with_variant(v.name.c_str()), &report);
     EXPECT_EQ(model.anatomy, v.name);
     EXPECT_EQ(model.anatomy_title, v.title);
-    for (const core::Fault& doubt : report.doubts) ADD_FAILURE() << v.name << ": " << to_string(doubt);
+    for (const core::Fault& warning : report.warnings) ADD_FAILURE() << v.name << ": " << to_string(warning);
   }
 }
 

@@ -125,18 +125,18 @@ Json describe(const sim::MotionModel& motion, const sim::Model& model) {
   return out;
 }
 
-Json describe(const scene::BodyReport& b, const sim::Model& model, const scene::Standing& standing) {
+Json describe(const scene::BodyReport& b, const sim::Model& model, const scene::EquilibriumCheck& equilibrium) {
   Json out = describe(b);
   if (const BodyCost cost = cost_of(model, b.name); cost.bytes > 0) {
     out["memory_kb"] = cost.bytes / 1024;
     out["tick_us"] = cost.seconds * 1e6;
   }
   if (const int m = model.membrane_index(b.name); m >= 0 && b.kind == "pouch") {
-    const tissue::EnclosureState& inside = standing.state.membranes[std::size_t(m)].enclosure;
+    const tissue::EnclosureState& inside = equilibrium.state.membranes[std::size_t(m)].enclosure;
     out["at_rest"] = {{"volume_ml", inside.volume * 1e6}, {"pressure_Pa", inside.pressure}};
   }
   if (const int organ = model.organ_index(b.name); organ >= 0)
-    out["off_at_rest_mm"] = 1e3 * standing.organs[std::size_t(organ)].off;
+    out["off_at_rest_mm"] = 1e3 * equilibrium.organs[std::size_t(organ)].off;
   return out;
 }
 
@@ -172,7 +172,8 @@ Json describe_scene(const fs::path& path, const std::vector<std::string>& only,
   told.at(tr("timing a tick"));
   const double tick = resting_tick(model, state, work);
   told.at(tr("checking its equilibrium"));
-  const scene::Standing standing = scene::stand(model, kStandTicks, [&] { return watch.seconds() < kStandUntil; });
+  const scene::EquilibriumCheck equilibrium =
+      scene::check_equilibrium(model, kStandTicks, [&] { return watch.seconds() < kStandUntil; });
   Json out{{"scene", path.string()},
            {"model_hash", core::hex(model.hash)},
            {"free_nodes", model.free_nodes()},
@@ -181,20 +182,20 @@ Json describe_scene(const fs::path& path, const std::vector<std::string>& only,
              {"state", (with_state - with_model) / 1024},
              {"work", (with_work - with_state) / 1024}}},
            {"tick_at_rest_us", tick * 1e6},
-           {"stood_s", standing.seconds},
+           {"stood_s", equilibrium.seconds},
            {"doubts", Json::array()},
            {"sinks", Json::array()},
            {"bodies", Json::array()}};
   if (model.motion.there() && only.empty()) out["motion"] = describe(model.motion, model);
-  for (const core::Fault& doubt : report.doubts) out["doubts"].push_back(core::to_string(doubt));
+  for (const core::Fault& warning : report.warnings) out["doubts"].push_back(core::to_string(warning));
   const auto listed = [&only](const std::string& name) {
     return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
   };
-  for (const scene::Standing::Organ& o : standing.organs)
-    if (o.sinks() && listed(o.name)) out["sinks"].push_back(scene::in_words(standing, o));
+  for (const scene::EquilibriumCheck::Organ& o : equilibrium.organs)
+    if (o.is_unstable() && listed(o.name)) out["sinks"].push_back(scene::in_words(equilibrium, o));
   told.at("timing its bodies");
   for (const scene::BodyReport& b : report.bodies)
-    if (listed(b.name)) out["bodies"].push_back(describe(b, model, standing));
+    if (listed(b.name)) out["bodies"].push_back(describe(b, model, equilibrium));
   out["verdict"] = verdict_of(out);
   return out;
 }

@@ -66,7 +66,7 @@ std::unique_ptr<Lesson> load_adapted(const std::string& exercise, std::uint64_t 
   if (lesson->exercise) training::check_in_scene(*lesson->exercise, lesson->model, faults);
   if (!faults.empty()) throw core::BadInput(std::move(faults));
   core::log::info("compiled in {:.1f} s: {} free nodes", took.count(), lesson->model.free_nodes());
-  for (const core::Fault& doubt : report.doubts) core::log::warn("{}", core::to_string(doubt));
+  for (const core::Fault& warning : report.warnings) core::log::warn("{}", core::to_string(warning));
   return lesson;
 }
 

@@ -59,14 +59,14 @@ double predicted_us(const scene::BodyReport& b) {
 std::vector<ReadOut> read_outs(const Built& built, std::uint64_t standing_ticks) {
   std::vector<ReadOut> out;
   if (!built.good()) return out;
-  scene::Standing standing;
-  if (standing_ticks > 0) standing = scene::stand(*built.model, standing_ticks, [] { return true; });
+  scene::EquilibriumCheck equilibrium;
+  if (standing_ticks > 0) equilibrium = scene::check_equilibrium(*built.model, standing_ticks, [] { return true; });
   const std::vector<std::size_t> bytes = memory_of_bodies(*built.model, built.report);
   for (const scene::BodyReport& b : built.report.bodies) {
     ReadOut r{b.name, b.kind, b.nodes, b.springs, b.substeps, b.volume * 1e6, b.mass * 1e3, b.dt_limit * 1e3};
     r.predicted_us = predicted_us(b);
     r.bytes = bytes[out.size()];
-    for (const scene::Standing::Organ& o : standing.organs)
+    for (const scene::EquilibriumCheck::Organ& o : equilibrium.organs)
       if (o.name == b.name) r.off_mm = o.off * 1e3;
     out.push_back(r);
   }

@@ -94,7 +94,7 @@ const std::vector<MaterialChoice>& material_choices() {
     const std::optional<fs::path> scenes = scene::found_scenes_folder();
     if (!scenes) return out;
     std::vector<core::Fault> faults;
-    const scene::LookShelf shelf({*scenes / "looks"}, faults);
+    const scene::MaterialFolders shelf({*scenes / "looks"}, faults);
     for (const sim::Look& look : shelf.book()->looks)
       if (look.surface == sim::Look::Surface::tissue && !look.moulded && look.name != "neutral")
         out.push_back({look.name, look.colour, look.patches, look.flecks, look.vessel_colour.value_or(look.tint)});

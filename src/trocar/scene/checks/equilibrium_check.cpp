@@ -13,10 +13,10 @@
 namespace trocar::scene {
 namespace {
 
-Standing::Organ look_at(const sim::Model& model, const sim::State& state, int organ) {
+EquilibriumCheck::Organ look_at(const sim::Model& model, const sim::State& state, int organ) {
   const std::span<const Vec3d> rest = sim::drawn_nodes(model, organ);
   const tissue::NodeView now = nodes_of(model, state, organ);
-  Standing::Organ out{model.organ_name(organ), 0, {}};
+  EquilibriumCheck::Organ out{model.organ_name(organ), 0, {}};
   for (std::size_t n = 0; n < rest.size(); ++n) {
     const double off = length(now.position(int(n)) - rest[n]);
     if (off <= out.off) continue;
@@ -29,17 +29,17 @@ Standing::Organ look_at(const sim::Model& model, const sim::State& state, int or
 
 }  // namespace
 
-bool Standing::still() const {
-  return std::none_of(organs.begin(), organs.end(), [](const Organ& o) { return o.sinks(); });
+bool EquilibriumCheck::is_stable() const {
+  return std::none_of(organs.begin(), organs.end(), [](const Organ& o) { return o.is_unstable(); });
 }
 
-Standing stand(const sim::Model& scene, std::uint64_t ticks, const std::function<bool()>& go_on) {
+EquilibriumCheck check_equilibrium(const sim::Model& scene, std::uint64_t ticks, const std::function<bool()>& go_on) {
   sim::Model model = scene;
   model.motion = {};
   model.vessels.bleeder.vessel = -1;
   for (std::size_t i = 0; i < model.hands.size(); ++i)  // hands away, but for those that hold something up
     if (model.start.tools[i].handle == 0) model.start.tools[i].depth = float(model.placed(i).limits.depth_min);
-  Standing out;
+  EquilibriumCheck out;
   out.state = sim::initial_state(model);
   sim::Work work = sim::make_work(model);
   while (out.state.tick < ticks && go_on()) sim::step(model, model.start, out.state, work);
@@ -48,19 +48,19 @@ Standing stand(const sim::Model& scene, std::uint64_t ticks, const std::function
   return out;
 }
 
-std::string in_words(const Standing& standing, const Standing::Organ& o) {
+std::string in_words(const EquilibriumCheck& equilibrium, const EquilibriumCheck::Organ& o) {
   return tr(
       "{} is not in equilibrium: it sagged by {:.1f} mm at ({:.1f}, {:.1f}, {:.1f}) mm in {:.2g} s. Use a stiffer or "
       "lighter tissue, larger cells or more anchors.",
-      o.name, 1e3 * o.off, 1e3 * o.at.x, 1e3 * o.at.y, 1e3 * o.at.z, standing.seconds);
+      o.name, 1e3 * o.off, 1e3 * o.at.x, 1e3 * o.at.y, 1e3 * o.at.z, equilibrium.seconds);
 }
 
-void warn_of_sinking(const sim::Model& model) {
+void warn_if_unstable(const sim::Model& model) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point until = Clock::now() + std::chrono::seconds(1);
-  const Standing standing = stand(model, 500, [&] { return Clock::now() < until; });
-  for (const Standing::Organ& o : standing.organs)
-    if (o.sinks()) core::log::warn("{}", in_words(standing, o));
+  const EquilibriumCheck equilibrium = check_equilibrium(model, 500, [&] { return Clock::now() < until; });
+  for (const EquilibriumCheck::Organ& o : equilibrium.organs)
+    if (o.is_unstable()) core::log::warn("{}", in_words(equilibrium, o));
 }
 
 }  // namespace trocar::scene

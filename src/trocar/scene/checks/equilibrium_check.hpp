@@ -1,9 +1,9 @@
 // Does a scene hang still when nobody touches it? Drawn shapes are equilibria, but one that its springs do not hold
 // falls over all the same: organs sink while the hands are still on their way.
 //
-//   const Standing standing = stand(model, 1000, [] { return in_time(); });
-//   for (const Standing::Organ& o : standing.organs)
-//     if (o.sinks()) say(in_words(standing, o));
+//   const EquilibriumCheck equilibrium = check_equilibrium(model, 1000, [] { return in_time(); });
+//   for (const EquilibriumCheck::Organ& o : equilibrium.organs)
+//     if (o.is_unstable()) say(in_words(equilibrium, o));
 #pragma once
 
 #include <cstdint>
@@ -15,34 +15,34 @@
 
 namespace trocar::scene {
 
-inline constexpr double kStands = 5e-4;  ///< off by more than this, an organ does not hold its drawn shape [m]
+inline constexpr double kMaxSag = 5e-4;  ///< off by more than this, an organ does not hold its drawn shape [m]
 
-struct Standing {
+struct EquilibriumCheck {
   struct Organ {
     std::string name;
     double off = 0;  ///< of its farthest node from where it was drawn [m]
     Vec3d at;        ///< where that was drawn [m]
 
-    bool sinks() const { return !(off <= kStands); }
+    bool is_unstable() const { return !(off <= kMaxSag); }
   };
   std::vector<Organ> organs;  ///< (organs of the Model)
   sim::State state;           ///< at the end
   double seconds = 0;         ///< simulated
 
-  bool still() const;
+  bool is_stable() const;
 };
 
 /// Simulates a scene at rest, with instruments drawn back, without breathing, peristalsis and what bleeds by itself.
 /// @param ticks    at most; a shape that its springs do not hold falls over within a second
 /// @param go_on    asked before every tick; false ends it early
-Standing stand(const sim::Model& model, std::uint64_t ticks, const std::function<bool()>& go_on);
+EquilibriumCheck check_equilibrium(const sim::Model& model, std::uint64_t ticks, const std::function<bool()>& go_on);
 
 /// "uterus does not hang still: 32.5 mm off at (0.0, -150.0, -60.0) mm after 1.0 s at rest (a stiffer or lighter
 /// tissue, larger cells or more anchors may hold it)"
-std::string in_words(const Standing& standing, const Standing::Organ& organ);
+std::string in_words(const EquilibriumCheck& equilibrium, const EquilibriumCheck::Organ& organ);
 
 /// Looks at half a second, for a second of wall time at most, and warns on stderr of what sinks: a trainee would take
 /// it for the exercise.
-void warn_of_sinking(const sim::Model& model);
+void warn_if_unstable(const sim::Model& model);
 
 }  // namespace trocar::scene

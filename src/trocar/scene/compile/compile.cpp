@@ -285,7 +285,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
   model.looks = d.looks;
   model.cavity = sim::cavity_around(model);
   sim::seal(model);
-  if (report) find_doubts(d, model, report->doubts);
+  if (report) find_warnings(d, model, report->warnings);
   return model;
 }
 

@@ -43,7 +43,7 @@ struct CompileReport {
   std::vector<ComplianceReport> compliances;
   /// Told of what takes long: which organ, and the share that is done, 0 to 1. From the compiling thread; may be empty.
   std::function<void(const std::string& organ, double share)> said;
-  std::vector<core::Fault> doubts;  ///< what can be built and is hardly meant: see compile_warnings.hpp
+  std::vector<core::Fault> warnings;  ///< what can be built and is hardly meant: see compile_warnings.hpp
 };
 
 /// Throws core::BadInput where the Description, although well formed, cannot be built (an organ that nothing holds, a

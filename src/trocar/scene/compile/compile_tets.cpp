@@ -24,7 +24,8 @@ void tell_loss(const Solid& solid, double kept, CompileReport* report) {
   const std::string words = fmt::format("cells of {:.3g} mm keep {:.0f} % of its volume", 1e3 * solid.cell, 100 * kept);
   if (kept < kRefused) throw std::invalid_argument(words + ": smaller ones expected");
   if (kept < kTold && report)
-    report->doubts.push_back({solid.at, fmt::format("'{}' has thin parts: {}, smaller ones more", solid.name, words)});
+    report->warnings.push_back(
+        {solid.at, fmt::format("'{}' has thin parts: {}, smaller ones more", solid.name, words)});
 }
 
 /// Cells end in chords of a curved surface and lose what is beyond them: their outer nodes go outwards by as much as

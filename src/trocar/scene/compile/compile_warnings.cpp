@@ -55,10 +55,10 @@ void look_inside(const sim::Model& model, Vec3d p, Inside& found) {
     if (m.sheet.closed()) look(m.name, m.skin);
 }
 
-void tell_inside(const Inside& found, const core::Location& at, const std::string& what,
-                 std::vector<core::Fault>& doubts) {
+void warn_inside(const Inside& found, const core::Location& at, const std::string& what,
+                 std::vector<core::Fault>& warnings) {
   if (found.name.empty()) return;
-  doubts.push_back(
+  warnings.push_back(
       {at, fmt::format("expected the tip of '{}' outside of tissue, got one that begins {:.1f} mm inside "
                        "'{}', at ({:.1f}, {:.1f}, {:.1f}) mm",
                        what, 1e3 * found.depth, found.name, 1e3 * found.at.x, 1e3 * found.at.y, 1e3 * found.at.z)});
@@ -72,7 +72,8 @@ int substeps_of(const sim::Model& model, const std::string& name) {
                       [&](sim::CuttableRef r) { return model_of(model, r).body.substeps; }, [](auto) { return 0; }});
 }
 
-void find_slivers(const Description& d, const Solid& solid, const sim::Model& model, std::vector<core::Fault>& doubts) {
+void find_slivers(const Description& d, const Solid& solid, const sim::Model& model,
+                  std::vector<core::Fault>& warnings) {
   if (solid.tets->label > 0 || solid.tets->refill > 0) return;
   const int substeps = substeps_of(model, solid.name);
   if (substeps < kManySubsteps) return;
@@ -82,19 +83,20 @@ void find_slivers(const Description& d, const Solid& solid, const sim::Model& mo
     now.substeps = substeps;  // with its anchors and fibres
     now.tick = tick_of(now.springs, substeps);
     if (const std::optional<Refill> refill = refill_of(solid.tets->mesh, tissue, now))
-      doubts.push_back({solid.at, fmt::format("the mesh '{}' of '{}' has {}", solid.tets->file, solid.name,
-                                              in_words(solid.tets->mesh, now, *refill))});
+      warnings.push_back({solid.at, fmt::format("the mesh '{}' of '{}' has {}", solid.tets->file, solid.name,
+                                                in_words(solid.tets->mesh, now, *refill))});
   }
 }
 
-void tell_mended(const ClosedShape& shape, const std::string& body, const core::Location& at,
-                 std::vector<core::Fault>& doubts) {
+void warn_mended(const ClosedShape& shape, const std::string& body, const core::Location& at,
+                 std::vector<core::Fault>& warnings) {
   if (!shape.surface) return;
-  for (const std::string& doubt : shape.surface->doubts)
-    doubts.push_back({at, fmt::format("the surface '{}' of '{}' has defects; {}", shape.surface->file, body, doubt)});
+  for (const std::string& warning : shape.surface->warnings)
+    warnings.push_back(
+        {at, fmt::format("the surface '{}' of '{}' has defects; {}", shape.surface->file, body, warning)});
 }
 
-void find_tips(const Description& d, const sim::Model& model, std::vector<core::Fault>& doubts) {
+void find_tips(const Description& d, const sim::Model& model, std::vector<core::Fault>& warnings) {
   size_t hand = 0;
   for (const Placement& p : d.placements) {
     if (hand == model.hands.size()) break;
@@ -106,26 +108,26 @@ void find_tips(const Description& d, const sim::Model& model, std::vector<core::
     Inside found;
     for (const Vec3d& tip : {shape.part[interactions::kJawA].b, shape.part[interactions::kJawB].b, shape.pivot})
       look_inside(model, tip, found);
-    tell_inside(found, p.at, p.instrument, doubts);
+    warn_inside(found, p.at, p.instrument, warnings);
   }
   Inside found;
   look_inside(model, d.scope_placement.tip, found);
-  tell_inside(found, d.scope_placement.at, "scope", doubts);
+  warn_inside(found, d.scope_placement.at, "scope", warnings);
 }
 
 }  // namespace
 
-void find_doubts(const Description& d, const sim::Model& model, std::vector<core::Fault>& doubts) {
+void find_warnings(const Description& d, const sim::Model& model, std::vector<core::Fault>& warnings) {
   for (const Solid& solid : d.solids) {
-    tell_mended(solid.shape, solid.name, solid.at, doubts);
+    warn_mended(solid.shape, solid.name, solid.at, warnings);
     if (!solid.tets) continue;
-    for (const std::string& doubt : solid.tets->doubts)
-      doubts.push_back(
-          {solid.at, fmt::format("the mesh '{}' of '{}' has defects; {}", solid.tets->file, solid.name, doubt)});
-    find_slivers(d, solid, model, doubts);
+    for (const std::string& warning : solid.tets->warnings)
+      warnings.push_back(
+          {solid.at, fmt::format("the mesh '{}' of '{}' has defects; {}", solid.tets->file, solid.name, warning)});
+    find_slivers(d, solid, model, warnings);
   }
-  for (const Pouch& pouch : d.pouches) tell_mended(pouch.shape, pouch.name, pouch.at, doubts);
-  find_tips(d, model, doubts);
+  for (const Pouch& pouch : d.pouches) warn_mended(pouch.shape, pouch.name, pouch.at, warnings);
+  find_tips(d, model, warnings);
 }
 
 }  // namespace trocar::scene

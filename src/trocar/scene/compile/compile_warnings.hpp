@@ -13,7 +13,7 @@ namespace trocar::scene {
 /// A tip deeper than this below an organ's drawn surface is inside it; less is a touch [m].
 inline constexpr double kTouchDepth = 0.001;
 
-/// @param doubts  out: with the places in the files, in the order of the scene
-void find_doubts(const Description& description, const sim::Model& model, std::vector<core::Fault>& doubts);
+/// @param warnings  out: with the places in the files, in the order of the scene
+void find_warnings(const Description& description, const sim::Model& model, std::vector<core::Fault>& warnings);
 
 }  // namespace trocar::scene

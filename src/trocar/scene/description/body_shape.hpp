@@ -19,13 +19,13 @@ namespace trocar::scene {
 
 /// A surface of triangles from a file: OBJ, STL, PLY, glTF, legacy VTK.
 struct SurfaceSource {
-  std::string file;                 ///< as named, relative to the file that names it
-  std::string part;                 ///< of several that the file has; empty: all of them together
-  double unit = 0;                  ///< of coordinates [m]; 0: what the format says, else a millimetre
-  bool mend = true;                 ///< what is no closed surface, where that can be done
-  Vec3d place;                      ///< where the file's origin goes [m]
-  geometry::TriMesh mesh;           ///< closed, outwards, in the scene's frame, as mended
-  std::vector<std::string> doubts;  ///< what was mended
+  std::string file;                   ///< as named, relative to the file that names it
+  std::string part;                   ///< of several that the file has; empty: all of them together
+  double unit = 0;                    ///< of coordinates [m]; 0: what the format says, else a millimetre
+  bool mend = true;                   ///< what is no closed surface, where that can be done
+  Vec3d place;                        ///< where the file's origin goes [m]
+  geometry::TriMesh mesh;             ///< closed, outwards, in the scene's frame, as mended
+  std::vector<std::string> warnings;  ///< what was mended
 };
 
 /// A closed NURBS surface. A row of the net goes around the body (u), rows follow each other along it (v).

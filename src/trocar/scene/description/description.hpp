@@ -21,7 +21,7 @@
 #include <trocar/scene/objects/object_scenes.hpp>
 
 namespace trocar::sim {
-struct Lookbook;
+struct MaterialLibrary;
 }
 
 namespace trocar::scene {
@@ -78,14 +78,14 @@ struct Anchor {
 
 /// Tetrahedra from a file: a mesh, or what fills a label of a voxel volume.
 struct TetSource {
-  std::string file;                 ///< as named, relative to the file that names it
-  double unit = 1e-3;               ///< of a mesh's coordinates [m]
-  double refill = 0;                ///< cubes with whose tetrahedra a mesh's surface is filled anew [m]; 0: as it is
-  int label = 0;                    ///< of voxels; 0: a mesh
-  int smoothing = 1;                ///< of the label's steps, in passes
-  Vec3d place;                      ///< where the file's origin goes [m]
-  geometry::TetMesh mesh;           ///< as mended where the file's was not sound
-  std::vector<std::string> doubts;  ///< what was mended, and what has several ways to be
+  std::string file;                   ///< as named, relative to the file that names it
+  double unit = 1e-3;                 ///< of a mesh's coordinates [m]
+  double refill = 0;                  ///< cubes with whose tetrahedra a mesh's surface is filled anew [m]; 0: as it is
+  int label = 0;                      ///< of voxels; 0: a mesh
+  int smoothing = 1;                  ///< of the label's steps, in passes
+  Vec3d place;                        ///< where the file's origin goes [m]
+  geometry::TetMesh mesh;             ///< as mended where the file's was not sound
+  std::vector<std::string> warnings;  ///< what was mended, and what has several ways to be
 };
 
 /// How an organ is solved: step by step (its spring network), or at once (tissue/elastostatic).
@@ -508,7 +508,7 @@ struct Description {
   std::optional<VariationSetting> variation;
   std::string variant;  ///< of the variation's, which every seed has; empty: the seed draws
   std::string anatomy;  ///< what vary() made of it: a variant's name, kCommonAnatomy; empty: there are no variants
-  std::shared_ptr<const sim::Lookbook> looks;  ///< those that are there; null: none
+  std::shared_ptr<const sim::MaterialLibrary> looks;  ///< those that are there; null: none
   std::vector<MarkSetting> marks;
   std::vector<Port> ports;
   bool instruments_push = false;  ///< each other aside

@@ -142,7 +142,8 @@ constexpr std::size_t kMostInherited = 16;
 
 }  // namespace
 
-LookShelf::LookShelf(const std::vector<fs::path>& folders, std::vector<core::Fault>& faults, const MemoryFiles* memory)
+MaterialFolders::MaterialFolders(const std::vector<fs::path>& folders, std::vector<core::Fault>& faults,
+                                 const MemoryFiles* memory)
     : m_faults(faults), m_memory(memory) {
   for (const fs::path& folder : folders) {
     std::error_code error;
@@ -154,21 +155,21 @@ LookShelf::LookShelf(const std::vector<fs::path>& folders, std::vector<core::Fau
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
       if (entry.path().extension() == ".json") m_files.emplace(entry.path().stem().string(), entry.path());
   }
-  auto book = std::make_shared<sim::Lookbook>();
+  auto library = std::make_shared<sim::MaterialLibrary>();
   for (const auto& [name, path] : m_files) {
     Open open;
-    book->looks.push_back(look(name, open));
+    library->looks.push_back(look(name, open));
   }
-  m_book = std::move(book);
+  m_library = std::move(library);
 }
 
-std::vector<std::string> LookShelf::names() const {
+std::vector<std::string> MaterialFolders::names() const {
   std::vector<std::string> all;
   for (const auto& [name, path] : m_files) all.push_back(name);
   return all;
 }
 
-const Look& LookShelf::look(const std::string& name, Open& open) {
+const Look& MaterialFolders::look(const std::string& name, Open& open) {
   if (const auto read = m_read.find(name); read != m_read.end()) return read->second;
   open.push_back(name);
   const JsonDocument document = load_json(m_files.at(name), m_faults, m_memory);
@@ -184,7 +185,7 @@ const Look& LookShelf::look(const std::string& name, Open& open) {
   return m_read.emplace(name, std::move(look)).first->second;
 }
 
-void LookShelf::inherit(const JsonObject& o, Look& look, Open& open) {
+void MaterialFolders::inherit(const JsonObject& o, Look& look, Open& open) {
   if (!o.has("inherits")) return;
   const std::string base = o.text("inherits");
   std::string chain;

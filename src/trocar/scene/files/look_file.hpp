@@ -2,8 +2,8 @@
 // (scenes/looks/liver.json is the look "liver"). A look may inherit another one of its folder and says what differs.
 //
 //   std::vector<core::Fault> faults;
-//   const LookShelf shelf({"scenes/looks"}, faults);
-//   model.looks = shelf.book();
+//   const MaterialFolders materials({"scenes/looks"}, faults);
+//   model.looks = materials.library();
 #pragma once
 
 #include <filesystem>
@@ -17,16 +17,16 @@
 
 namespace trocar::scene {
 
-class LookShelf {
+class MaterialFolders {
  public:
   /// Reads all looks of these folders; of two with one name the first folder's counts. What is wrong is appended to the
   /// faults. With `memory` files are looked up there.
-  LookShelf(const std::vector<std::filesystem::path>& folders, std::vector<core::Fault>& faults,
-            const MemoryFiles* memory = nullptr);
+  MaterialFolders(const std::vector<std::filesystem::path>& folders, std::vector<core::Fault>& faults,
+                  const MemoryFiles* memory = nullptr);
 
   bool empty() const { return m_files.empty(); }
   std::vector<std::string> names() const;  ///< sorted
-  std::shared_ptr<const sim::Lookbook> book() const { return m_book; }
+  std::shared_ptr<const sim::MaterialLibrary> library() const { return m_library; }
 
  private:
   using Open = std::vector<std::string>;  ///< names of looks that are being read, one inheriting the next
@@ -37,7 +37,7 @@ class LookShelf {
   std::map<std::string, sim::Look> m_read;
   std::vector<core::Fault>& m_faults;
   const MemoryFiles* m_memory;
-  std::shared_ptr<const sim::Lookbook> m_book;
+  std::shared_ptr<const sim::MaterialLibrary> m_library;
 };
 
 const Shape& look_shape();

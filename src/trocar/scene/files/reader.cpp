@@ -237,7 +237,7 @@ std::vector<core::Fault> check_file(const fs::path& path, const MemoryFiles* mem
       reading.looks(path);
       break;
     case FileKind::look:
-      LookShelf({path.parent_path()}, faults, memory);
+      MaterialFolders({path.parent_path()}, faults, memory);
       break;
     case FileKind::instrument:
       reading.instrument_file(path);

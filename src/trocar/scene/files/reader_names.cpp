@@ -72,10 +72,10 @@ void check_unique(const char* what, const std::vector<NamedPlace>& things, std::
 
 void Reading::looks(const std::filesystem::path& first) {
   const std::vector<std::filesystem::path> beside{first.parent_path() / "looks"};
-  const LookShelf shelf(m_library ? m_library->folders("looks") : beside, m_faults, m_memory);
-  description.looks = shelf.book();
-  if (!MemoryFiles::disk_too(m_memory) && shelf.empty()) return;  // a scene that is nothing but a text
-  const std::vector<std::string> known = shelf.names();
+  const MaterialFolders materials(m_library ? m_library->folders("looks") : beside, m_faults, m_memory);
+  description.looks = materials.library();
+  if (!MemoryFiles::disk_too(m_memory) && materials.empty()) return;  // a scene that is nothing but a text
+  const std::vector<std::string> known = materials.names();
   for (const Reference& reference : m_references)
     if (reference.to == Reference::To::look && std::find(known.begin(), known.end(), reference.name) == known.end())
       tell(m_faults, {reference.at, unknown_name("look", reference.name, known)});

@@ -48,7 +48,8 @@ void doubt_unit(SurfaceSource& source) {
   const Vec3d size = 1e-3 * (box.high - box.low);
   const double longest = std::max({size.x, size.y, size.z});
   if (longest < geometry::kShortestBody || longest > geometry::kLongestBody)
-    source.doubts.push_back("without \"unit_mm\" its coordinates are millimetres; " + geometry::guess_unit(box).words);
+    source.warnings.push_back("without \"unit_mm\" its coordinates are millimetres; " +
+                              geometry::guess_unit(box).words);
 }
 
 /// What to do about a file of several parts that are no body together.
@@ -76,7 +77,7 @@ bool become_closed(const JsonObject& o, const std::string& parts, SurfaceSource&
                                 left.empty() ? faults_of(mended.after) : left, parts));
     return false;
   }
-  for (const geometry::Change& c : mended.changes) source.doubts.push_back("mended: " + c.words);
+  for (const geometry::Change& c : mended.changes) source.warnings.push_back("mended: " + c.words);
   source.mesh = std::move(mended.mesh);
   return true;
 }

@@ -21,9 +21,9 @@ void refill(TetSource& source) {
   geometry::TetMesh filled = geometry::stuffed(geometry::surface_of(source.mesh).mesh, source.refill,
                                                {.most_cells = kMaxSolidCells, .largest_part = true});
   const double after = geometry::volume(filled);
-  source.doubts.clear();
+  source.warnings.clear();
   if (after < kKept * before || after > before / kKept)
-    source.doubts.push_back(
+    source.warnings.push_back(
         fmt::format("filled with new cells it has {:.3g} of {:.3g} ml: a smaller \"refill_mm\" keeps more", 1e6 * after,
                     1e6 * before));
   source.mesh = std::move(filled);
@@ -79,8 +79,9 @@ void Reading::mesh_of(const JsonObject& o, TetSource source, const fs::path& fol
   try {
     const std::string shown = place_of(folder, source.file).generic_string();
     geometry::TetRepair repaired = geometry::repair(geometry::read_tets(*bytes, shown, source.unit).mesh);
-    for (const geometry::Mended& m : repaired.mended) source.doubts.push_back("mended: " + geometry::in_words(m));
-    for (const std::string& left : geometry::left_as_is(repaired.mesh)) source.doubts.push_back("not mended: " + left);
+    for (const geometry::Mended& m : repaired.mended) source.warnings.push_back("mended: " + geometry::in_words(m));
+    for (const std::string& left : geometry::left_as_is(repaired.mesh))
+      source.warnings.push_back("not mended: " + left);
     source.mesh = std::move(repaired.mesh);
     if (source.refill > 0) refill(source);
   } catch (const core::BadInput& e) {

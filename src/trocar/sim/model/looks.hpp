@@ -70,7 +70,7 @@ struct Look {
   std::vector<Surrounding> surroundings;
 };
 
-struct Lookbook {
+struct MaterialLibrary {
   std::vector<Look> looks;
 };
 

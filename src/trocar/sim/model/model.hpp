@@ -36,7 +36,7 @@ namespace trocar::sim {
 
 using core::kTick;
 
-struct Lookbook;
+struct MaterialLibrary;
 
 /// A volumetric organ.
 struct SolidModel {
@@ -370,7 +370,8 @@ struct Model {
   std::vector<VisibilityTarget> targets;
   std::vector<VisibilitySample> samples;
   std::vector<DrawnDetail> drawn_detail;  ///< nothing that the step reads: not in the hash
-  std::shared_ptr<const Lookbook> looks;  ///< neither is this: what surfaces look like (looks.hpp), null: all neutral
+  std::shared_ptr<const MaterialLibrary>
+      looks;  ///< neither is this: what surfaces look like (looks.hpp), null: all neutral
   std::uint64_t hash = 0;
 
   /// The instrument that hand `hand` has in its trocar.

@@ -69,14 +69,14 @@ Look drawn(const sim::Look& l) {
 }
 
 /// A book with what was made of it; both live as long as some Model keeps the book.
-struct DrawnBook {
-  std::weak_ptr<const sim::Lookbook> of;
+struct DrawnLibrary {
+  std::weak_ptr<const sim::MaterialLibrary> of;
   std::unique_ptr<const std::vector<Look>> looks;
 };
 
-std::unique_ptr<const std::vector<Look>> drawn(const sim::Lookbook& book) {
+std::unique_ptr<const std::vector<Look>> drawn(const sim::MaterialLibrary& library) {
   auto looks = std::make_unique<std::vector<Look>>();
-  for (const sim::Look& l : book.looks) looks->push_back(drawn(l));
+  for (const sim::Look& l : library.looks) looks->push_back(drawn(l));
   return looks;
 }
 
@@ -108,12 +108,13 @@ bool is_alive(const Look& look) {
 const std::vector<Look>& all_looks(const sim::Model& model) {
   if (!model.looks) return neutral();
   static std::mutex mutex;
-  static std::map<const sim::Lookbook*, DrawnBook> books;
+  static std::map<const sim::MaterialLibrary*, DrawnLibrary> libraries;
   const std::lock_guard lock(mutex);
-  for (auto b = books.begin(); b != books.end();) b = b->second.of.expired() ? books.erase(b) : std::next(b);
-  DrawnBook& book = books[model.looks.get()];
-  if (!book.looks) book = {model.looks, drawn(*model.looks)};
-  return *book.looks;
+  for (auto b = libraries.begin(); b != libraries.end();)
+    b = b->second.of.expired() ? libraries.erase(b) : std::next(b);
+  DrawnLibrary& library = libraries[model.looks.get()];
+  if (!library.looks) library = {model.looks, drawn(*model.looks)};
+  return *library.looks;
 }
 
 const Look& look(const sim::Model& model, const std::string& name) {
