@@ -24,7 +24,7 @@ int rehearse(const RehearseChoice& o, bool json) {
   attempt::catch_interrupts();
   const attempt::Rehearsal r = attempt::rehearse(*lesson, o.patience);
   Json choices = Json::array();
-  for (const training::Choice& c : r.choices) choices.push_back({c.at, c.way});
+  for (const training::Choice& c : r.choices) choices.push_back({c.at, c.perturbation});
   if (json)
     print({{"exercise", lesson->name},
            {"seed", o.seed},

@@ -54,9 +54,9 @@ TEST(Rehearsal, WhatFailsAsItIsWrittenComesOffInAnotherWayAndAgainByTheChoicesAl
   EXPECT_GT(r.attempts, 1);
   ASSERT_FALSE(r.choices.empty());
   EXPECT_EQ(r.score, 100);
-  lesson.exercise->rehearsed = {{lesson.seed, r.choices}};
+  lesson.exercise->recorded_choices = {{lesson.seed, r.choices}};
   EXPECT_EQ(score_of(lesson), 100);
-  lesson.exercise->rehearsed = {{lesson.seed + 1, r.choices}};  // of another anatomy
+  lesson.exercise->recorded_choices = {{lesson.seed + 1, r.choices}};  // of another anatomy
   EXPECT_LT(score_of(lesson), 50);
 }
 

@@ -64,25 +64,25 @@ INSTANTIATE_TEST_SUITE_P(Seeds, CalotAnatomy, testing::Range(0, 20));
 
 /// Choices that were kept are of the physics, scene and plan that they were rehearsed with: whatever of these was
 /// changed since, they still come off, or are rehearsed anew.
-struct Rehearsed {
+struct RecordedChoices {
   std::string exercise;
   std::uint64_t seed;
 };
-std::vector<Rehearsed> rehearsed() {
-  std::vector<Rehearsed> all;
+std::vector<RecordedChoices> rehearsed() {
+  std::vector<RecordedChoices> all;
   for (const auto& entry : std::filesystem::directory_iterator(TROCAR_SOURCE_DIR "/scenes/cholecystectomy")) {
     if (entry.path().stem() == "scene") continue;
     const std::string name = "cholecystectomy/" + entry.path().filename().string();
-    for (const auto& r : read_exercise(entry.path()).rehearsed) all.push_back({name, r.seed});
+    for (const auto& r : read_exercise(entry.path()).recorded_choices) all.push_back({name, r.seed});
   }
-  std::sort(all.begin(), all.end(), [](const Rehearsed& a, const Rehearsed& b) {
+  std::sort(all.begin(), all.end(), [](const RecordedChoices& a, const RecordedChoices& b) {
     return std::tie(a.exercise, a.seed) < std::tie(b.exercise, b.seed);
   });
   return all;
 }
-class RehearsedAnatomy : public testing::TestWithParam<Rehearsed> {};
+class RehearsedAnatomy : public testing::TestWithParam<RecordedChoices> {};
 TEST_P(RehearsedAnatomy, ComesOffByItsChoices) { expect_passes(GetParam().exercise.c_str(), GetParam().seed, 0); }
-std::string word_of(const testing::TestParamInfo<Rehearsed>& given) {
+std::string word_of(const testing::TestParamInfo<RecordedChoices>& given) {
   std::string word =
       std::filesystem::path(given.param.exercise).stem().string() + "_" + std::to_string(given.param.seed);
   std::replace(word.begin(), word.end(), '-', '_');

@@ -22,9 +22,9 @@ bool struck(bool bent) {
   for (double gap = 0.006; gap > -0.0015; gap -= kSpeed * kSample) {
     Bent now(gap);
     if (!bent) now.straighten();
-    Mishaps mishaps;
-    watch.update(limits, now.model, now.state, kSample, mishaps);
-    for (int i = 0; i < mishaps.count; ++i) told += mishaps.list[size_t(i)].kind == Mishap::collided;
+    Incidents incidents;
+    watch.update(limits, now.model, now.state, kSample, incidents);
+    for (int i = 0; i < incidents.count; ++i) told += incidents.list[size_t(i)].kind == Incident::collided;
   }
   EXPECT_LE(told, 1) << "once a meeting";
   return told > 0;

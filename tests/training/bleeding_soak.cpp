@@ -110,7 +110,7 @@ void leave_the_pool(Plan& plan) {
 /// twice, and moves out of view meanwhile (E4.1).
 void wait(Plan& plan, double volume, double seconds = 0) {
   leave_the_pool(plan);
-  flaws::replace(first_look(plan), [volume, seconds](Operator& op, double now) {
+  flaws::replace(first_look(plan), [volume, seconds](Surgeon& op, double now) {
     return lost(op.model(), op.state()) > volume && now > seconds ? Progress::done : Progress::working;
   });
   first_look(plan).at_most = 600;
@@ -170,7 +170,7 @@ const Case kCases[] = {
        for (PlanTask& task : p.goal("watch the bleeding").todo)
          if (task.kind == &kCoagulate) {
            const int hand = task.argument("hand").index;
-           flaws::replace(task, [hand](Operator& op, double now) {
+           flaws::replace(task, [hand](Surgeon& op, double now) {
              Arms::Arm& arm = op.arm(hand);
              op.want(arm.tip);
              const bool there = op.arms().move_to_depth(hand, 0.07, pace::kCareful);

@@ -27,7 +27,7 @@ PlanTask& wrong_clip(Plan& plan, const char* which) { return flaws::first_wrongl
 
 /// The scissors into the gallbladder's wall.
 void open_the_gallbladder(PlanGoal& goal, size_t before, int hand) {
-  flaws::insert(goal, before, [hand](Operator& op, double now) {
+  flaws::insert(goal, before, [hand](Surgeon& op, double now) {
     const Vec3d wall{-0.062, 0.106, -0.092}, along = normalised(wall - op.arm(hand).port);
     op.want(wall);
     if (now < 3) return op.arms().move(hand, wall - 0.02 * along, pace::kTravel), Progress::working;
@@ -101,7 +101,7 @@ void spoil_spill(Plan& plan, const std::string& code) {
   PlanGoal& goal = plan.goal("put " + stone + " into the bag");
   const int hand = goal.todo[0].argument("hand").index;
   auto from = std::make_shared<Vec3d>();
-  flaws::insert(goal, 0, [hand, from](Operator& op, double now) {
+  flaws::insert(goal, 0, [hand, from](Surgeon& op, double now) {
     if (now <= 2 * sim::kTick) *from = op.arm(hand).tip;
     op.want(op.arm(hand).tip);
     if (now < 2.5) return op.arms().move(hand, *from + Vec3d{0, 0, 0.04}, pace::kCareful), Progress::working;

@@ -14,13 +14,13 @@ namespace {
 struct Watched {
   const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/peg_transfer/scene.json"));
   sim::State state = sim::initial_state(model);
-  std::unique_ptr<Noticer> noticer = kDropped.watch(model, {{true, -1, 0.005, 0.005, {}, {}}});
-  Happenings seen;
+  std::unique_ptr<EventDetector> detector = kDropped.watch(model, {{true, -1, 0.005, 0.005, {}, {}}});
+  EventInstances seen;
 
   interactions::RigidState& ring() { return interactions::part_of<interactions::Rigid>(state.objects)[2]; }
   int ticks(int n) {
     seen.count = 0;
-    for (int i = 0; i < n; ++i) ++state.tick, noticer->tick({model, state}, {}, seen);
+    for (int i = 0; i < n; ++i) ++state.tick, detector->tick({model, state}, {}, seen);
     return seen.count;
   }
   void hold(bool held) {

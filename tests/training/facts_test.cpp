@@ -38,7 +38,7 @@ struct World {
   sim::State state = sim::initial_state(model);
 
   explicit World(const sim::Model& of = two_sides::model()) : model(of) {}
-  Moment moment() const { return {model, state}; }
+  Snapshot snapshot() const { return {model, state}; }
   Argument named(ArgumentKind kind, const std::string& name) const {
     Argument a{true, -1, 0, 0, {}, {}};
     std::vector<std::string> known;
@@ -51,7 +51,7 @@ struct World {
 
   Value value(const Fact& fact, const Arguments& a) const {
     EXPECT_EQ(fact.parameters.size(), a.size()) << fact.name;
-    return fact.watch(model, a)->value(moment());
+    return fact.watch(model, a)->value(snapshot());
   }
   void see(const std::string& name, bool seen) {
     for (const sim::VisibilityTarget& t : model.targets)
@@ -192,14 +192,14 @@ TEST(Facts, AMarkHasMovedFromWhereItWasAtFirst) {
     return kMarkMoved.watch(w.model, {w.mark("tube_left.isthmus"), word(towards)});
   };
   const std::unique_ptr<Observer> left = moved("left"), right = moved("right"), hip = moved("right_hip");
-  EXPECT_UNKNOWN(left->value(w.moment())) << "nobody has looked yet";
-  for (Observer* o : {left.get(), right.get(), hip.get()}) o->sample(w.moment(), 0.02);
-  expect_value(left->value(w.moment()), 0);
+  EXPECT_UNKNOWN(left->value(w.snapshot())) << "nobody has looked yet";
+  for (Observer* o : {left.get(), right.get(), hip.get()}) o->sample(w.snapshot(), 0.02);
+  expect_value(left->value(w.snapshot()), 0);
   for (Vec3d& x : w.state.strands[kLeft].x) x += Vec3d{0.003, 0, 0.005};
-  for (Observer* o : {left.get(), right.get(), hip.get()}) o->sample(w.moment(), 0.02);
-  expect_value(left->value(w.moment()), 0.003);
-  expect_value(right->value(w.moment()), -0.003);
-  expect_value(hip->value(w.moment()), -0.003 / std::sqrt(2.0));
+  for (Observer* o : {left.get(), right.get(), hip.get()}) o->sample(w.snapshot(), 0.02);
+  expect_value(left->value(w.snapshot()), 0.003);
+  expect_value(right->value(w.snapshot()), -0.003);
+  expect_value(hip->value(w.snapshot()), -0.003 / std::sqrt(2.0));
 }
 
 TEST(Facts, TheHorizonIsWhereThePictureIsTurnedTo) {
@@ -262,15 +262,15 @@ TEST(Facts, AHandHasAnInstrument) {
 TEST(Facts, ATipIsSomewhereAndHasComeAWay) {
   World w;
   const auto path = kHandPath.watch(w.model, {w.hand(kGrasper)});
-  expect_value(path->value(w.moment()), 0);
+  expect_value(path->value(w.snapshot()), 0);
   const double depth = w.state.tools[kGrasper].depth;
   const double far = w.value(kHandTipToHand, {w.hand(kGrasper), w.hand(kScissors)}).number;
   EXPECT_GT(far, 0);
   w.state.tools[kGrasper].depth += 0.01;
-  path->sample(w.moment(), 0.02);
+  path->sample(w.snapshot(), 0.02);
   w.state.tools[kGrasper].depth -= 0.01;
-  path->sample(w.moment(), 0.02);
-  expect_value(path->value(w.moment()), 0.02, 1e-9);
+  path->sample(w.snapshot(), 0.02);
+  expect_value(path->value(w.snapshot()), 0.02, 1e-9);
   expect_value(w.value(kHandDepth, {w.hand(kGrasper)}), depth);
   EXPECT_GT(w.value(kHandTipToMark, {w.hand(kGrasper), w.mark("pad")}).number, 0);
   expect_value(w.value(kHandTipsInView, {w.hand(kGrasper)}), 0);
@@ -294,10 +294,10 @@ TEST(Facts, ATubeIsFollowedFromItsFimbriaeAtAnEyesPace) {
   const auto followed = kStrandFollowed.watch(w.model, {w.strand("tube_left"), word("fimbria"), number(0.02),
                                                         number(0.03), number(0.009), number(1), number(0.01)});
   w.see("tube_left", true);
-  for (int i = 0; i < 50; ++i) followed->sample(w.moment(), 0.02);
-  expect_value(followed->value(w.moment()), 0);
-  for (int i = 0; i < 100; ++i) followed->sample(w.moment(), 0.02);
-  expect_value(followed->value(w.moment()), 1);
+  for (int i = 0; i < 50; ++i) followed->sample(w.snapshot(), 0.02);
+  expect_value(followed->value(w.snapshot()), 0);
+  for (int i = 0; i < 100; ++i) followed->sample(w.snapshot(), 0.02);
+  expect_value(followed->value(w.snapshot()), 1);
 }
 
 TEST(Facts, FollowingBeginsAtTheLandmarkThatIsNamed) {
@@ -310,9 +310,9 @@ TEST(Facts, FollowingBeginsAtTheLandmarkThatIsNamed) {
   w.see("tube_left", true);
   w.see("tube_left.fimbria", false);
   for (int i = 0; i < 200; ++i)
-    for (Observer* o : {from_fimbria.get(), from_ampulla.get()}) o->sample(w.moment(), 0.02);
-  expect_value(from_fimbria->value(w.moment()), 0);
-  expect_value(from_ampulla->value(w.moment()), 1);
+    for (Observer* o : {from_fimbria.get(), from_ampulla.get()}) o->sample(w.snapshot(), 0.02);
+  expect_value(from_fimbria->value(w.snapshot()), 0);
+  expect_value(from_ampulla->value(w.snapshot()), 1);
 }
 
 TEST(Facts, ALumenIsOpenUntilItIsClippedAndStumpsAreUnknownUntilItIsCut) {
@@ -321,28 +321,28 @@ TEST(Facts, ALumenIsOpenUntilItIsClippedAndStumpsAreUnknownUntilItIsCut) {
   const auto occluded = kStrandOccluded.watch(w.model, tube), closed = kStrandStumpsClosed.watch(w.model, tube),
              seen = kStrandStumpsInView.watch(w.model, tube);
   const auto happened = [&] {
-    for (Observer* o : {occluded.get(), closed.get(), seen.get()}) o->happened(w.moment());
+    for (Observer* o : {occluded.get(), closed.get(), seen.get()}) o->happened(w.snapshot());
   };
   happened();
-  expect_value(occluded->value(w.moment()), 0);
+  expect_value(occluded->value(w.snapshot()), 0);
   w.clip(kLeft, 0.016);
   happened();
-  expect_value(occluded->value(w.moment()), 1);
-  EXPECT_UNKNOWN(closed->value(w.moment()));
-  EXPECT_UNKNOWN(seen->value(w.moment()));
+  expect_value(occluded->value(w.snapshot()), 1);
+  EXPECT_UNKNOWN(closed->value(w.snapshot()));
+  EXPECT_UNKNOWN(seen->value(w.snapshot()));
   interactions::Cut& cut = w.state.cuts[size_t(w.state.cut_count++)];
   cut = {};
   cut.s = 0.0205;
   cut.strand = kLeft;
   tissue::cut_element(w.state.strands[kLeft], interactions::place_at(w.model.strand_bodies[kLeft], cut.s).element);
   happened();
-  expect_value(closed->value(w.moment()), 0);
-  expect_value(seen->value(w.moment()), 0);
+  expect_value(closed->value(w.snapshot()), 0);
+  expect_value(seen->value(w.snapshot()), 0);
   w.clip(kLeft, 0.025);
   w.see("tube_left", true);
   happened();
-  expect_value(closed->value(w.moment()), 1);
-  expect_value(seen->value(w.moment()), 1);
+  expect_value(closed->value(w.snapshot()), 1);
+  expect_value(seen->value(w.snapshot()), 1);
 }
 
 /// Limits of a pair, as the sterilisation has them.
@@ -357,18 +357,18 @@ TEST(Facts, TwoClipsMakeAPairInEitherOrder) {
     const auto first = kClipsFirstSet.watch(w.model, pair_of(w)), second = kClipsSecondSet.watch(w.model, pair_of(w)),
                apart = kClipsApart.watch(w.model, pair_of(w));
     const auto happened = [&] {
-      for (Observer* o : {first.get(), second.get(), apart.get()}) o->happened(w.moment());
+      for (Observer* o : {first.get(), second.get(), apart.get()}) o->happened(w.snapshot());
     };
     w.clip(kLeft, inner_first ? 0.016 : 0.025);
     happened();
-    expect_value(first->value(w.moment()), inner_first);
-    expect_value(second->value(w.moment()), !inner_first);
-    EXPECT_UNKNOWN(apart->value(w.moment()));
+    expect_value(first->value(w.snapshot()), inner_first);
+    expect_value(second->value(w.snapshot()), !inner_first);
+    EXPECT_UNKNOWN(apart->value(w.snapshot()));
     w.clip(kLeft, inner_first ? 0.025 : 0.016);
     happened();
-    expect_value(first->value(w.moment()), 1);
-    expect_value(second->value(w.moment()), 1);
-    expect_value(apart->value(w.moment()), 0.009);
+    expect_value(first->value(w.snapshot()), 1);
+    expect_value(second->value(w.snapshot()), 1);
+    expect_value(apart->value(w.snapshot()), 0.009);
   }
 }
 
@@ -376,17 +376,17 @@ TEST(Facts, AClipThatMakesNoPairIsMisplacedAndOneThatIsBadlySetDoesNotCount) {
   World w;
   const auto misplaced = kClipsMisplaced.watch(w.model, pair_of(w)), first = kClipsFirstSet.watch(w.model, pair_of(w));
   w.clip(kLeft, 0.016).cover = 0.5;
-  misplaced->happened(w.moment());
-  first->happened(w.moment());
-  expect_value(misplaced->value(w.moment()), 0);
-  expect_value(first->value(w.moment()), 0);
+  misplaced->happened(w.snapshot());
+  first->happened(w.snapshot());
+  expect_value(misplaced->value(w.snapshot()), 0);
+  expect_value(first->value(w.snapshot()), 0);
   w.clip(kLeft, 0.016);
   w.clip(kLeft, 0.018);
-  misplaced->happened(w.moment());
-  expect_value(misplaced->value(w.moment()), 1);
+  misplaced->happened(w.snapshot());
+  expect_value(misplaced->value(w.snapshot()), 1);
   w.clip(kLeft, 0.025);
-  misplaced->happened(w.moment());
-  expect_value(misplaced->value(w.moment()), 0);
+  misplaced->happened(w.snapshot());
+  expect_value(misplaced->value(w.snapshot()), 0);
 }
 
 TEST(Facts, FluidsAreForScenesThatHaveThem) {
@@ -395,17 +395,17 @@ TEST(Facts, FluidsAreForScenesThatHaveThem) {
     EXPECT_EQ(fact->lacks(w.model), w.model.wet.there ? "" : "fluids") << fact->name;
   w.state.tick = 2000;
   const auto flow = kBloodFlow.watch(w.model, {}), since = kBloodSince.watch(w.model, {});
-  EXPECT_UNKNOWN(since->value(w.moment()));
+  EXPECT_UNKNOWN(since->value(w.snapshot()));
   receive(w.state.fluids.ledger, fluids::Source::kBled, fluids::Place::kPool, {.blood = 3 * fluids::kMillilitre});
-  flow->sample(w.moment(), 0.02);
-  since->sample(w.moment(), 0.02);
+  flow->sample(w.snapshot(), 0.02);
+  since->sample(w.snapshot(), 0.02);
   expect_value(w.value(kBloodLost, {}), 3e-6, 1e-12);
   expect_value(w.value(kPoolVolume, {}), 3e-6, 1e-12);
-  expect_value(flow->value(w.moment()), 3e-6, 1e-12);
+  expect_value(flow->value(w.snapshot()), 3e-6, 1e-12);
   w.state.tick = 5000;
-  expect_value(since->value(w.moment()), 3);
-  for (int i = 0; i < 50; ++i) flow->sample(w.moment(), 0.02);
-  expect_value(flow->value(w.moment()), 0);
+  expect_value(since->value(w.snapshot()), 3);
+  for (int i = 0; i < 50; ++i) flow->sample(w.snapshot(), 0.02);
+  expect_value(flow->value(w.snapshot()), 0);
   expect_value(w.value(kClock, {}), 5);
 }
 
@@ -430,8 +430,8 @@ TEST(Facts, WhereAVesselOpensIsAMarkOnWhateverCarriesIt) {
     EXPECT_EQ(kBleederUncovered.lacks(model), "") << vessel;
     const auto free = kBleederUncovered.watch(model, {});
     w.state.tick = model.vessels.bleeder.tick;
-    free->sample(w.moment(), 0.02);
-    expect_value(free->value(w.moment()), 0.02);
+    free->sample(w.snapshot(), 0.02);
+    expect_value(free->value(w.snapshot()), 0.02);
   }
 }
 
@@ -444,15 +444,15 @@ TEST(Facts, AVesselThatOpensWhereNothingCarriesItCannotBeTold) {
 TEST(Facts, WhatFlowsThroughAVesselIsAMeanOfSomeBeats) {
   World w{small::model()};
   const auto flow = kVesselFlow.watch(w.model, {w.named(ArgumentKind::vessel, "tube_artery")});
-  EXPECT_UNKNOWN(flow->value(w.moment()));
+  EXPECT_UNKNOWN(flow->value(w.snapshot()));
   std::fill(w.state.flow.q.begin(), w.state.flow.q.end(), 2e-7);
-  for (int i = 0; i < 100; ++i) flow->sample(w.moment(), 0.02);
-  expect_value(flow->value(w.moment()), 2e-7, 1e-9);
+  for (int i = 0; i < 100; ++i) flow->sample(w.snapshot(), 0.02);
+  expect_value(flow->value(w.snapshot()), 2e-7, 1e-9);
   std::fill(w.state.flow.q.begin(), w.state.flow.q.end(), 0.0);
-  for (int i = 0; i < 50; ++i) flow->sample(w.moment(), 0.02);
-  expect_value(flow->value(w.moment()), 1e-7, 1e-9);
-  for (int i = 0; i < 50; ++i) flow->sample(w.moment(), 0.02);
-  expect_value(flow->value(w.moment()), 0, 1e-9);
+  for (int i = 0; i < 50; ++i) flow->sample(w.snapshot(), 0.02);
+  expect_value(flow->value(w.snapshot()), 1e-7, 1e-9);
+  for (int i = 0; i < 50; ++i) flow->sample(w.snapshot(), 0.02);
+  expect_value(flow->value(w.snapshot()), 0, 1e-9);
   EXPECT_EQ(kVesselFlow.lacks(two_sides::model()), "vessels");
 }
 
@@ -481,18 +481,18 @@ TEST(Facts, WhatIsPartedIsAShareOfTheSurface) {
 /// Events of one kind that a State brings.
 struct Noticed : World {
   explicit Noticed(const sim::Model& of = two_sides::model()) : World(of) {}
-  std::unique_ptr<Noticer> noticer;
-  Happenings seen;
+  std::unique_ptr<EventDetector> detector;
+  EventInstances seen;
   void watch(const EventKind& kind, const Arguments& a = {}) {
     EXPECT_EQ(kind.parameters.size(), a.size());
-    noticer = kind.watch(model, a);
+    detector = kind.watch(model, a);
   }
   int tick(int count = 1, const sim::StepReport& report = {}) {
     seen.count = 0;
     for (int i = 0; i < count; ++i) {
       ++state.tick;
-      noticer->tick(moment(), report, seen);
-      if (state.tick % 20 == 0) noticer->sample(moment(), 0.02, seen);
+      detector->tick(snapshot(), report, seen);
+      if (state.tick % 20 == 0) detector->sample(snapshot(), 0.02, seen);
     }
     return seen.count;
   }
@@ -504,7 +504,7 @@ struct Noticed : World {
   }
   Value attribute(const EventKind& kind, std::string_view name) const {
     for (const Attribute& a : kind.attributes)
-      if (a.name == name) return a.value(moment(), seen.list[0]);
+      if (a.name == name) return a.value(snapshot(), seen.list[0]);
     ADD_FAILURE() << name;
     return kUnknown;
   }

@@ -13,11 +13,11 @@ namespace trocar::training::flaws {
 /// A skill that a test writes on the spot.
 class Antic : public Skill {
  public:
-  using Do = std::function<Progress(Operator&, double now)>;  ///< since it began [s]
+  using Do = std::function<Progress(Surgeon&, double now)>;  ///< since it began [s]
   explicit Antic(Do what) : m_what(std::move(what)) {}
 
  private:
-  Progress work(Operator& op) override { return m_what(op, m_in_phase); }
+  Progress work(Surgeon& op) override { return m_what(op, m_in_phase); }
   Do m_what;
 };
 
@@ -34,7 +34,7 @@ inline PlanTask& insert(PlanGoal& goal, size_t before, PlanTask task) {
 }
 inline void insert(PlanGoal& goal, size_t before, Antic::Do what) {
   const auto done = std::make_shared<bool>(false);
-  replace(insert(goal, before, PlanTask::of(kHold)), [what, done](Operator& op, double now) {
+  replace(insert(goal, before, PlanTask::of(kHold)), [what, done](Surgeon& op, double now) {
     if (*done) return Progress::done;
     const Progress p = what(op, now);
     *done = p != Progress::working;
@@ -57,32 +57,32 @@ inline PlanGoal& first_wrongly(Plan& plan, std::string_view name) {
 /// Does what the skill does, and then this to what the camera or the hands shall do.
 class Distracted : public Skill {
  public:
-  Distracted(std::unique_ptr<Skill> skill, std::function<void(Operator&)> then)
+  Distracted(std::unique_ptr<Skill> skill, std::function<void(Surgeon&)> then)
       : m_skill(std::move(skill)), m_then(std::move(then)) {}
 
  private:
-  void start(Operator& op, int tries) override { m_skill->begin(op, tries); }
-  Progress work(Operator& op) override {
+  void start(Surgeon& op, int tries) override { m_skill->begin(op, tries); }
+  Progress work(Surgeon& op) override {
     const Progress p = m_skill->tick(op);
     m_then(op);
     return p;
   }
   std::unique_ptr<Skill> m_skill;
-  std::function<void(Operator&)> m_then;
+  std::function<void(Surgeon&)> m_then;
 };
-inline void distract(PlanTask& task, std::function<void(Operator&)> then) {
+inline void distract(PlanTask& task, std::function<void(Surgeon&)> then) {
   task.wrap = [then](std::unique_ptr<Skill> s) { return std::make_unique<Distracted>(std::move(s), then); };
 }
 
 /// The camera on the other side of the patient from this place.
-inline void look_away(Operator& op, Vec3d from) {
+inline void look_away(Surgeon& op, Vec3d from) {
   op.want_nothing();
   op.want({-3 * from.x, from.y, from.z});
 }
 
 /// Raises what a hand holds without looking at how hard it pulls, until `enough`.
-inline Antic::Do raise(int hand, std::function<bool(Operator&)> enough) {
-  return [hand, enough](Operator& op, double) {
+inline Antic::Do raise(int hand, std::function<bool(Surgeon&)> enough) {
+  return [hand, enough](Surgeon& op, double) {
     if (enough(op)) return Progress::done;
     Arms::Arm& arm = op.arm(hand);
     op.want(arm.tip);
@@ -96,7 +96,7 @@ class Pinch {
  public:
   Pinch(int hand, int mark) : m_hand(hand), m_mark(mark) {}
 
-  Progress operator()(Operator& op, double now) {
+  Progress operator()(Surgeon& op, double now) {
     constexpr double kClear = 0.02;  // [m]
     const interactions::ToolModel& t = op.tool(m_hand);
     const Vec3d port = op.arm(m_hand).port;
@@ -121,7 +121,7 @@ class Pinch {
   }
 
  private:
-  static double from_strands(Operator& op, Vec3d at) {
+  static double from_strands(Surgeon& op, Vec3d at) {
     double least = 1e9;
     for (const tissue::StrandState& strand : op.state().strands)
       for (const Vec3d& x : strand.x) least = std::min(least, length(x - at));
@@ -129,7 +129,7 @@ class Pinch {
   }
 
   /// Between two neighbouring points of its skin, the jaws' width along them.
-  bool choose(Operator& op, double clear) {
+  bool choose(Surgeon& op, double clear) {
     const sim::VisibilityTarget& seen = op.model().targets[size_t(m_mark)];
     const Vec3d port = op.arm(m_hand).port;
     double least = 1e9;

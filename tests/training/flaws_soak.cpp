@@ -104,17 +104,17 @@ class Side {
 void Side::wrong_force(const std::string& code) {
   const int hand = grasper, strand = tube;
   if (code == "E1")  // pulls on
-    flaws::replace(task("present", "lift"), [hand, steady = 0.0](Operator& op, double now) mutable {
+    flaws::replace(task("present", "lift"), [hand, steady = 0.0](Surgeon& op, double now) mutable {
       const bool hard = norm(op.tool_state(hand).pull) > 4.2;
       steady += hard ? sim::kTick : 0;
-      if (!hard) flaws::raise(hand, [](Operator&) { return false; })(op, now);
+      if (!hard) flaws::raise(hand, [](Surgeon&) { return false; })(op, now);
       return steady > 0.3 ? Progress::done : Progress::working;
     });
   if (code == "E1.2")
-    flaws::replace(task("present", "lift"), flaws::raise(hand, [strand](Operator& op) { return op.severed(strand); }));
+    flaws::replace(task("present", "lift"), flaws::raise(hand, [strand](Surgeon& op) { return op.severed(strand); }));
   if (code == "E2") flaws::insert(goal("present"), 0, flaws::Pinch(hand, model().target_index("rectosigmoid")));
   if (code == "E3")  // hardly closed, and drawn back at once: the tube slides out over the jaws' ends
-    flaws::replace(task("present", "grasp"), [hand, from = Vec3d{}, pulls = false](Operator& op, double) mutable {
+    flaws::replace(task("present", "grasp"), [hand, from = Vec3d{}, pulls = false](Surgeon& op, double) mutable {
       const interactions::ToolState& tool = op.tool_state(hand);
       if (!pulls && tool.holds > 0 && tool.pinch > 0.1) pulls = true, from = op.arm(hand).tip;
       if (!pulls) return op.arms().grip(hand, 0.95, 0.8), Progress::working;
@@ -126,13 +126,13 @@ void Side::wrong_force(const std::string& code) {
 void Side::wrong_hands(const std::string& code) {
   const int hand = scissors, held = grasper, strand = tube;
   if (code == "E4.1")  // the scissors wander off, the camera stays
-    flaws::insert(goal("present"), 0, [hand, strand](Operator& op, double) {
+    flaws::insert(goal("present"), 0, [hand, strand](Surgeon& op, double) {
       op.want(op.point(strand, 0.025));
       const Vec3d away{op.arm(hand).port.x * 0.9, -0.150, -0.070};
       return op.arms().move(hand, away, 0.03) ? Progress::done : Progress::working;
     });
   if (code == "E5")  // the scissors strike the grasper
-    flaws::insert(goal("first clip"), 0, [hand, held](Operator& op, double now) {
+    flaws::insert(goal("first clip"), 0, [hand, held](Surgeon& op, double now) {
       const interactions::ToolShape shape = interactions::shape_of(op.tool(held), op.tool_state(held).pose(), 0);
       const Vec3d there = shape.pivot - 0.02 * shape.frame.axis();
       op.want(there);
@@ -152,7 +152,7 @@ void Side::wrong_hands(const std::string& code) {
   if (code == "E13")  // the camera elsewhere while an instrument comes in
     for (const char* skill : {"take", "bring_in"}) {
       PlanTask& t = task("take a grasper", skill).set("watch", "no");
-      flaws::distract(t, [strand](Operator& op) { op.want(op.point(strand, 0)); });
+      flaws::distract(t, [strand](Surgeon& op) { op.want(op.point(strand, 0)); });
     }
 }
 
@@ -223,7 +223,7 @@ void Side::wrong_current(const std::string& code) {
   const int hand = scissors;
   if (code == "E6") {
     PlanTask air = PlanTask::of(kHold);
-    flaws::replace(air, [hand](Operator& op, double now) {
+    flaws::replace(air, [hand](Surgeon& op, double now) {
       op.want(op.arm(hand).tip);
       op.arm(hand).coagulating = now < 1;
       return now < 1 ? Progress::working : Progress::done;
@@ -240,7 +240,7 @@ void Side::wrong_current(const std::string& code) {
 void Side::looks_on(const std::string& code) {
   if (code.rfind("E9", 0) == 0) {
     PlanTask& look = m_plan.task("survey", "look_around");
-    flaws::replace(look, [](Operator&, double) { return Progress::working; });
+    flaws::replace(look, [](Surgeon&, double) { return Progress::working; });
     look.at_most = 600;
   }
   if (code == "E10") {
@@ -256,7 +256,7 @@ void Side::looks_on(const std::string& code) {
 void Side::not_identified() {
   // A glance to the other side, straight to work, and eyes for the isthmus only.
   const int strand = tube;
-  flaws::replace(m_plan.task("survey", "look_around"), [strand](Operator& op, double now) {
+  flaws::replace(m_plan.task("survey", "look_around"), [strand](Surgeon& op, double now) {
     flaws::look_away(op, op.point(strand, 0));
     return now > 2.5 ? Progress::done : Progress::working;
   });
@@ -266,7 +266,7 @@ void Side::not_identified() {
   task("present", "approach").set("share", 0.1);
   for (PlanGoal& g : goals)
     for (PlanTask& t : g.todo)
-      flaws::distract(t, [strand](Operator& op) {
+      flaws::distract(t, [strand](Surgeon& op) {
         op.want_nothing();
         op.want(op.point(strand, 0.012));
         op.from(0.035);

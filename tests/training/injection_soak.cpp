@@ -11,7 +11,7 @@ PlanTask& first(Lesson& lesson, std::string_view skill) {
 }
 
 /// To the nearest place of a vessel, by a hand that does not look where it goes, and the plunger pressed there.
-Progress into_a_vessel(Operator& op, int hand, double now) {
+Progress into_a_vessel(Surgeon& op, int hand, double now) {
   const sim::NeedleHand& needle = op.state().injection.hands[size_t(hand)];
   Arms::Arm& arm = op.arm(hand);
   const int vessel = op.model().vessel_index("uterine_upper_left");
@@ -36,7 +36,7 @@ std::vector<Flaw> of_injection() {
          const int hand = first(lesson, "pierce").argument("hand").index;
          first(lesson, "pierce").set("x_mm", 0.0148).set("y_mm", -0.1576).set("z_mm", -0.0957);
          flaws::replace(first(lesson, "aspirate"),
-                        [hand](Operator& op, double now) { return into_a_vessel(op, hand, now); });
+                        [hand](Surgeon& op, double now) { return into_a_vessel(op, hand, now); });
        },
        {}},
       {kInjection, "I2", [](Lesson& lesson) { first(lesson, "aspirate").set("for_s", 0.3); }, {}},
@@ -53,7 +53,7 @@ std::vector<Flaw> of_injection() {
        "I4",
        [](Lesson& lesson) {
          const int hand = first(lesson, "pierce").argument("hand").index;
-         flaws::insert(lesson.demonstration.plan.goal("inject on the left"), 0, [hand](Operator& op, double now) {
+         flaws::insert(lesson.demonstration.plan.goal("inject on the left"), 0, [hand](Surgeon& op, double now) {
            op.arm(hand).irrigating = now < 5;
            return now < 5 ? Progress::working : Progress::done;
          });

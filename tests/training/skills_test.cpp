@@ -237,7 +237,7 @@ TEST(Skills, ViewTurnsPostAndHeadUntilAnObliqueScopeLooksAlongTheNormal) {
     d.scope.angle = oblique * portable::pi / 180;
     const sim::Model model = scene::compile(d);
     sim::State state = sim::initial_state(model);
-    Operator op(model, {});
+    Surgeon op(model, {});
     const int mark = model.target_index("pad");
     ASSERT_GE(mark, 0);
     const Vec3d at = place_of_mark(model, state, mark);
@@ -265,7 +265,7 @@ PlanTask act(std::vector<std::string>& log, const std::string& name, std::vector
   PlanTask t = PlanTask::of(kHold);
   const auto times = std::make_shared<size_t>(0);
   t.wrap = [&log, name, comes_off, ticks, times](std::unique_ptr<Skill>) {
-    return std::make_unique<flaws::Antic>([&log, name, comes_off, ticks, times](Operator&, double now) {
+    return std::make_unique<flaws::Antic>([&log, name, comes_off, ticks, times](Surgeon&, double now) {
       if (now < (ticks - 0.5) * sim::kTick) return Progress::working;
       log.push_back(name);
       const bool well = comes_off[std::min((*times)++, comes_off.size() - 1)];

@@ -260,12 +260,12 @@ TEST_F(StoreTest, AnotherThatWritesForAMomentIsWaitedFor) {
   {
     Database other(database(), Database::Access::write);
     auto all = std::make_unique<Transaction>(other);
-    std::thread moment([&] {
+    std::thread snapshot([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(300));
       all.reset();
     });
     kept = store.end(a, lock);
-    moment.join();
+    snapshot.join();
   }
   EXPECT_TRUE(kept.in_database);
   EXPECT_TRUE(store.notices().empty());

@@ -31,7 +31,7 @@ struct Sewn {
   explicit Sewn(const sim::Model& of = box()) : model(of) {}
   interactions::SutureState& suture() { return state.objects.sutures.front(); }
   const interactions::SutureModel& thing() const { return suture_of(model); }
-  Moment moment() const { return {model, state}; }
+  Snapshot snapshot() const { return {model, state}; }
 
   Argument named(ArgumentKind kind, const std::string& name) const {
     Argument a;
@@ -58,13 +58,13 @@ struct Sewn {
 
   Value value(const Fact& fact, const Arguments& a = {}) const {
     EXPECT_EQ(fact.parameters.size(), a.size()) << fact.name;
-    return fact.watch(model, a)->value(moment());
+    return fact.watch(model, a)->value(snapshot());
   }
   /// Of one that remembers, after as long.
   Value later(const Fact& fact, double seconds, const Arguments& a = {}) const {
     const auto observer = fact.watch(model, a);
-    observer->sample(moment(), seconds);
-    return observer->value(moment());
+    observer->sample(snapshot(), seconds);
+    return observer->value(snapshot());
   }
 
   SutureBite& bite(SutureBite::Stage stage) {
@@ -127,10 +127,11 @@ int told_too_hard(Vec3d left, Vec3d right) {
     tool.pull[0] = pull[h].x, tool.pull[1] = pull[h].y, tool.pull[2] = pull[h].z;
   }
   PullWatch watch;
-  Mishaps mishaps;
+  Incidents incidents;
   for (int tick = 0; tick < 300; ++tick)
-    watch.update({.pull_limit = 5, .pull_limit_other = 8, .pull_excursion = 0.2}, {}, sewn.model, sewn.state, mishaps);
-  return mishaps.count;
+    watch.update({.pull_limit = 5, .pull_limit_other = 8, .pull_excursion = 0.2}, {}, sewn.model, sewn.state,
+                 incidents);
+  return incidents.count;
 }
 
 TEST(PullAtASuture, IsTooHardByWhatIsLeftForTissueWhenHandsPullAtEachOther) {

@@ -63,8 +63,8 @@ class Attempt {
         m_monitor(lesson.monitor()),
         m_known(choices_of(lesson)),
         m_performer(lesson.model, training::read_demonstration(*lesson.exercise, lesson.model, lesson.seed),
-                    {.tremor = {}, .way = [this](int choice) { return way(choice); }}) {
-    for (const training::Choice& c : m_known) m_first = std::max(m_first, c.way);
+                    {.tremor = {}, .perturbation = [this](int choice) { return perturbation(choice); }}) {
+    for (const training::Choice& c : m_known) m_first = std::max(m_first, c.perturbation);
   }
 
   [[noreturn]] void run() {
@@ -98,7 +98,7 @@ class Attempt {
   }
 
   /// The process that returns goes on in that way; the one that called never comes back.
-  int way(int choice) {
+  int perturbation(int choice) {
     for (int chosen = known_at(choice); !spent(); chosen = m_first + m_board->attempts++) {
       std::fflush(nullptr);
       const pid_t copy = fork();
@@ -117,12 +117,12 @@ class Attempt {
   }
 
   static training::Choices choices_of(const Lesson& lesson) {
-    const training::Rehearsed* before = lesson.exercise->rehearsed_with(lesson.seed);
+    const training::RecordedChoices* before = lesson.exercise->recorded_choices_for(lesson.seed);
     return before ? before->choices : training::Choices{};
   }
   int known_at(int choice) const {
     for (const training::Choice& c : m_known)
-      if (c.at == choice) return c.way;
+      if (c.at == choice) return c.perturbation;
     return 0;
   }
 

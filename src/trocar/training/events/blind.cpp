@@ -7,7 +7,7 @@ namespace trocar::training {
 namespace {
 
 template <bool inserting>
-class Blind final : public Noticer {
+class Blind final : public EventDetector {
  public:
   Blind(const sim::Model& model, const Arguments& a) : m_watch(model) {
     m_limits.insertion_depth = a[0].number();
@@ -18,16 +18,16 @@ class Blind final : public Noticer {
     const sim::State start = sim::initial_state(model);
     for (size_t h = 0; h < hands(model); ++h) m_before[h] = tip_of(model, start, h);
   }
-  void tick(const Moment&, const sim::StepReport& report, Happenings&) override {
+  void tick(const Snapshot&, const sim::StepReport& report, EventInstances&) override {
     for (int i = 0; i < report.event_count; ++i)
       if (report.events[i].kind == sim::Event::exchanged) m_watch.exchanged(report.events[i].tool);
   }
-  void sample(const Moment& moment, double dt, Happenings& out) override {
+  void sample(const Snapshot& snapshot, double dt, EventInstances& out) override {
     std::array<Vec3d, sim::kMaxTools> now{};
-    for (size_t h = 0; h < hands(moment.model); ++h) now[h] = tip_of(moment.model, moment.state, h);
-    Mishaps mishaps;
-    m_watch.update(m_limits, moment.model, moment.state, m_before, now, dt, mishaps);
-    pass(mishaps, inserting ? Mishap::inserted_blind : Mishap::moved_blind, out);
+    for (size_t h = 0; h < hands(snapshot.model); ++h) now[h] = tip_of(snapshot.model, snapshot.state, h);
+    Incidents incidents;
+    m_watch.update(m_limits, snapshot.model, snapshot.state, m_before, now, dt, incidents);
+    pass(incidents, inserting ? Incident::inserted_blind : Incident::moved_blind, out);
     m_before = now;
   }
 
@@ -46,12 +46,12 @@ const EventKind kMovedBlind{"moved_blind",
                             {},
                             "An instrument moves out of the camera's view; reported once until it is seen again.",
                             anywhere,
-                            &noticing<Blind<false>>};
+                            &make_detector<Blind<false>>};
 const EventKind kInsertedBlind{"inserted_blind",
                                {{"depth_mm", ArgumentKind::number, "so deep", true, 0, 290}},
                                {},
                                "A new instrument is inserted with neither its tip nor its shaft in view.",
                                anywhere,
-                               &noticing<Blind<true>>};
+                               &make_detector<Blind<true>>};
 
 }  // namespace trocar::training

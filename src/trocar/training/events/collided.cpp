@@ -4,15 +4,15 @@
 namespace trocar::training {
 namespace {
 
-class Collided final : public Noticer {
+class Collided final : public EventDetector {
  public:
   Collided(const sim::Model&, const Arguments& a) { m_limits.collision_speed = a[0].number(); }
-  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
+  void tick(const Snapshot& snapshot, const sim::StepReport&, EventInstances& out) override {
     constexpr int kEvery = 4;  // ticks between looks at instruments against each other: 250 Hz
-    if (moment.state.tick % kEvery != 0) return;
-    Mishaps mishaps;
-    m_watch.update(m_limits, moment.model, moment.state, kEvery * sim::kTick, mishaps);
-    pass(mishaps, Mishap::collided, out);
+    if (snapshot.state.tick % kEvery != 0) return;
+    Incidents incidents;
+    m_watch.update(m_limits, snapshot.model, snapshot.state, kEvery * sim::kTick, incidents);
+    pass(incidents, Incident::collided, out);
   }
 
  private:
@@ -24,7 +24,7 @@ class Collided final : public Noticer {
 
 const EventKind kCollided{"collided", {{"speed_mm_s", ArgumentKind::number, "faster than this", true, 0, 1000}},
                           {},         "Two instruments strike each other; reported once per contact.",
-                          anywhere,   &noticing<Collided>,
+                          anywhere,   &make_detector<Collided>,
                           false,      EventKind::Hold::now};
 
 }  // namespace trocar::training

@@ -17,25 +17,25 @@ struct Fall {
   double still_for = 0;  ///< [s]
 };
 
-class Dropped final : public Noticer {
+class Dropped final : public EventDetector {
  public:
   Dropped(const sim::Model& model, const Arguments& a) : m_least(a[0].number()) {
     interactions::visit_objects(model.objects, [this](auto kind, BodyId id) {
       if (kind.kRigidInJaws) m_falls.emplace_back().body = id;
     });
   }
-  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
-    const Vec3d down = normalised(moment.model.gravity, {0, 0, -1});
+  void tick(const Snapshot& snapshot, const sim::StepReport&, EventInstances& out) override {
+    const Vec3d down = normalised(snapshot.model.gravity, {0, 0, -1});
     for (Fall& f : m_falls) {
-      const Vec3d now = place_of(moment, f.body);
-      note_hands(moment, f, now);
+      const Vec3d now = place_of(snapshot, f.body);
+      note_hands(snapshot, f, now);
       f.still_for = length(now - f.last) < kStill * sim::kTick ? f.still_for + sim::kTick : 0;
       f.last = now;
       if (f.held || f.hand < 0 || f.still_for < kLies) continue;
       const double fallen = dot(now - f.from, down);
       if (fallen > m_least)
-        out.add({f.hand, f.body, -1, name_of_body(moment.model, f.body),
-                 tip_of(moment.model, moment.state, size_t(f.hand)), now});
+        out.add({f.hand, f.body, -1, name_of_body(snapshot.model, f.body),
+                 tip_of(snapshot.model, snapshot.state, size_t(f.hand)), now});
       f.hand = -1;
     }
   }
@@ -43,18 +43,18 @@ class Dropped final : public Noticer {
  private:
   static constexpr double kStill = 0.005, kLies = 0.2;  // [m/s], [s] slower for so long it lies
 
-  static Vec3d place_of(const Moment& moment, BodyId body) {
+  static Vec3d place_of(const Snapshot& snapshot, BodyId body) {
     Vec3d at;
     interactions::visit_object(body, [&](auto kind) {
-      at = kind.middle(interactions::part_of<decltype(kind)>(moment.model.objects),
-                       interactions::part_of<decltype(kind)>(moment.state.objects), body.index());
+      at = kind.middle(interactions::part_of<decltype(kind)>(snapshot.model.objects),
+                       interactions::part_of<decltype(kind)>(snapshot.state.objects), body.index());
     });
     return at;
   }
-  static void note_hands(const Moment& moment, Fall& f, Vec3d now) {
+  static void note_hands(const Snapshot& snapshot, Fall& f, Vec3d now) {
     bool held = false;
-    for (size_t t = 0; t < hands(moment.model); ++t) {
-      const interactions::ToolState& tool = moment.state.tools[t];
+    for (size_t t = 0; t < hands(snapshot.model); ++t) {
+      const interactions::ToolState& tool = snapshot.state.tools[t];
       if (tool.holds == 0 || tool.hold[0].body != f.body) continue;
       held = true;
       f.hand = int(t);
@@ -68,9 +68,9 @@ class Dropped final : public Noticer {
 };
 
 /// The endoscope points at it: its middle lies within the picture.
-Value in_view(const Moment& moment, const Happening& h) {
-  const kinematics::ScopeFrame scope = sim::scope_of(moment.model, moment.state);
-  const double half = 0.5 * moment.model.scope.field_of_view;
+Value in_view(const Snapshot& snapshot, const EventInstance& h) {
+  const kinematics::ScopeFrame scope = sim::scope_of(snapshot.model, snapshot.state);
+  const double half = 0.5 * snapshot.model.scope.field_of_view;
   return dot(normalised(h.where - scope.eye), scope.forward) > portable::cos(half);
 }
 
@@ -88,7 +88,7 @@ const EventKind kDropped{
     {{"in_view", "the endoscope shows where it came to rest", in_view, 0, 1, true}},
     "An object that a hand held has fallen and come to rest.",
     needs_objects,
-    &noticing<Dropped>,
+    &make_detector<Dropped>,
     true};
 
 }  // namespace trocar::training

@@ -9,15 +9,15 @@ namespace {
 
 constexpr std::int32_t kCritical = 1;  // as a happening's number
 
-class OffTarget final : public Noticer {
+class OffTarget final : public EventDetector {
  public:
   OffTarget(const sim::Model& model, const Arguments& a)
       : m_watch(with_carrier_of_bleeder(model, a[0].bodies), a[1].bodies) {}
-  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
-    Mishaps mishaps;
-    m_watch.update(m_limits, moment.model, moment.state, mishaps);
-    pass(mishaps, Mishap::off_target, out);
-    pass(mishaps, Mishap::never_there, out, kCritical);
+  void tick(const Snapshot& snapshot, const sim::StepReport&, EventInstances& out) override {
+    Incidents incidents;
+    m_watch.update(m_limits, snapshot.model, snapshot.state, incidents);
+    pass(incidents, Incident::off_target, out);
+    pass(incidents, Incident::never_there, out, kCritical);
   }
 
  private:
@@ -25,7 +25,7 @@ class OffTarget final : public Noticer {
   EnergyWatch m_watch;
 };
 
-Value critical(const Moment&, const Happening& h) { return h.number == kCritical; }
+Value critical(const Snapshot&, const EventInstance& h) { return h.number == kCritical; }
 
 }  // namespace
 
@@ -36,6 +36,6 @@ const EventKind kEnergyOffTarget{
     {{"critical", "the body is one on which current is never allowed", critical, 0, 1, true}},
     "Current flows through tissue that must not be treated; reported once per activation.",
     needs_energy,
-    &noticing<OffTarget>};
+    &make_detector<OffTarget>};
 
 }  // namespace trocar::training

@@ -14,33 +14,33 @@ namespace trocar::training {
 
 /// What would happen if a hand did now what it is about to do.
 struct Foreseen {
-  Happening happening;
+  EventInstance instance;
   interactions::Clip clip;  ///< that the happening points at
 };
 
 /// Those of one kind in a tick; what does not fit is not told.
-struct Happenings {
-  std::array<Happening, 16> list;
+struct EventInstances {
+  std::array<EventInstance, 16> list;
   int count = 0;
-  void add(const Happening& h) {
+  void add(const EventInstance& h) {
     if (count < int(list.size())) list[size_t(count++)] = h;
   }
 };
 
 /// Notices one kind of event with its arguments, in one attempt.
-class Noticer {
+class EventDetector {
  public:
-  virtual ~Noticer() = default;
-  virtual void tick(const Moment&, const sim::StepReport&, Happenings&) {}
+  virtual ~EventDetector() = default;
+  virtual void tick(const Snapshot&, const sim::StepReport&, EventInstances&) {}
   /// Fifty times a second; how long since the last time [s].
-  virtual void sample(const Moment&, double, Happenings&) {}
+  virtual void sample(const Snapshot&, double, EventInstances&) {}
 };
 
 /// A number or a truth of one happening.
 struct Attribute {
   std::string_view name;
   std::string_view meaning;
-  Value (*value)(const Moment& moment, const Happening& h);
+  Value (*value)(const Snapshot& snapshot, const EventInstance& h);
   double low = 0, high = 1;  ///< that it can be, in the unit that its name ends in
   bool is_truth = false, is_count = false;
 };
@@ -56,15 +56,15 @@ struct EventKind {
   std::vector<Attribute> attributes;
   std::string_view meaning;
   std::string_view (*lacks)(const sim::Model& model);
-  std::unique_ptr<Noticer> (*watch)(const sim::Model& model, const Arguments& arguments);
+  std::unique_ptr<EventDetector> (*watch)(const sim::Model& model, const Arguments& arguments);
   bool has_body = false;  ///< it happens to a body: rules may ask for "on"
   Hold of_hold = Hold::none;
   /// What this hand is about to do; false: nothing of this kind. Null: it cannot be foreseen.
-  bool (*foresee)(const Moment& moment, int hand, Foreseen& out) = nullptr;
+  bool (*foresee)(const Snapshot& snapshot, int hand, Foreseen& out) = nullptr;
 };
 
 template <class N>
-std::unique_ptr<Noticer> noticing(const sim::Model& model, const Arguments& arguments) {
+std::unique_ptr<EventDetector> make_detector(const sim::Model& model, const Arguments& arguments) {
   return std::make_unique<N>(model, arguments);
 }
 

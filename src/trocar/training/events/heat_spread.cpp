@@ -6,22 +6,22 @@
 namespace trocar::training {
 namespace {
 
-class HeatSpread final : public Noticer {
+class HeatSpread final : public EventDetector {
  public:
   HeatSpread(const sim::Model&, const Arguments& a) : m_watch({}, {}) {
     m_limits.hook_spread = a[0].number();
     m_limits.bipolar_spread = a[1].number();
   }
-  void tick(const Moment& moment, const sim::StepReport&, Happenings&) override {
-    Mishaps of_others;
-    m_watch.update(m_limits, moment.model, moment.state, of_others);
+  void tick(const Snapshot& snapshot, const sim::StepReport&, EventInstances&) override {
+    Incidents of_others;
+    m_watch.update(m_limits, snapshot.model, snapshot.state, of_others);
   }
-  void sample(const Moment& moment, double, Happenings& out) override {
+  void sample(const Snapshot& snapshot, double, EventInstances& out) override {
     constexpr int kEvery = 25;  // samples between looks, which are dear: twice a second
     if (++m_sample % kEvery != 0) return;
-    Mishaps mishaps;
-    m_watch.look_at_spread(moment.model, moment.state, mishaps);
-    pass(mishaps, Mishap::spread, out);
+    Incidents incidents;
+    m_watch.look_at_spread(snapshot.model, snapshot.state, incidents);
+    pass(incidents, Incident::spread, out);
   }
 
  private:
@@ -39,6 +39,6 @@ const EventKind kHeatSpread{
     {},
     "Thermal necrosis has spread beyond this distance from the electrode; reported once per body.",
     needs_energy,
-    &noticing<HeatSpread>};
+    &make_detector<HeatSpread>};
 
 }  // namespace trocar::training

@@ -7,13 +7,13 @@
 namespace trocar::training {
 namespace {
 
-class HotTip final : public Noticer {
+class HotTip final : public EventDetector {
  public:
   HotTip(const sim::Model& model, const Arguments& a) : m_watch(with_carrier_of_bleeder(model, a[0].bodies), {}) {}
-  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
-    Mishaps mishaps;
-    m_watch.update(m_limits, moment.model, moment.state, mishaps);
-    pass(mishaps, Mishap::hot_tip, out);
+  void tick(const Snapshot& snapshot, const sim::StepReport&, EventInstances& out) override {
+    Incidents incidents;
+    m_watch.update(m_limits, snapshot.model, snapshot.state, incidents);
+    pass(incidents, Incident::hot_tip, out);
   }
 
  private:
@@ -29,6 +29,6 @@ const EventKind kHotTip{
     {},
     "A tip that is still hot touches tissue that must not be treated; reported once per contact.",
     needs_energy,
-    &noticing<HotTip>};
+    &make_detector<HotTip>};
 
 }  // namespace trocar::training

@@ -6,13 +6,13 @@
 namespace trocar::training {
 namespace {
 
-class IdleActivation final : public Noticer {
+class IdleActivation final : public EventDetector {
  public:
   IdleActivation(const sim::Model&, const Arguments& a) : m_watch({}, {}) { m_limits.idle_time = a[0].number(); }
-  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
-    Mishaps mishaps;
-    m_watch.update(m_limits, moment.model, moment.state, mishaps);
-    pass(mishaps, Mishap::idle, out);
+  void tick(const Snapshot& snapshot, const sim::StepReport&, EventInstances& out) override {
+    Incidents incidents;
+    m_watch.update(m_limits, snapshot.model, snapshot.state, incidents);
+    pass(incidents, Incident::idle, out);
   }
 
  private:
@@ -27,6 +27,6 @@ const EventKind kIdleActivation{"idle_activation",
                                 {},
                                 "A pedal is pressed while the electrode touches nothing; reported once per activation.",
                                 needs_energy,
-                                &noticing<IdleActivation>};
+                                &make_detector<IdleActivation>};
 
 }  // namespace trocar::training

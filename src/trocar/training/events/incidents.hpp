@@ -7,9 +7,9 @@
 namespace trocar::training {
 
 /// Those of one kind. @param number  that tells them from others of the event
-inline void pass(const Mishaps& mishaps, Mishap::Kind kind, Happenings& out, std::int32_t number = -1) {
-  for (int i = 0; i < mishaps.count; ++i) {
-    const Mishap& m = mishaps.list[size_t(i)];
+inline void pass(const Incidents& incidents, Incident::Kind kind, EventInstances& out, std::int32_t number = -1) {
+  for (int i = 0; i < incidents.count; ++i) {
+    const Incident& m = incidents.list[size_t(i)];
     if (m.kind == kind) out.add({m.hand, kNoBody, number, nullptr, m.where, m.where, m.detail});
   }
 }

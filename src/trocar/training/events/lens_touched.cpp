@@ -15,30 +15,30 @@ bool at_wall(const sim::Model& model, Vec3d eye, double near) {
 }
 
 /// Is a vertex of an organ's skin or of a wall, or a node of a strand or a fold, that near to the lens?
-bool touches(const Moment& moment, Vec3d eye, double near, BodyId& body) {
-  const sim::Model& model = moment.model;
+bool touches(const Snapshot& snapshot, Vec3d eye, double near, BodyId& body) {
+  const sim::Model& model = snapshot.model;
   for (int i = 0; i < model.organs(); ++i) {
-    const tissue::NodeView nodes = nodes_of(model, moment.state, i);
+    const tissue::NodeView nodes = nodes_of(model, snapshot.state, i);
     const tissue::Skin& skin = model.skin(i);
     for (int v = 0; v < skin.size(); ++v)
       if (length(tissue::skin_point(nodes, skin, v) - eye) < near) return body = BodyId::organ(size_t(i)), true;
   }
   for (size_t i = 0; i < model.strands.size(); ++i)
-    for (const Vec3d& x : moment.state.strands[i].x)
+    for (const Vec3d& x : snapshot.state.strands[i].x)
       if (length(x - eye) < near) return body = BodyId::strand(i), true;
   return at_wall(model, eye, near);
 }
 
-class LensTouched final : public Noticer {
+class LensTouched final : public EventDetector {
  public:
   LensTouched(const sim::Model&, const Arguments& a) : m_near(a[0].number()) {}
-  void sample(const Moment& moment, double, Happenings& out) override {
+  void sample(const Snapshot& snapshot, double, EventInstances& out) override {
     constexpr int kEvery = 5;  // samples: ten times a second
     if (++m_sample % kEvery != 0) return;
-    const Vec3d eye = sim::scope_of(moment.model, moment.state).eye;
+    const Vec3d eye = sim::scope_of(snapshot.model, snapshot.state).eye;
     BodyId body;
-    const bool now = touches(moment, eye, m_near, body);
-    if (now && !m_touching) out.add({-1, body, -1, name_of_body(moment.model, body), eye, eye});
+    const bool now = touches(snapshot, eye, m_near, body);
+    if (now && !m_touching) out.add({-1, body, -1, name_of_body(snapshot.model, body), eye, eye});
     m_touching = now;
   }
 
@@ -56,7 +56,7 @@ const EventKind kLensTouched{
     {},
     "The endoscope's lens comes this close to tissue or a wall; reported once until it has moved away.",
     anywhere,
-    &noticing<LensTouched>,
+    &make_detector<LensTouched>,
     true};
 
 }  // namespace trocar::training

@@ -6,14 +6,14 @@ namespace trocar::training {
 namespace {
 
 /// What was found once and is not in view any more.
-class MarkLost final : public Noticer {
+class MarkLost final : public EventDetector {
  public:
   MarkLost(const sim::Model& model, const Arguments& a)
       : m_mark(a[0].index), m_found(a[1].number()), m_held(a[2].number()), m_lasting(a[3].number()) {
     m_off_centre = kMarkOffCentre.watch(model, {a[0]});
   }
-  void sample(const Moment& moment, double dt, Happenings& out) override {
-    const Value off = m_off_centre->value(moment);
+  void sample(const Snapshot& snapshot, double dt, EventInstances& out) override {
+    const Value off = m_off_centre->value(snapshot);
     if (off.known) {
       m_gone = 0;
       m_in_middle = off.number <= m_found ? m_in_middle + dt : 0;
@@ -24,8 +24,8 @@ class MarkLost final : public Noticer {
     m_in_middle = 0;
     if (!m_had || m_gone < m_lasting) return;
     m_had = false;
-    const Vec3d at = place_of_mark(moment.model, moment.state, m_mark);
-    out.add({-1, kNoBody, -1, &moment.model.targets[size_t(m_mark)].name, at, at});
+    const Vec3d at = place_of_mark(snapshot.model, snapshot.state, m_mark);
+    out.add({-1, kNoBody, -1, &snapshot.model.targets[size_t(m_mark)].name, at, at});
   }
 
  private:
@@ -49,6 +49,6 @@ const EventKind kMarkLost{
     {},
     "A mark that had been found is no longer in view; reported once until it is found again.",
     anywhere,
-    &noticing<MarkLost>};
+    &make_detector<MarkLost>};
 
 }  // namespace trocar::training

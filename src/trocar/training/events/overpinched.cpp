@@ -4,17 +4,17 @@
 namespace trocar::training {
 namespace {
 
-class Overpinched final : public Noticer {
+class Overpinched final : public EventDetector {
  public:
   Overpinched(const sim::Model&, const Arguments& a) {
     m_tissues.bowel = a[0].bodies;
     m_limits.pinch_limit = a[1].number();
     m_limits.pinch_impulse = a[2].number();
   }
-  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
-    Mishaps mishaps;
-    m_watch.update(m_limits, m_tissues, moment.model, moment.state, mishaps);
-    pass(mishaps, Mishap::overpinched, out);
+  void tick(const Snapshot& snapshot, const sim::StepReport&, EventInstances& out) override {
+    Incidents incidents;
+    m_watch.update(m_limits, m_tissues, snapshot.model, snapshot.state, incidents);
+    pass(incidents, Incident::overpinched, out);
   }
 
  private:
@@ -32,7 +32,7 @@ const EventKind kOverpinched{"overpinched",
                              {},
                              "A hand pinches one of these bodies too hard or for too long; reported once per grasp.",
                              anywhere,
-                             &noticing<Overpinched>,
+                             &make_detector<Overpinched>,
                              false,
                              EventKind::Hold::now};
 

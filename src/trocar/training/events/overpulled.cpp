@@ -4,7 +4,7 @@
 namespace trocar::training {
 namespace {
 
-class Overpulled final : public Noticer {
+class Overpulled final : public EventDetector {
  public:
   Overpulled(const sim::Model&, const Arguments& a) {
     m_tissues.delicate = a[0].bodies;
@@ -12,10 +12,10 @@ class Overpulled final : public Noticer {
     m_limits.pull_limit_other = a[2].number();
     m_limits.pull_excursion = a[3].number();
   }
-  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
-    Mishaps mishaps;
-    m_watch.update(m_limits, m_tissues, moment.model, moment.state, mishaps);
-    pass(mishaps, Mishap::overpulled, out);
+  void tick(const Snapshot& snapshot, const sim::StepReport&, EventInstances& out) override {
+    Incidents incidents;
+    m_watch.update(m_limits, m_tissues, snapshot.model, snapshot.state, incidents);
+    pass(incidents, Incident::overpulled, out);
   }
 
  private:
@@ -34,7 +34,7 @@ const EventKind kOverpulled{"overpulled",
                             {},
                             "A hand pulls harder than the limit; reported once until it pulls less.",
                             anywhere,
-                            &noticing<Overpulled>,
+                            &make_detector<Overpulled>,
                             false,
                             EventKind::Hold::now};
 

@@ -12,30 +12,30 @@ namespace trocar::training {
 namespace {
 
 template <sim::Event::Kind kind, bool has_body>
-class Reported final : public Noticer {
+class Reported final : public EventDetector {
  public:
   Reported(const sim::Model&, const Arguments&) {}
-  void tick(const Moment& moment, const sim::StepReport& report, Happenings& out) override {
+  void tick(const Snapshot& snapshot, const sim::StepReport& report, EventInstances& out) override {
     for (int i = 0; i < report.event_count; ++i) {
       const sim::Event& e = report.events[i];
       if (e.kind != kind) continue;
-      const Vec3d tip = tip_of(moment.model, moment.state, size_t(e.tool));
+      const Vec3d tip = tip_of(snapshot.model, snapshot.state, size_t(e.tool));
       const BodyId body = has_body ? e.body() : kNoBody;
-      out.add({e.tool, body, -1, name_of_body(moment.model, body), tip, tip});
+      out.add({e.tool, body, -1, name_of_body(snapshot.model, body), tip, tip});
     }
   }
 };
 
 /// Once a body for as long as it goes on tearing.
-class Torn final : public Noticer {
+class Torn final : public EventDetector {
  public:
   Torn(const sim::Model&, const Arguments&) {}
-  void tick(const Moment& moment, const sim::StepReport& report, Happenings& out) override {
+  void tick(const Snapshot& snapshot, const sim::StepReport& report, EventInstances& out) override {
     if (report.event_count == 0) return;
-    Mishaps mishaps;
-    m_watch.update(moment.model, moment.state, report, mishaps);
-    for (int i = 0; i < mishaps.count; ++i) {
-      const Mishap& m = mishaps.list[size_t(i)];
+    Incidents incidents;
+    m_watch.update(snapshot.model, snapshot.state, report, incidents);
+    for (int i = 0; i < incidents.count; ++i) {
+      const Incident& m = incidents.list[size_t(i)];
       out.add({m.hand, kNoBody, -1, nullptr, m.where, m.where});
     }
   }
@@ -83,7 +83,7 @@ std::vector<EventKind> reported(std::index_sequence<i...>) {
     const EventKind::Hold of_hold = e.kind == Event::slipped ? EventKind::Hold::before : EventKind::Hold::none;
     out.push_back({e.name, {}, {}, e.meaning, lacks_for(e.needs), watch, e.has_body, of_hold});
   };
-  (add(sim::kEventWords[i], &noticing<Reported<sim::kEventWords[i].kind, sim::kEventWords[i].has_body>>), ...);
+  (add(sim::kEventWords[i], &make_detector<Reported<sim::kEventWords[i].kind, sim::kEventWords[i].has_body>>), ...);
   return out;
 }
 
@@ -96,7 +96,7 @@ std::span<const EventKind> reported_events() {
 
 const EventKind kTorn{"torn",   {},
                       {},       "Tissue tore under a pull or a pressure; reported once per body while the tear grows.",
-                      anywhere, &noticing<Torn>,
+                      anywhere, &make_detector<Torn>,
                       false,    EventKind::Hold::now};
 
 }  // namespace trocar::training

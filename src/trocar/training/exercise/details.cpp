@@ -55,10 +55,10 @@ void Details::read_one(const JsonValue& v, const std::string& side, const RuleRe
   if (t.watch >= 0) m_told.push_back(std::move(t));
 }
 
-void Details::sample(const Moment& moment) {
+void Details::sample(const Snapshot& snapshot) {
   for (Told& t : m_told) {
-    if (t.while_true.there() && t.while_true.holds(moment) != Truth::yes) continue;
-    const Value v = t.facts->value(t.watch, moment);
+    if (t.while_true.there() && t.while_true.holds(snapshot) != TriState::yes) continue;
+    const Value v = t.facts->value(t.watch, snapshot);
     if (t.keep == Keep::last) {
       t.known = v.known;
       t.value = v.number;
@@ -70,11 +70,12 @@ void Details::sample(const Moment& moment) {
   }
 }
 
-void Details::happened(int event, const Happening& h, const Moment& moment, const std::string& side, bool good) {
+void Details::happened(int event, const EventInstance& h, const Snapshot& snapshot, const std::string& side,
+                       bool good) {
   const EventKind* kind = m_events->all()[size_t(event)].event;
   if (kind->attributes.empty() || h.number < 0 || m_done.size() >= kMostDone) return;
-  Done d{kind, side, h.name ? *h.name : std::string(), moment.now(), good, {}};
-  for (const Attribute& a : kind->attributes) d.attributes.push_back(a.value(moment, h));
+  Done d{kind, side, h.name ? *h.name : std::string(), snapshot.now(), good, {}};
+  for (const Attribute& a : kind->attributes) d.attributes.push_back(a.value(snapshot, h));
   m_done.push_back(std::move(d));
 }
 

@@ -20,9 +20,9 @@ class Details {
   /// Acts are told of these kinds of event.
   void watch(const EventWatches& events) { m_events = &events; }
 
-  void sample(const Moment& moment);
+  void sample(const Snapshot& snapshot);
   /// @param side  of what it happened to  @param good  no error was made by it
-  void happened(int event, const Happening& h, const Moment& moment, const std::string& side, bool good);
+  void happened(int event, const EventInstance& h, const Snapshot& snapshot, const std::string& side, bool good);
   void tell(nlohmann::ordered_json& result) const;
 
  private:

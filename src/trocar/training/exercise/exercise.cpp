@@ -14,8 +14,8 @@ const StepText* Exercise::step(const std::string& step_name) const {
   return nullptr;
 }
 
-const Rehearsed* Exercise::rehearsed_with(std::uint64_t seed) const {
-  for (const Rehearsed& r : rehearsed)
+const RecordedChoices* Exercise::recorded_choices_for(std::uint64_t seed) const {
+  for (const RecordedChoices& r : recorded_choices)
     if (r.seed == seed) return &r;
   return nullptr;
 }

@@ -64,13 +64,13 @@ struct LaterError {
 
 /// At a moment of choice of the demonstration, counted from 0, it went on in this way (expert/perturbation.hpp).
 struct Choice {
-  int at = 0, way = 0;
+  int at = 0, perturbation = 0;
 };
 using Choices = std::vector<Choice>;
-inline constexpr int kMostChoice = 99999, kMostWay = 99999;
+inline constexpr int kMostChoice = 99999, kMostPerturbation = 99999;
 
 /// Choices with which it came off when it was rehearsed.
-struct Rehearsed {
+struct RecordedChoices {
   std::uint64_t seed = 0;  ///< of the anatomy
   Choices choices;         ///< but for those to go on as it is written
 };
@@ -90,12 +90,12 @@ struct Exercise {
   std::vector<Penalty> penalties;  ///< of common rules first
   std::vector<Part> details;       ///< facts that the result tells
   Part demonstration;              ///< null where nobody demonstrates it
-  std::vector<Rehearsed> rehearsed;
+  std::vector<RecordedChoices> recorded_choices;
   std::vector<LaterError> later;
   std::string group;  ///< one of kGroups; empty: none
   int level = 1;      ///< to kMostLevel
 
-  const Rehearsed* rehearsed_with(std::uint64_t seed) const;  ///< null: nobody has
+  const RecordedChoices* recorded_choices_for(std::uint64_t seed) const;  ///< null: nobody has
   const Penalty* penalty(const std::string& code) const;
   const StepText* step(const std::string& name) const;
   /// Of a single number, in SI; what the exercise does not have is `otherwise`.

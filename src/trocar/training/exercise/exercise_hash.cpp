@@ -59,11 +59,11 @@ class ExerciseHasher {
     add(p.part);
     add(p.at);
   }
-  void add(const Rehearsed& r) {
+  void add(const RecordedChoices& r) {
     add(r.seed);
     for (const Choice& c : r.choices) {
       m_hasher.add(c.at);
-      m_hasher.add(c.way);
+      m_hasher.add(c.perturbation);
     }
   }
   template <class T>
@@ -95,7 +95,7 @@ std::uint64_t hash_of(const Exercise& e) {
   h.all(e.penalties);
   h.all(e.details);
   h.add(e.demonstration);
-  h.all(e.rehearsed);
+  h.all(e.recorded_choices);
   return h.value();
 }
 

@@ -199,14 +199,14 @@ class ExerciseReader {
 
   void rehearsed(const JsonObject& o) {
     for (const JsonObject& r : o.objects("rehearsed")) {
-      Rehearsed one{std::uint64_t(r.integer("seed")), {}};
+      RecordedChoices one{std::uint64_t(r.integer("seed")), {}};
       const scene::JsonMember* choices = r.value().find("choices");
       if (choices && choices->value.kind != JsonValue::Kind::array)
         r.fault("choices", "expected a list of choices, got " + scene::shown(choices->value));
       else if (choices)
         for (const JsonValue& c : choices->value.items) one.choices.push_back(choice(c, o.at().file));
-      if (m_exercise.rehearsed_with(one.seed)) r.fault("seed", "expected each seed once, got it again");
-      m_exercise.rehearsed.push_back(std::move(one));
+      if (m_exercise.recorded_choices_for(one.seed)) r.fault("seed", "expected each seed once, got it again");
+      m_exercise.recorded_choices.push_back(std::move(one));
     }
   }
   Choice choice(const JsonValue& v, const std::string& file) {
@@ -214,10 +214,10 @@ class ExerciseReader {
       const JsonValue& n = v.items[i];
       return n.kind == JsonValue::Kind::number && n.number >= 0 && n.number <= most && n.number == std::floor(n.number);
     };
-    if (v.kind == JsonValue::Kind::array && v.items.size() == 2 && whole(0, kMostChoice) && whole(1, kMostWay))
+    if (v.kind == JsonValue::Kind::array && v.items.size() == 2 && whole(0, kMostChoice) && whole(1, kMostPerturbation))
       return {int(v.items[0].number), int(v.items[1].number)};
     fault(file, v,
-          fmt::format("expected [decision point, perturbation], two whole numbers up to {}, got {}", kMostWay,
+          fmt::format("expected [decision point, perturbation], two whole numbers up to {}, got {}", kMostPerturbation,
                       scene::shown(v)));
     return {};
   }

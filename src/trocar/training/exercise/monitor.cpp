@@ -34,20 +34,20 @@ void Monitor::update(const sim::Model& model, const sim::State& state, const sim
   m_board->at(state.tick);
   if (m_moved) m_seconds = double(state.tick - m_first_motion) * sim::kTick;
   weigh_on_trocars(model, state);
-  const Moment moment{model, state};
-  m_rules->tick(moment, report);
+  const Snapshot snapshot{model, state};
+  m_rules->tick(snapshot, report);
   if (state.tick % kSampleEvery != 0) return;
   measure(model, state);
-  watch_target(moment);
-  m_rules->sample(moment, kSample);
+  watch_target(snapshot);
+  m_rules->sample(snapshot, kSample);
 }
 
-void Monitor::watch_target(const Moment& moment) {
+void Monitor::watch_target(const Snapshot& snapshot) {
   const int step = current();
   if (!m_tools.empty() || !m_moved || step < 0 || size_t(step) >= m_rules->steps().size()) return;
   const Condition& when = m_rules->steps()[size_t(step)].when;
   ++m_watched;
-  if (when.there() && when.holds(moment) == Truth::yes) ++m_on_target;
+  if (when.there() && when.holds(snapshot) == TriState::yes) ++m_on_target;
 }
 
 double Monitor::on_target_share() const {

@@ -56,7 +56,7 @@ class Monitor {
  private:
   void weigh_on_trocars(const sim::Model& model, const sim::State& state);
   void measure(const sim::Model& model, const sim::State& state);
-  void watch_target(const Moment& moment);
+  void watch_target(const Snapshot& snapshot);
 
   std::unique_ptr<const Exercise> m_exercise;  ///< where it is, rules and board look at it
   std::unique_ptr<Scoreboard> m_board;

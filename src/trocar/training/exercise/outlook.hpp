@@ -38,7 +38,7 @@ class Outlook {
   std::optional<Foretold> of(const sim::Model& model, const sim::State& state, std::span<const bool> done = {});
 
  private:
-  Foretold foretell(const Moment& moment, int event, const Happening& h) const;
+  Foretold foretell(const Snapshot& snapshot, int event, const EventInstance& h) const;
 
   std::unique_ptr<const Exercise> m_exercise;
   std::unique_ptr<Scoreboard> m_board;

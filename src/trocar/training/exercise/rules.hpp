@@ -64,12 +64,12 @@ class Rules {
   Rules(const Rules&) = delete;
   Rules& operator=(const Rules&) = delete;
 
-  void tick(const Moment& moment, const sim::StepReport& report);
+  void tick(const Snapshot& snapshot, const sim::StepReport& report);
   /// @param dt  since the last time [s]
-  void sample(const Moment& moment, double dt);
+  void sample(const Snapshot& snapshot, double dt);
 
   /// Brings facts whose memory events change up to date, and judges nothing.
-  void look_at(const Moment& moment) { m_facts.tick(moment, {}); }
+  void look_at(const Snapshot& snapshot) { m_facts.tick(snapshot, {}); }
 
   /// Number of the step to be shown next; the number of steps when none is left.
   int current() const { return m_guide.current(*this, m_board); }
@@ -86,12 +86,12 @@ class Rules {
 
  private:
   friend class RulesReader;
-  void happened(int event, const Happening& h, const Moment& moment);
-  void note_holds(const Moment& moment);
-  const std::string& side_of(const Happening& h, const EventKind& kind, const Moment& moment) const;
+  void happened(int event, const EventInstance& h, const Snapshot& snapshot);
+  void note_holds(const Snapshot& snapshot);
+  const std::string& side_of(const EventInstance& h, const EventKind& kind, const Snapshot& snapshot) const;
   void make(ErrorRule& rule, const std::string& side, Vec3d where, std::string detail);
-  void watch_errors(const Moment& moment, double dt);
-  void watch_steps(const Moment& moment, double dt);
+  void watch_errors(const Snapshot& snapshot, double dt);
+  void watch_steps(const Snapshot& snapshot, double dt);
   void miss(const std::vector<int>& steps);
 
   const Exercise& m_exercise;

@@ -9,6 +9,6 @@ namespace trocar::training {
 inline constexpr std::size_t kMostRows = 5;  ///< what a trainee can take in beside the picture (our choice)
 
 /// Where the rules are ticked. Of an act the condition that must hold meanwhile. None beyond the last step.
-std::vector<Nearness> nearness_of(const Rules& rules, int step, const Moment& moment);
+std::vector<Nearness> nearness_of(const Rules& rules, int step, const Snapshot& snapshot);
 
 }  // namespace trocar::training

@@ -34,7 +34,7 @@ bool of_the_needle(std::string_view name) { return name.starts_with("suture.") |
 
 class Needs {
  public:
-  Needs(const Rules& rules, const Moment& moment) : m_rules(rules), m_moment(moment) {}
+  Needs(const Rules& rules, const Snapshot& snapshot) : m_rules(rules), m_moment(snapshot) {}
 
   StepNeeds of(const StepRule& rule) {
     condition(rule.when);
@@ -101,7 +101,7 @@ class Needs {
   }
 
   const Rules& m_rules;
-  const Moment& m_moment;
+  const Snapshot& m_moment;
   StepNeeds m_needs;
   std::array<int, sim::kMaxTools> m_votes{};
   bool m_picture = false, m_other = false;
@@ -114,9 +114,9 @@ bool declares(const Rules& rules, const Act& act) {
 
 }  // namespace
 
-StepNeeds needs_of(const Rules& rules, int step, const Moment& moment) {
+StepNeeds needs_of(const Rules& rules, int step, const Snapshot& snapshot) {
   if (step < 0 || step >= int(rules.steps().size())) return {};
-  return Needs(rules, moment).of(rules.steps()[size_t(step)]);
+  return Needs(rules, snapshot).of(rules.steps()[size_t(step)]);
 }
 
 bool asks_for_declaration(const Rules& rules) {

@@ -20,7 +20,7 @@ struct StepNeeds {
 };
 
 /// @param step  of the board; one beyond the last needs nothing
-StepNeeds needs_of(const Rules& rules, int step, const Moment& moment);
+StepNeeds needs_of(const Rules& rules, int step, const Snapshot& snapshot);
 
 /// Is anything declared in this exercise? Else the key for it does nothing.
 bool asks_for_declaration(const Rules& rules);

@@ -43,7 +43,7 @@ Demonstration read_demonstration(const Exercise& exercise, const sim::Model& mod
   source.reading.facts = made.watches.get();
   source.reading.steps = made.judge ? &made.judge->board().steps() : nullptr;
   made.plan = read_plan(exercise.demonstration.value, source.reading);
-  if (const Rehearsed* rehearsed = exercise.rehearsed_with(seed)) made.choices = rehearsed->choices;
+  if (const RecordedChoices* recorded = exercise.recorded_choices_for(seed)) made.choices = recorded->choices;
   if (!faults.empty()) throw core::BadInput(std::move(faults));
   return made;
 }

@@ -18,7 +18,7 @@ struct Manner {
   Tremor tremor;
   /// Asked at each moment of choice, by its number: the way in which it goes on (ways.hpp). Null: as the exercise's
   /// file says.
-  std::function<int(int choice)> way = {};
+  std::function<int(int choice)> perturbation = {};
 };
 
 class Expert {

@@ -14,7 +14,7 @@ constexpr size_t kMostDifficulties = 100;  // that are told
 }  // namespace
 
 std::unique_ptr<Skill> Performer::skill_of(const sim::Model& model, const PlanTask& task) {
-  std::unique_ptr<Skill> skill = task.kind->make(model, Given(*task.kind, task.arguments));
+  std::unique_ptr<Skill> skill = task.kind->make(model, SkillArgs(*task.kind, task.arguments));
   return task.wrap ? task.wrap(std::move(skill)) : std::move(skill);
 }
 
@@ -44,8 +44,8 @@ std::vector<Performer::Goal> Performer::make(const sim::Model& model, const Plan
 Performer::Performer(const sim::Model& model, Demonstration demonstration, const Manner& manner)
     : m_demonstration(std::move(demonstration)),
       m_plan(m_demonstration.plan),
-      m_way(manner.way),
-      m_operator(model, manner.tremor) {
+      m_perturbation(manner.perturbation),
+      m_surgeon(model, manner.tremor) {
   for (const PlanPart& part : m_plan.parts) m_parts.push_back(make(model, part));
 }
 
@@ -63,29 +63,29 @@ void Performer::stop(bool gave_up) {
 
 bool Performer::is_reached(const Goal& goal) const {
   if (goal.given_up) return true;
-  return goal.plan->until.there() ? goal.plan->until.holds(moment()) == Truth::yes : goal.reached;
+  return goal.plan->until.there() ? goal.plan->until.holds(snapshot()) == TriState::yes : goal.reached;
 }
 
-int Performer::way() {
+int Performer::perturbation() {
   m_since_choice = 0;
   const int choice = m_choices++;
-  if (m_way) return m_way(choice);
+  if (m_perturbation) return m_perturbation(choice);
   for (const Choice& made : m_demonstration.choices)
-    if (made.at == choice) return made.way;
+    if (made.at == choice) return made.perturbation;
   return 0;
 }
 
 /// Before a skill begins.
-void Performer::choose_way(Task& task) {
-  const int chosen = way();
+void Performer::choose_perturbation(Task& task) {
+  const int chosen = perturbation();
   if (chosen == 0) return;
-  m_operator.arms().tremble(tremor_in_way(chosen));
-  make_anew(m_operator.model(), in_way(*task.plan, chosen), task);
+  m_surgeon.arms().tremble(perturbed_tremor(chosen));
+  make_anew(m_surgeon.model(), perturbed(*task.plan, chosen), task);
 }
 
 /// While it lasts.
 void Performer::go_on_otherwise() {
-  if (const int chosen = way(); chosen != 0) m_operator.arms().tremble(tremor_in_way(chosen));
+  if (const int chosen = perturbation(); chosen != 0) m_surgeon.arms().tremble(perturbed_tremor(chosen));
 }
 
 void Performer::choose() {
@@ -118,9 +118,9 @@ void Performer::begin(size_t task) {
     return think();
   }
   Task& next = tasks()[task];
-  choose_way(next);
-  next.skill->begin(m_operator, m_goal->tries - 1);
-  for (Task& beside : next.meanwhile) beside.skill->begin(m_operator, m_goal->tries - 1);
+  choose_perturbation(next);
+  next.skill->begin(m_surgeon, m_goal->tries - 1);
+  for (Task& beside : next.meanwhile) beside.skill->begin(m_surgeon, m_goal->tries - 1);
 }
 
 void Performer::think() {
@@ -132,7 +132,7 @@ void Performer::failed(const std::string& why) {
   Goal& goal = *m_goal;
   ++goal.failures;
   if (m_difficulties.size() < kMostDifficulties)
-    m_difficulties.push_back(fmt::format("{:.1f} s: {}{}: {}", moment().now(), goal.plan->name,
+    m_difficulties.push_back(fmt::format("{:.1f} s: {}{}: {}", snapshot().now(), goal.plan->name,
                                          goal.plan->element.empty() ? "" : " (" + goal.plan->element + ")", why));
   if (goal.plan->tries > 0 && goal.failures >= goal.plan->tries) {
     goal.given_up = true;
@@ -178,15 +178,15 @@ void Performer::work(double passed) {
     }
     return go_on(0);  // in the same tick
   }
-  for (Task& beside : task.meanwhile) beside.skill->tick(m_operator, passed);
-  Progress how = task.skill->tick(m_operator, passed);
-  if (how == Progress::working && task.plan->until.there() && task.plan->until.holds(moment()) == Truth::yes)
+  for (Task& beside : task.meanwhile) beside.skill->tick(m_surgeon, passed);
+  Progress how = task.skill->tick(m_surgeon, passed);
+  if (how == Progress::working && task.plan->until.there() && task.plan->until.holds(snapshot()) == TriState::yes)
     how = Progress::done;
   if (how != Progress::working) ended(how, fmt::format("{}: {}", task.plan->kind->name, task.skill->why()));
 }
 
 sim::Input Performer::next(const sim::Model& model, const sim::State& state) {
-  m_operator.begin_tick(model, state);
+  m_surgeon.begin_tick(model, state);
   if (!m_begun) {
     m_begun = true;
     choose();
@@ -194,11 +194,11 @@ sim::Input Performer::next(const sim::Model& model, const sim::State& state) {
   m_in_part += sim::kTick;
   if (!m_done && m_in_part > part().at_most) stop(true);
   if (!m_done) go_on(sim::kTick);
-  return m_operator.end_tick();
+  return m_surgeon.end_tick();
 }
 
 void Performer::after(const sim::Model& model, const sim::State& state, const sim::StepReport& report) {
-  const Moment now{model, state};
+  const Snapshot now{model, state};
   if (FactWatches* watches = m_demonstration.watches.get()) {
     watches->tick(now, report);
     if (state.tick % kSampleEvery == 0) watches->sample(now, kSample);

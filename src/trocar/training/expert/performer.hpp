@@ -44,8 +44,8 @@ class Performer final : public Expert {
   static std::vector<Task> make(const sim::Model& model, const std::vector<PlanTask>& tasks);
 
   void choose();
-  int way();
-  void choose_way(Task& task);
+  int perturbation();
+  void choose_perturbation(Task& task);
   void go_on_otherwise();
   bool is_reached(const Goal& goal) const;
   void begin(size_t task);
@@ -57,12 +57,12 @@ class Performer final : public Expert {
   void stop(bool gave_up);
   const PlanPart& part() const { return m_plan.parts[m_part]; }
   std::vector<Task>& tasks() { return m_repairing ? m_goal->if_failed : m_goal->todo; }
-  Moment moment() const { return {m_operator.model(), m_operator.state()}; }
+  Snapshot snapshot() const { return {m_surgeon.model(), m_surgeon.state()}; }
 
   Demonstration m_demonstration;
   const Plan& m_plan;
-  std::function<int(int)> m_way;
-  Operator m_operator;
+  std::function<int(int)> m_perturbation;
+  Surgeon m_surgeon;
   std::vector<std::vector<Goal>> m_parts;
   size_t m_part = 0, m_task = 0;
   int m_choices = 0;          ///< moments of choice so far

@@ -47,13 +47,13 @@ void vary(PlanTask& task, core::Random& random) {
 
 }  // namespace
 
-PlanTask in_way(const PlanTask& task, int way) {
+PlanTask perturbed(const PlanTask& task, int perturbation) {
   PlanTask other = task;
-  core::Random random{std::uint64_t(way)};
-  if (way != 0) vary(other, random);
+  core::Random random{std::uint64_t(perturbation)};
+  if (perturbation != 0) vary(other, random);
   return other;
 }
 
-Tremor tremor_in_way(int way) { return {way == 0 ? 0 : kTremor, std::uint64_t(way)}; }
+Tremor perturbed_tremor(int perturbation) { return {perturbation == 0 ? 0 : kTremor, std::uint64_t(perturbation)}; }
 
 }  // namespace trocar::training

@@ -13,9 +13,9 @@ inline constexpr double kChoiceEvery = 10;  ///< while a skill lasts [s]
 
 /// The task as it is done in that way: where to, how far, how deep and how hard change, never what is done, and nothing
 /// that the exercise judges by. Drawn from the way's number.
-/// @param way  0: as it is written
-PlanTask in_way(const PlanTask& task, int way);
+/// @param perturbation  0: as it is written
+PlanTask perturbed(const PlanTask& task, int perturbation);
 /// Of hands in that way. 0: none.
-Tremor tremor_in_way(int way);
+Tremor perturbed_tremor(int perturbation);
 
 }  // namespace trocar::training

@@ -73,7 +73,7 @@ void visit_all(std::vector<PlanTask>& tasks, const std::function<void(PlanTask&)
 
 void check_tasks(const std::vector<PlanTask>& tasks, const sim::Model& model, Faults& faults) {
   for (const PlanTask& task : tasks) {
-    const std::string lack = task.kind->lacks(model, Given(*task.kind, task.arguments));
+    const std::string lack = task.kind->lacks(model, SkillArgs(*task.kind, task.arguments));
     if (!lack.empty())
       scene::tell(faults, {task.at, fmt::format("expected a scene that suits the skill \"{}\", got: {}",
                                                 task.kind->name, lack)});

@@ -153,7 +153,7 @@ class PlanReader {
   }
 
   void check(const PlanTask& t) const {
-    const std::string lack = t.kind->lacks(*r.model, Given(*t.kind, t.arguments));
+    const std::string lack = t.kind->lacks(*r.model, SkillArgs(*t.kind, t.arguments));
     if (lack.empty()) return;
     scene::tell(*r.faults,
                 {t.at, fmt::format("expected a scene that suits the skill \"{}\", got: {}", t.kind->name, lack)});

@@ -7,18 +7,18 @@ namespace {
 
 using interactions::Bag;
 
-const interactions::BagState& the_bag(const Moment& moment) {
-  return interactions::part_of<Bag>(moment.state.objects).front();
+const interactions::BagState& the_bag(const Snapshot& snapshot) {
+  return interactions::part_of<Bag>(snapshot.state.objects).front();
 }
 
-Value held(const Moment& moment, const Arguments& a) {
-  const interactions::BagModel& model = interactions::part_of<Bag>(moment.model.objects).list.front();
-  const interactions::BagShare share = share_in(model, the_bag(moment), a[0].body());
+Value held(const Snapshot& snapshot, const Arguments& a) {
+  const interactions::BagModel& model = interactions::part_of<Bag>(snapshot.model.objects).list.front();
+  const interactions::BagShare share = share_in(model, the_bag(snapshot), a[0].body());
   return share.all > 0 ? Value(double(share.inside) / share.all) : kUnknown;
 }
-Value mouth(const Moment& moment, const Arguments&) { return the_bag(moment).hoop; }
-Value shut(const Moment& moment, const Arguments&) { return the_bag(moment).shut(); }
-Value out(const Moment& moment, const Arguments&) { return the_bag(moment).out != 0; }
+Value mouth(const Snapshot& snapshot, const Arguments&) { return the_bag(snapshot).hoop; }
+Value shut(const Snapshot& snapshot, const Arguments&) { return the_bag(snapshot).shut(); }
+Value out(const Snapshot& snapshot, const Arguments&) { return the_bag(snapshot).out != 0; }
 
 std::string_view needs_bag(const sim::Model& model) {
   return interactions::part_of<Bag>(model.objects).list.empty() ? "a bag" : "";

@@ -4,9 +4,9 @@
 namespace trocar::training {
 namespace {
 
-Value calibre(const Moment& moment, const Arguments&) {
-  const sim::Bleeder& b = moment.model.vessels.bleeder;
-  const vessels::FlowSegment& segment = moment.model.vessels.flow.segments[size_t(b.vessel)];
+Value calibre(const Snapshot& snapshot, const Arguments&) {
+  const sim::Bleeder& b = snapshot.model.vessels.bleeder;
+  const vessels::FlowSegment& segment = snapshot.model.vessels.flow.segments[size_t(b.vessel)];
   return 2 * (segment.radius + segment.taper * b.s);
 }
 

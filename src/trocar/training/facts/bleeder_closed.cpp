@@ -6,11 +6,11 @@
 namespace trocar::training {
 namespace {
 
-Value clipped(const Moment& moment, const Arguments& a) {
-  return bleeder_clipped(moment.model, moment.state, a[0].word == "heart", a[1].number());
+Value clipped(const Snapshot& snapshot, const Arguments& a) {
+  return bleeder_clipped(snapshot.model, snapshot.state, a[0].word == "heart", a[1].number());
 }
 
-Value sealed(const Moment& moment, const Arguments&) { return bleeder_sealed(moment.model, moment.state); }
+Value sealed(const Snapshot& snapshot, const Arguments&) { return bleeder_sealed(snapshot.model, snapshot.state); }
 
 }  // namespace
 

@@ -10,11 +10,12 @@ namespace {
 class Uncovered final : public Observer {
  public:
   Uncovered(const sim::Model& model, const Arguments&) : m_mark(model.target_index("bleeder")) {}
-  void sample(const Moment& moment, double passed) override {
-    if (moment.state.tick < moment.model.vessels.bleeder.tick) return;
-    if (!drowned(moment.model, moment.state, place_of_mark(moment.model, moment.state, m_mark))) m_free += passed;
+  void sample(const Snapshot& snapshot, double passed) override {
+    if (snapshot.state.tick < snapshot.model.vessels.bleeder.tick) return;
+    if (!drowned(snapshot.model, snapshot.state, place_of_mark(snapshot.model, snapshot.state, m_mark)))
+      m_free += passed;
   }
-  Value value(const Moment&) const override { return m_free; }
+  Value value(const Snapshot&) const override { return m_free; }
 
  private:
   int m_mark;

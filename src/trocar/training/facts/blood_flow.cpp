@@ -11,14 +11,14 @@ namespace {
 class BloodFlow final : public Observer {
  public:
   BloodFlow(const sim::Model&, const Arguments&) {}
-  void sample(const Moment& moment, double) override {
+  void sample(const Snapshot& snapshot, double) override {
     double& second_ago = m_before[size_t(m_sample) % m_before.size()];
-    const double now = blood_lost(moment.model, moment.state);
+    const double now = blood_lost(snapshot.model, snapshot.state);
     m_flow = now - second_ago;
     second_ago = now;
     ++m_sample;
   }
-  Value value(const Moment&) const override { return m_flow; }
+  Value value(const Snapshot&) const override { return m_flow; }
 
  private:
   std::array<double, 50> m_before{};  ///< one a sample [m^3]

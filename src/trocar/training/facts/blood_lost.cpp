@@ -5,7 +5,7 @@
 namespace trocar::training {
 namespace {
 
-Value lost(const Moment& moment, const Arguments&) { return blood_lost(moment.model, moment.state); }
+Value lost(const Snapshot& snapshot, const Arguments&) { return blood_lost(snapshot.model, snapshot.state); }
 
 }  // namespace
 

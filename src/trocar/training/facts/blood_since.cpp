@@ -8,10 +8,12 @@ namespace {
 class Bleeding final : public Observer {
  public:
   Bleeding(const sim::Model&, const Arguments&) {}
-  void sample(const Moment& moment, double) override {
-    if (m_began < 0 && blood_lost(moment.model, moment.state) > 0) m_began = moment.now();
+  void sample(const Snapshot& snapshot, double) override {
+    if (m_began < 0 && blood_lost(snapshot.model, snapshot.state) > 0) m_began = snapshot.now();
   }
-  Value value(const Moment& moment) const override { return m_began < 0 ? kUnknown : Value(moment.now() - m_began); }
+  Value value(const Snapshot& snapshot) const override {
+    return m_began < 0 ? kUnknown : Value(snapshot.now() - m_began);
+  }
 
  private:
   double m_began = -1;

@@ -14,9 +14,9 @@ class Pair final : public Observer {
   Pair(const sim::Model&, const Arguments& a)
       : m_pair({span(a[1]), span(a[2]), span(a[3]), span(a[4]), a[5].number(), a[6].number(), a[7].number()},
                a[0].index) {}
-  void happened(const Moment& moment) override { m_pair.update(moment.state); }
-  Value value(const Moment&) const override { return say(m_pair); }
-  Value foretold(const Moment&, const Happening& h) const override {
+  void happened(const Snapshot& snapshot) override { m_pair.update(snapshot.state); }
+  Value value(const Snapshot&) const override { return say(m_pair); }
+  Value foretold(const Snapshot&, const EventInstance& h) const override {
     if (!h.foreseen) return say(m_pair);
     ClipPair with = m_pair;
     with.take(*h.foreseen);

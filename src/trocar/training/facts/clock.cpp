@@ -3,7 +3,7 @@
 namespace trocar::training {
 namespace {
 
-Value seconds(const Moment& moment, const Arguments&) { return moment.now(); }
+Value seconds(const Snapshot& snapshot, const Arguments&) { return snapshot.now(); }
 
 }  // namespace
 

@@ -22,10 +22,10 @@ template <double (*figure)(const sim::Model&, const sim::State&, const Arguments
 class Figure final : public Observer {
  public:
   Figure(const sim::Model&, const Arguments& a) : m_arguments(a) {}
-  void sample(const Moment& moment, double) override {
-    if (m_turn++ % kTurns == 0) m_value = figure(moment.model, moment.state, m_arguments);
+  void sample(const Snapshot& snapshot, double) override {
+    if (m_turn++ % kTurns == 0) m_value = figure(snapshot.model, snapshot.state, m_arguments);
   }
-  Value value(const Moment&) const override { return m_turn > 0 ? Value(m_value) : kUnknown; }
+  Value value(const Snapshot&) const override { return m_turn > 0 ? Value(m_value) : kUnknown; }
 
  private:
   Arguments m_arguments;
@@ -40,10 +40,10 @@ double volume_left(const sim::Model& model, const sim::State& state, const Argum
 class Bared final : public Observer {
  public:
   Bared(const sim::Model& model, const Arguments& a) : m_stretch(model, a[0].index) {}
-  void sample(const Moment& moment, double) override {
-    if (m_turn++ % kTurns == 0) m_value = m_stretch.longest(moment.state);
+  void sample(const Snapshot& snapshot, double) override {
+    if (m_turn++ % kTurns == 0) m_value = m_stretch.longest(snapshot.state);
   }
-  Value value(const Moment&) const override { return m_turn > 0 ? Value(m_value) : kUnknown; }
+  Value value(const Snapshot&) const override { return m_turn > 0 ? Value(m_value) : kUnknown; }
 
  private:
   BaredStretch m_stretch;
@@ -68,16 +68,16 @@ std::string no_fat(const sim::Model&, const Arguments& a) {
   return a[0].body().is(BodyKind::fat) ? "" : "expected fat, got another body";
 }
 
-Value bonds_left(const Moment& moment, const Arguments& a) {
-  const int set = moment.model.bonds_index(a[0].word);
+Value bonds_left(const Snapshot& snapshot, const Arguments& a) {
+  const int set = snapshot.model.bonds_index(a[0].word);
   if (set < 0) return kUnknown;
-  return interactions::holding_share(moment.model.bonds[size_t(set)], moment.state.bonds[size_t(set)]);
+  return interactions::holding_share(snapshot.model.bonds[size_t(set)], snapshot.state.bonds[size_t(set)]);
 }
 
-Value bonds_breached(const Moment& moment, const Arguments& a) {
-  const int set = moment.model.bonds_index(a[0].word);
+Value bonds_breached(const Snapshot& snapshot, const Arguments& a) {
+  const int set = snapshot.model.bonds_index(a[0].word);
   if (set < 0) return kUnknown;
-  return interactions::breached_area(moment.model.bonds[size_t(set)], moment.state.bonds[size_t(set)]);
+  return interactions::breached_area(snapshot.model.bonds[size_t(set)], snapshot.state.bonds[size_t(set)]);
 }
 
 std::string_view needs_bonds(const sim::Model& model) { return model.bonds.empty() ? "bonds of a pouch" : ""; }

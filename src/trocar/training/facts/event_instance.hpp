@@ -9,7 +9,7 @@
 
 namespace trocar::training {
 
-struct Happening {
+struct EventInstance {
   std::int32_t hand = -1;
   BodyId body;
   std::int32_t number = -1;           ///< of a clip or a cut in the State's book

@@ -20,10 +20,10 @@
 
 namespace trocar::training {
 
-struct Happening;
+struct EventInstance;
 
 /// What there is to see at a tick.
-struct Moment {
+struct Snapshot {
   const sim::Model& model;
   const sim::State& state;
 
@@ -34,11 +34,11 @@ struct Moment {
 class Observer {
  public:
   virtual ~Observer() = default;
-  virtual void happened(const Moment&) {}        ///< in ticks that report an event
-  virtual void sample(const Moment&, double) {}  ///< fifty times a second; how long since the last time [s]
-  virtual Value value(const Moment& moment) const = 0;
+  virtual void happened(const Snapshot&) {}        ///< in ticks that report an event
+  virtual void sample(const Snapshot&, double) {}  ///< fifty times a second; how long since the last time [s]
+  virtual Value value(const Snapshot& snapshot) const = 0;
   /// What it would say if this happened now; for those whose memory events change.
-  virtual Value foretold(const Moment& moment, const Happening&) const { return value(moment); }
+  virtual Value foretold(const Snapshot& snapshot, const EventInstance&) const { return value(snapshot); }
 };
 
 struct Fact {
@@ -58,12 +58,12 @@ struct Fact {
 inline std::string_view anywhere(const sim::Model&) { return {}; }
 
 /// A fact without memory.
-template <Value (*fact)(const Moment&, const Arguments&)>
+template <Value (*fact)(const Snapshot&, const Arguments&)>
 std::unique_ptr<Observer> stateless(const sim::Model&, const Arguments& arguments) {
   class Stateless final : public Observer {
    public:
     explicit Stateless(const Arguments& a) : m_arguments(a) {}
-    Value value(const Moment& moment) const override { return fact(moment, m_arguments); }
+    Value value(const Snapshot& snapshot) const override { return fact(snapshot, m_arguments); }
 
    private:
     Arguments m_arguments;

@@ -3,7 +3,7 @@
 namespace trocar::training {
 namespace {
 
-Value depth(const Moment& moment, const Arguments& a) { return moment.state.tools[size_t(a[0].index)].depth; }
+Value depth(const Snapshot& snapshot, const Arguments& a) { return snapshot.state.tools[size_t(a[0].index)].depth; }
 
 }  // namespace
 

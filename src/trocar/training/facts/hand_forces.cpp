@@ -4,16 +4,16 @@
 namespace trocar::training {
 namespace {
 
-Value pull(const Moment& moment, const Arguments& a) {
-  const interactions::ToolState& tool = moment.state.tools[size_t(a[0].index)];
+Value pull(const Snapshot& snapshot, const Arguments& a) {
+  const interactions::ToolState& tool = snapshot.state.tools[size_t(a[0].index)];
   return tool.holds > 0 ? Value(norm(tool.pull)) : kUnknown;
 }
-Value pinch(const Moment& moment, const Arguments& a) {
-  const interactions::ToolState& tool = moment.state.tools[size_t(a[0].index)];
+Value pinch(const Snapshot& snapshot, const Arguments& a) {
+  const interactions::ToolState& tool = snapshot.state.tools[size_t(a[0].index)];
   return tool.holds > 0 ? Value(tool.pinch) : kUnknown;
 }
-Value contact(const Moment& moment, const Arguments& a) {
-  return norm(moment.state.tools[size_t(a[0].index)].contact_force);
+Value contact(const Snapshot& snapshot, const Arguments& a) {
+  return norm(snapshot.state.tools[size_t(a[0].index)].contact_force);
 }
 
 }  // namespace

@@ -6,24 +6,24 @@
 namespace trocar::training {
 namespace {
 
-Value holds(const Moment& moment, const Arguments& a) {
-  const interactions::ToolState& tool = moment.state.tools[size_t(a[0].index)];
+Value holds(const Snapshot& snapshot, const Arguments& a) {
+  const interactions::ToolState& tool = snapshot.state.tools[size_t(a[0].index)];
   if (!a[1].given) return tool.holds > 0;
   return std::any_of(tool.hold, tool.hold + tool.holds, [&a](const interactions::Hold& h) {
     return std::find(a[1].bodies.begin(), a[1].bodies.end(), h.body) != a[1].bodies.end();
   });
 }
 
-Value held_at(const Moment& moment, const Arguments& a) {
-  const double s = held_arc(moment.model, moment.state, size_t(a[0].index), a[1].index);
+Value held_at(const Snapshot& snapshot, const Arguments& a) {
+  const double s = held_arc(snapshot.model, snapshot.state, size_t(a[0].index), a[1].index);
   return s >= 0 ? Value(s) : kUnknown;
 }
 
-Value holds_between(const Moment& moment, const Arguments& a) {
-  const double s = held_arc(moment.model, moment.state, size_t(a[0].index), a[1].index);
+Value holds_between(const Snapshot& snapshot, const Arguments& a) {
+  const double s = held_arc(snapshot.model, snapshot.state, size_t(a[0].index), a[1].index);
   if (s < 0) return false;
   double from = 0, to = 1e9;
-  for (const sim::LandmarkModel& l : moment.model.strands[size_t(a[1].index)].landmarks) {
+  for (const sim::LandmarkModel& l : snapshot.model.strands[size_t(a[1].index)].landmarks) {
     if (l.name == a[2].word) from = l.to;
     if (l.name == a[3].word) to = l.from;
   }

@@ -10,12 +10,12 @@ class Path final : public Observer {
   Path(const sim::Model& model, const Arguments& a) : m_hand(size_t(a[0].index)) {
     m_before = tip_of(model, sim::initial_state(model), m_hand);
   }
-  void sample(const Moment& moment, double) override {
-    const Vec3d now = tip_of(moment.model, moment.state, m_hand);
+  void sample(const Snapshot& snapshot, double) override {
+    const Vec3d now = tip_of(snapshot.model, snapshot.state, m_hand);
     m_way += length(now - m_before);
     m_before = now;
   }
-  Value value(const Moment&) const override { return m_way; }
+  Value value(const Snapshot&) const override { return m_way; }
 
  private:
   size_t m_hand;

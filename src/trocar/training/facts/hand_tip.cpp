@@ -9,19 +9,19 @@
 namespace trocar::training {
 namespace {
 
-Value to_mark(const Moment& moment, const Arguments& a) {
-  return length(tip_of(moment.model, moment.state, size_t(a[0].index)) -
-                place_of_mark(moment.model, moment.state, a[1].index));
+Value to_mark(const Snapshot& snapshot, const Arguments& a) {
+  return length(tip_of(snapshot.model, snapshot.state, size_t(a[0].index)) -
+                place_of_mark(snapshot.model, snapshot.state, a[1].index));
 }
-Value to_hand(const Moment& moment, const Arguments& a) {
-  return length(tip_of(moment.model, moment.state, size_t(a[0].index)) -
-                tip_of(moment.model, moment.state, size_t(a[1].index)));
+Value to_hand(const Snapshot& snapshot, const Arguments& a) {
+  return length(tip_of(snapshot.model, snapshot.state, size_t(a[0].index)) -
+                tip_of(snapshot.model, snapshot.state, size_t(a[1].index)));
 }
 
-Value jaws_to_mark(const Moment& moment, const Arguments& a) {
-  const std::optional<Vec3d> normal = normal_of_mark(moment.model, moment.state, a[1].index);
+Value jaws_to_mark(const Snapshot& snapshot, const Arguments& a) {
+  const std::optional<Vec3d> normal = normal_of_mark(snapshot.model, snapshot.state, a[1].index);
   if (!normal) return kUnknown;
-  const Vec3d axis = sim::tip_frame_of(moment.model, moment.state, size_t(a[0].index)).axis();
+  const Vec3d axis = sim::tip_frame_of(snapshot.model, snapshot.state, size_t(a[0].index)).axis();
   return portable::atan2(length(cross(axis, *normal)), -dot(axis, *normal));
 }
 std::string marks_that_face(const sim::Model& model, const Arguments& a) {

@@ -4,8 +4,8 @@
 namespace trocar::training {
 namespace {
 
-Value tips_in_view(const Moment& moment, const Arguments& a) {
-  return double(sim::jaw_tips_visible(moment.model, moment.state, a[0].index));
+Value tips_in_view(const Snapshot& snapshot, const Arguments& a) {
+  return double(sim::jaw_tips_visible(snapshot.model, snapshot.state, a[0].index));
 }
 
 }  // namespace

@@ -12,12 +12,12 @@ std::vector<std::string> kinds() {
   return names;
 }
 
-Value has(const Moment& moment, const Arguments& a) {
-  return a[1].word == about(moment.model.tool(moment.state, size_t(a[0].index)).kind).name;
+Value has(const Snapshot& snapshot, const Arguments& a) {
+  return a[1].word == about(snapshot.model.tool(snapshot.state, size_t(a[0].index)).kind).name;
 }
-Value clips_left(const Moment& moment, const Arguments& a) {
-  if (!moment.model.tool(moment.state, size_t(a[0].index)).can().set_clips) return kUnknown;
-  return double(moment.state.tools[size_t(a[0].index)].clips_left);
+Value clips_left(const Snapshot& snapshot, const Arguments& a) {
+  if (!snapshot.model.tool(snapshot.state, size_t(a[0].index)).can().set_clips) return kUnknown;
+  return double(snapshot.state.tools[size_t(a[0].index)].clips_left);
 }
 
 std::string not_in_rack(const sim::Model& model, const Arguments& a) {

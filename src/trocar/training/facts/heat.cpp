@@ -5,26 +5,27 @@ namespace trocar::training {
 namespace {
 
 /// The material point that a hand's electrode was last at.
-const sim::ElectrodeHand* touched(const Moment& moment, const Arguments& a) {
-  const sim::ElectrodeHand& e = moment.state.electrodes[size_t(a[0].index)];
+const sim::ElectrodeHand* touched(const Snapshot& snapshot, const Arguments& a) {
+  const sim::ElectrodeHand& e = snapshot.state.electrodes[size_t(a[0].index)];
   return e.body.exists() ? &e : nullptr;
 }
 
-Value temperature(const Moment& moment, const Arguments& a) {
-  const sim::ElectrodeHand* e = touched(moment, a);
+Value temperature(const Snapshot& snapshot, const Arguments& a) {
+  const sim::ElectrodeHand* e = touched(snapshot, a);
   if (!e) return kUnknown;
-  return double(tissue::reading(moment.model.energy.heat, moment.state.heat, e->body, 0.5 * (e->a + e->b)).temperature);
+  return double(
+      tissue::reading(snapshot.model.energy.heat, snapshot.state.heat, e->body, 0.5 * (e->a + e->b)).temperature);
 }
 
-Value dead_beyond(const Moment& moment, const Arguments& a) {
-  const sim::ElectrodeHand* e = touched(moment, a);
+Value dead_beyond(const Snapshot& snapshot, const Arguments& a) {
+  const sim::ElectrodeHand* e = touched(snapshot, a);
   if (!e) return kUnknown;
   const tissue::Treated place[] = {{e->a, e->b}};
-  return tissue::spread(moment.model.energy.heat, moment.state.heat, e->body, place);
+  return tissue::spread(snapshot.model.energy.heat, snapshot.state.heat, e->body, place);
 }
 
-Value active(const Moment& moment, const Arguments& a) {
-  return moment.state.electrodes[size_t(a[0].index)].current.now.mode != tissue::EnergyMode::off;
+Value active(const Snapshot& snapshot, const Arguments& a) {
+  return snapshot.state.electrodes[size_t(a[0].index)].current.now.mode != tissue::EnergyMode::off;
 }
 
 std::vector<Parameter> hand() { return {{"hand", ArgumentKind::hand, "whose electrode"}}; }

@@ -11,28 +11,29 @@
 namespace trocar::training {
 namespace {
 
-Value off_centre(const Moment& moment, const Arguments& a) {
-  if (!sim::visible(moment.model, moment.state, a[0].index)) return kUnknown;
-  const kinematics::ScopeFrame scope = sim::scope_of(moment.model, moment.state);
-  const Vec3d to = place_of_mark(moment.model, moment.state, a[0].index) - scope.eye;
+Value off_centre(const Snapshot& snapshot, const Arguments& a) {
+  if (!sim::visible(snapshot.model, snapshot.state, a[0].index)) return kUnknown;
+  const kinematics::ScopeFrame scope = sim::scope_of(snapshot.model, snapshot.state);
+  const Vec3d to = place_of_mark(snapshot.model, snapshot.state, a[0].index) - scope.eye;
   const double ahead = dot(to, scope.forward);
   if (ahead <= 0) return kUnknown;
   const double aside = length(to - ahead * scope.forward);
-  const double half = 0.5 * moment.model.scope.field_of_view;
+  const double half = 0.5 * snapshot.model.scope.field_of_view;
   return aside / ahead * portable::cos(half) / portable::sin(half);
 }
 
-Value distance(const Moment& moment, const Arguments& a) {
-  if (!sim::visible(moment.model, moment.state, a[0].index)) return kUnknown;
-  return length(place_of_mark(moment.model, moment.state, a[0].index) - sim::scope_of(moment.model, moment.state).eye);
+Value distance(const Snapshot& snapshot, const Arguments& a) {
+  if (!sim::visible(snapshot.model, snapshot.state, a[0].index)) return kUnknown;
+  return length(place_of_mark(snapshot.model, snapshot.state, a[0].index) -
+                sim::scope_of(snapshot.model, snapshot.state).eye);
 }
 
-Value facing(const Moment& moment, const Arguments& a) {
-  if (!sim::visible(moment.model, moment.state, a[0].index)) return kUnknown;
-  const std::optional<Vec3d> normal = normal_of_mark(moment.model, moment.state, a[0].index);
+Value facing(const Snapshot& snapshot, const Arguments& a) {
+  if (!sim::visible(snapshot.model, snapshot.state, a[0].index)) return kUnknown;
+  const std::optional<Vec3d> normal = normal_of_mark(snapshot.model, snapshot.state, a[0].index);
   if (!normal) return kUnknown;
-  const Vec3d to_eye =
-      normalised(sim::scope_of(moment.model, moment.state).eye - place_of_mark(moment.model, moment.state, a[0].index));
+  const Vec3d to_eye = normalised(sim::scope_of(snapshot.model, snapshot.state).eye -
+                                  place_of_mark(snapshot.model, snapshot.state, a[0].index));
   return portable::atan2(length(cross(*normal, to_eye)), dot(*normal, to_eye));
 }
 std::string faces_every_way(const sim::Model& model, const Arguments& a) {
@@ -45,12 +46,12 @@ std::string faces_every_way(const sim::Model& model, const Arguments& a) {
 class Moved final : public Observer {
  public:
   Moved(const sim::Model&, const Arguments& a) : m_mark(a[0].index), m_way(patient_direction(a[1].word)) {}
-  void sample(const Moment& moment, double) override {
-    if (!m_from) m_from = place_of_mark(moment.model, moment.state, m_mark);
+  void sample(const Snapshot& snapshot, double) override {
+    if (!m_from) m_from = place_of_mark(snapshot.model, snapshot.state, m_mark);
   }
-  Value value(const Moment& moment) const override {
+  Value value(const Snapshot& snapshot) const override {
     if (!m_from) return kUnknown;
-    return dot(place_of_mark(moment.model, moment.state, m_mark) - *m_from, m_way);
+    return dot(place_of_mark(snapshot.model, snapshot.state, m_mark) - *m_from, m_way);
   }
 
  private:

@@ -4,9 +4,11 @@
 namespace trocar::training {
 namespace {
 
-Value in_view(const Moment& moment, const Arguments& a) { return sim::visible(moment.model, moment.state, a[0].index); }
-Value share(const Moment& moment, const Arguments& a) {
-  return sim::visible_share(moment.model, moment.state, a[0].index);
+Value in_view(const Snapshot& snapshot, const Arguments& a) {
+  return sim::visible(snapshot.model, snapshot.state, a[0].index);
+}
+Value share(const Snapshot& snapshot, const Arguments& a) {
+  return sim::visible_share(snapshot.model, snapshot.state, a[0].index);
 }
 
 }  // namespace

@@ -11,12 +11,12 @@ namespace {
 class SeenFor final : public Observer {
  public:
   SeenFor(const sim::Model&, const Arguments& a) : m_mark(a[0].index), m_share(a[1].number()) {}
-  void sample(const Moment& moment, double dt) override {
-    const bool seen = sim::visible_share(moment.model, moment.state, m_mark) >= m_share;
+  void sample(const Snapshot& snapshot, double dt) override {
+    const bool seen = sim::visible_share(snapshot.model, snapshot.state, m_mark) >= m_share;
     m_now = seen ? m_now + std::lround(dt / sim::kTick) : 0;
     m_longest = std::max(m_longest, m_now);
   }
-  Value value(const Moment&) const override { return double(m_longest) / core::kTicksPerSecond; }
+  Value value(const Snapshot&) const override { return double(m_longest) / core::kTicksPerSecond; }
 
  private:
   int m_mark;

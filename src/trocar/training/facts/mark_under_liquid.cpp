@@ -6,8 +6,8 @@
 namespace trocar::training {
 namespace {
 
-Value under(const Moment& moment, const Arguments& a) {
-  return drowned(moment.model, moment.state, place_of_mark(moment.model, moment.state, a[0].index));
+Value under(const Snapshot& snapshot, const Arguments& a) {
+  return drowned(snapshot.model, snapshot.state, place_of_mark(snapshot.model, snapshot.state, a[0].index));
 }
 
 }  // namespace

@@ -5,13 +5,13 @@ namespace trocar::training {
 namespace {
 
 /// What lay in the pool when the scene began was spilled before.
-Value spilled(const Moment& moment, const Arguments&) {
-  const std::int64_t out = moment.state.fluids.ledger.in[size_t(fluids::Source::kBled)].bile;
-  return fluids::kM3PerPicolitre * double(out - moment.model.wet.pool_at_start.bile);
+Value spilled(const Snapshot& snapshot, const Arguments&) {
+  const std::int64_t out = snapshot.state.fluids.ledger.in[size_t(fluids::Source::kBled)].bile;
+  return fluids::kM3PerPicolitre * double(out - snapshot.model.wet.pool_at_start.bile);
 }
 
-Value pool(const Moment& moment, const Arguments&) {
-  return fluids::kM3PerPicolitre * double(at(moment.state.fluids.ledger, fluids::Place::kPool).total());
+Value pool(const Snapshot& snapshot, const Arguments&) {
+  return fluids::kM3PerPicolitre * double(at(snapshot.state.fluids.ledger, fluids::Place::kPool).total());
 }
 
 }  // namespace

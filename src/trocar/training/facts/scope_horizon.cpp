@@ -4,8 +4,8 @@
 namespace trocar::training {
 namespace {
 
-Value horizon(const Moment& moment, const Arguments&) {
-  const std::optional<double> angle = horizon_of(moment.model, moment.state);
+Value horizon(const Snapshot& snapshot, const Arguments&) {
+  const std::optional<double> angle = horizon_of(snapshot.model, snapshot.state);
   return angle ? Value(*angle) : kUnknown;
 }
 

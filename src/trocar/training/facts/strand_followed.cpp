@@ -10,12 +10,12 @@ class Followed final : public Observer {
   Followed(const sim::Model& model, const Arguments& a)
       : m_following({a[2].number(), a[3].number(), a[4].number(), a[5].number(), a[6].number()}, model, a[0].index,
                     a[1].word) {}
-  void sample(const Moment& moment, double dt) override {
+  void sample(const Snapshot& snapshot, double dt) override {
     std::array<Vec3d, sim::kMaxTools> tips{};
-    for (size_t h = 0; h < hands(moment.model); ++h) tips[h] = tip_of(moment.model, moment.state, h);
-    m_following.update(moment.model, moment.state, {tips.data(), hands(moment.model)}, dt);
+    for (size_t h = 0; h < hands(snapshot.model); ++h) tips[h] = tip_of(snapshot.model, snapshot.state, h);
+    m_following.update(snapshot.model, snapshot.state, {tips.data(), hands(snapshot.model)}, dt);
   }
-  Value value(const Moment&) const override { return m_following.done(); }
+  Value value(const Snapshot&) const override { return m_following.done(); }
 
  private:
   Following m_following;

@@ -9,7 +9,7 @@ namespace {
 class Lumen : public Observer {
  public:
   Lumen(const sim::Model& model, const Arguments& a) : m_check(model, a[0].index, a[1].number()) {}
-  void happened(const Moment& moment) override { m_check.update(moment.model, moment.state); }
+  void happened(const Snapshot& snapshot) override { m_check.update(snapshot.model, snapshot.state); }
 
  protected:
   LumenCheck m_check;
@@ -18,22 +18,22 @@ class Lumen : public Observer {
 class Occluded final : public Lumen {
  public:
   using Lumen::Lumen;
-  Value value(const Moment&) const override { return m_check.occluded(); }
+  Value value(const Snapshot&) const override { return m_check.occluded(); }
 };
 
 class StumpsClosed final : public Lumen {
  public:
   using Lumen::Lumen;
-  Value value(const Moment&) const override { return m_check.severed() ? Value(m_check.stumps_closed()) : kUnknown; }
+  Value value(const Snapshot&) const override { return m_check.severed() ? Value(m_check.stumps_closed()) : kUnknown; }
 };
 
 class StumpsInView final : public Lumen {
  public:
   StumpsInView(const sim::Model& model, const Arguments& a)
       : Lumen(model, a), m_trace(model.target_index(model.strands[size_t(a[0].index)].name + ".trace")) {}
-  Value value(const Moment& moment) const override {
+  Value value(const Snapshot& snapshot) const override {
     if (!m_check.severed()) return kUnknown;
-    return stumps_in_view(moment.model, moment.state, m_trace, m_check.cut_element());
+    return stumps_in_view(snapshot.model, snapshot.state, m_trace, m_check.cut_element());
   }
 
  private:

@@ -4,16 +4,16 @@
 namespace trocar::training {
 namespace {
 
-Value straightness(const Moment& moment, const Arguments& a) {
+Value straightness(const Snapshot& snapshot, const Arguments& a) {
   const size_t i = size_t(a[0].index);
-  double to = moment.model.strand_bodies[i].arc.back();
-  for (const sim::LandmarkModel& l : moment.model.strands[i].landmarks)
+  double to = snapshot.model.strand_bodies[i].arc.back();
+  for (const sim::LandmarkModel& l : snapshot.model.strands[i].landmarks)
     if (a[1].given && l.name == a[1].word) to = l.to;
-  return straightness_of(moment.model, moment.state, a[0].index, to);
+  return straightness_of(snapshot.model, snapshot.state, a[0].index, to);
 }
 
-Value severed(const Moment& moment, const Arguments& a) {
-  for (const std::uint8_t alive : moment.state.strands[size_t(a[0].index)].alive)
+Value severed(const Snapshot& snapshot, const Arguments& a) {
+  for (const std::uint8_t alive : snapshot.state.strands[size_t(a[0].index)].alive)
     if (!alive) return true;
   return false;
 }

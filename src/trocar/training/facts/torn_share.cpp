@@ -10,11 +10,11 @@ double share_of(const std::vector<std::uint8_t>& open) {
   return open.empty() ? 0 : double(std::count(open.begin(), open.end(), 1)) / double(open.size());
 }
 
-Value parted(const Moment& moment, const Arguments& a) {
+Value parted(const Snapshot& snapshot, const Arguments& a) {
   return sim::visit(
-      moment.model, a[0].body(), kUnknown,
-      sim::Overloaded{[&](sim::MembraneRef fold) -> Value { return share_of(moment.state.torn[fold.index]); },
-                      [&](sim::SolidRef solid) -> Value { return share_of(moment.state.parted[solid.index]); },
+      snapshot.model, a[0].body(), kUnknown,
+      sim::Overloaded{[&](sim::MembraneRef fold) -> Value { return share_of(snapshot.state.torn[fold.index]); },
+                      [&](sim::SolidRef solid) -> Value { return share_of(snapshot.state.parted[solid.index]); },
                       [](auto) { return kUnknown; }});
 }
 

@@ -4,10 +4,10 @@
 
 namespace trocar::training {
 
-enum class Truth { no, unknown, yes };
+enum class TriState { no, unknown, yes };
 
-constexpr Truth truth(bool b) { return b ? Truth::yes : Truth::no; }
-constexpr Truth negated(Truth t) { return t == Truth::unknown ? t : truth(t == Truth::no); }
+constexpr TriState tri_state(bool b) { return b ? TriState::yes : TriState::no; }
+constexpr TriState negated(TriState t) { return t == TriState::unknown ? t : tri_state(t == TriState::no); }
 
 /// A number in SI, or a truth as 1 and 0.
 struct Value {

@@ -12,13 +12,13 @@ namespace {
 class VesselFlow final : public Observer {
  public:
   VesselFlow(const sim::Model&, const Arguments& a) : m_vessel(a[0].index) {}
-  void sample(const Moment& moment, double) override {
+  void sample(const Snapshot& snapshot, double) override {
     double& oldest = m_flows[size_t(m_samples++) % m_flows.size()];
-    const double now = vessels::read_wall(moment.model.vessels.flow, moment.state.flow, m_vessel, 0.5).flow;
+    const double now = vessels::read_wall(snapshot.model.vessels.flow, snapshot.state.flow, m_vessel, 0.5).flow;
     m_sum += now - oldest;
     oldest = now;
   }
-  Value value(const Moment&) const override {
+  Value value(const Snapshot&) const override {
     if (m_samples == 0) return kUnknown;
     return m_sum / double(std::min(size_t(m_samples), m_flows.size()));
   }
@@ -30,7 +30,7 @@ class VesselFlow final : public Observer {
   int m_samples = 0;
 };
 
-Value sealed(const Moment& moment, const Arguments& a) { return vessel_sealed(moment.state, a[0].index); }
+Value sealed(const Snapshot& snapshot, const Arguments& a) { return vessel_sealed(snapshot.state, a[0].index); }
 
 std::string_view needs_vessels(const sim::Model& model) { return model.vessels.there() ? "" : "vessels"; }
 

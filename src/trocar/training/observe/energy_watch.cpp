@@ -16,7 +16,7 @@ constexpr std::size_t kPlaces = 256;  // of a body; more are not told from each 
 EnergyWatch::EnergyWatch(std::vector<BodyId> targets, std::vector<BodyId> never)
     : m_targets(std::move(targets)), m_never(std::move(never)) {}
 
-void EnergyWatch::update(const EnergyLimits& limits, const sim::Model& model, const sim::State& state, Mishaps& out) {
+void EnergyWatch::update(const EnergyLimits& limits, const sim::Model& model, const sim::State& state, Incidents& out) {
   for (size_t h = 0; h < state.electrodes.size(); ++h) {
     const sim::ElectrodeHand& electrode = state.electrodes[h];
     Activation& a = m_activation[h];
@@ -34,11 +34,11 @@ void EnergyWatch::update(const EnergyLimits& limits, const sim::Model& model, co
     a.idle_for += sim::kTick;
     if (a.told_idle || a.idle_for <= limits.idle_time) continue;
     a.told_idle = true;
-    out.add({Mishap::idle, int(h), tip_of(model, state, h), ""});
+    out.add({Incident::idle, int(h), tip_of(model, state, h), ""});
   }
 }
 
-void EnergyWatch::judge_touch(int hand, const sim::ElectrodeHand& electrode, Mishaps& out) {
+void EnergyWatch::judge_touch(int hand, const sim::ElectrodeHand& electrode, Incidents& out) {
   HotTip& tip = m_hot[size_t(hand)];
   const bool hot = electrode.current.now.hot_touch && electrode.body.exists();
   const bool flows = electrode.current.now.flows;
@@ -51,13 +51,13 @@ void EnergyWatch::judge_touch(int hand, const sim::ElectrodeHand& electrode, Mis
   if (tip.away_for >= kHotApart) tip.told = false;
   if (tip.told || tip.touches_for <= kHotTouch) return;
   tip.told = true;
-  out.add({Mishap::hot_tip, hand, electrode.at, ""});
+  out.add({Incident::hot_tip, hand, electrode.at, ""});
 }
 
-void EnergyWatch::judge_place(int hand, const sim::ElectrodeHand& electrode, Mishaps& out) {
+void EnergyWatch::judge_place(int hand, const sim::ElectrodeHand& electrode, Incidents& out) {
   if (!electrode.body.exists() || has(m_targets, electrode.body)) return;
   m_activation[size_t(hand)].told_place = true;
-  out.add({has(m_never, electrode.body) ? Mishap::never_there : Mishap::off_target, hand, electrode.at, ""});
+  out.add({has(m_never, electrode.body) ? Incident::never_there : Incident::off_target, hand, electrode.at, ""});
 }
 
 void EnergyWatch::note_place(int hand, const EnergyLimits& limits, const sim::Model& model, const sim::State& state) {
@@ -76,11 +76,11 @@ void EnergyWatch::note_place(int hand, const EnergyLimits& limits, const sim::Mo
     at->places.push_back({electrode.a, electrode.b});
 }
 
-void EnergyWatch::look_at_spread(const sim::Model& model, const sim::State& state, Mishaps& out) {
+void EnergyWatch::look_at_spread(const sim::Model& model, const sim::State& state, Incidents& out) {
   for (Heated& h : m_heated) {
     if (h.told || tissue::spread(model.energy.heat, state.heat, h.body, h.places) <= h.allowed) continue;
     h.told = true;
-    out.add({Mishap::spread, h.hand, h.where, ""});
+    out.add({Incident::spread, h.hand, h.where, ""});
   }
 }
 

@@ -23,9 +23,9 @@ class EnergyWatch {
   EnergyWatch(std::vector<BodyId> targets, std::vector<BodyId> never);
 
   /// Every tick: pedals and current, each once an activation; hot tips, once a touch.
-  void update(const EnergyLimits& limits, const sim::Model& model, const sim::State& state, Mishaps& out);
+  void update(const EnergyLimits& limits, const sim::Model& model, const sim::State& state, Incidents& out);
   /// Now and then, as it takes up to a millisecond: spread, once a body.
-  void look_at_spread(const sim::Model& model, const sim::State& state, Mishaps& out);
+  void look_at_spread(const sim::Model& model, const sim::State& state, Incidents& out);
 
  private:
   struct Activation {
@@ -49,8 +49,8 @@ class EnergyWatch {
     bool told = false;
     std::vector<tissue::Treated> places;
   };
-  void judge_touch(int hand, const sim::ElectrodeHand& electrode, Mishaps& out);
-  void judge_place(int hand, const sim::ElectrodeHand& electrode, Mishaps& out);
+  void judge_touch(int hand, const sim::ElectrodeHand& electrode, Incidents& out);
+  void judge_place(int hand, const sim::ElectrodeHand& electrode, Incidents& out);
   void note_place(int hand, const EnergyLimits& limits, const sim::Model& model, const sim::State& state);
 
   std::vector<BodyId> m_targets, m_never;

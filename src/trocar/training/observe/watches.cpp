@@ -30,7 +30,7 @@ double pull_at_tissue(const sim::Model& model, const sim::State& state, std::siz
 }  // namespace
 
 void PullWatch::update(const Handling& limits, const Tissues& tissues, const sim::Model& model, const sim::State& state,
-                       Mishaps& out) {
+                       Incidents& out) {
   for (size_t h = 0; h < hands(model); ++h) {
     const interactions::ToolState& tool = state.tools[h];
     const bool delicate = tool.holds > 0 && has(tissues.delicate, tool.hold[0].body);
@@ -38,11 +38,12 @@ void PullWatch::update(const Handling& limits, const Tissues& tissues, const sim
     const double before = m_over_for[h];
     m_over_for[h] = tool.holds > 0 && pull_at_tissue(model, state, h) > limit ? before + sim::kTick : 0;
     if (before < limits.pull_excursion && m_over_for[h] >= limits.pull_excursion)
-      out.add({Mishap::overpulled, int(h), tip_of(model, state, h), delicate ? "delicate tissue" : "other tissue"});
+      out.add({Incident::overpulled, int(h), tip_of(model, state, h), delicate ? "delicate tissue" : "other tissue"});
   }
 }
 
-void TearWatch::update(const sim::Model& model, const sim::State& state, const sim::StepReport& report, Mishaps& out) {
+void TearWatch::update(const sim::Model& model, const sim::State& state, const sim::StepReport& report,
+                       Incidents& out) {
   constexpr std::uint64_t kGoesOn =
       core::kTicksPerSecond;  // [ticks] without a tear, after which the next one is another
   for (int i = 0; i < report.event_count; ++i) {
@@ -54,12 +55,12 @@ void TearWatch::update(const sim::Model& model, const sim::State& state, const s
       m_torn.push_back({e.body(), state.tick});
     else
       known->tick = state.tick;
-    if (!goes_on) out.add({Mishap::torn, e.tool, tip_of(model, state, size_t(e.tool)), ""});
+    if (!goes_on) out.add({Incident::torn, e.tool, tip_of(model, state, size_t(e.tool)), ""});
   }
 }
 
 void PinchWatch::update(const Handling& limits, const Tissues& tissues, const sim::Model& model,
-                        const sim::State& state, Mishaps& out) {
+                        const sim::State& state, Incidents& out) {
   for (size_t h = 0; h < hands(model); ++h) {
     const interactions::ToolState& tool = state.tools[h];
     if (tool.holds == 0 || !has(tissues.bowel, tool.hold[0].body)) {
@@ -71,7 +72,7 @@ void PinchWatch::update(const Handling& limits, const Tissues& tissues, const si
     const bool hard = tool.pinch > limits.pinch_limit, lasting = m_impulse[h] > limits.pinch_impulse;
     if (m_told[h] || (!hard && !lasting)) continue;
     m_told[h] = true;
-    out.add({Mishap::overpinched, int(h), tip_of(model, state, h), hard ? "force" : "force and time"});
+    out.add({Incident::overpinched, int(h), tip_of(model, state, h), hard ? "force" : "force and time"});
   }
 }
 
@@ -85,7 +86,7 @@ SightWatch::SightWatch(const sim::Model& model) {
 
 void SightWatch::update(const Handling& limits, const sim::Model& model, const sim::State& state,
                         const std::array<Vec3d, sim::kMaxTools>& before, const std::array<Vec3d, sim::kMaxTools>& now,
-                        double dt, Mishaps& out) {
+                        double dt, Incidents& out) {
   constexpr double kSmoothing = 0.15;  // [s]
   for (size_t h = 0; h < hands(model); ++h) {
     const Targets& t = m_targets[h];
@@ -100,19 +101,19 @@ void SightWatch::update(const Handling& limits, const sim::Model& model, const s
     }
     if (m_inserting[h] && !sim::visible(model, state, t.shaft)) {
       m_inserting[h] = false;
-      out.add({Mishap::inserted_blind, int(h), now[h], ""});
+      out.add({Incident::inserted_blind, int(h), now[h], ""});
     }
     // Drawing straight back is safe: the instrument has just been there.
     const double speed = length(m_velocity[h]), back = dot(m_velocity[h], model.hands[h].port - now[h]) / depth;
     if (speed > limits.blind_speed && back < 0.9 * speed) m_blind_for[h] += dt;
     if (m_blind_for[h] <= limits.blind_time || m_told[h]) continue;
     m_told[h] = true;
-    out.add({Mishap::moved_blind, int(h), now[h], ""});
+    out.add({Incident::moved_blind, int(h), now[h], ""});
   }
 }
 
 void CollisionWatch::update(const Handling& limits, const sim::Model& model, const sim::State& state, double dt,
-                            Mishaps& out) {
+                            Incidents& out) {
   Parts now;
   for (size_t h = 0; h < hands(model); ++h) now[h] = sim::shape_of(model, state, h);
   constexpr double kApart = 0.002;  // [m] between two meetings
@@ -138,7 +139,7 @@ void CollisionWatch::update(const Handling& limits, const sim::Model& model, con
       bool& told = m_touching[i][j];
       if (fast && !told) {
         told = true;
-        out.add({Mishap::collided, int(i), where, ""});
+        out.add({Incident::collided, int(i), where, ""});
       }
       if (!near) told = false;
     }

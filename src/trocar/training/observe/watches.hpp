@@ -19,7 +19,7 @@ struct Handling {
   double collision_speed = 0, insertion_depth = 0;
 };
 
-struct Mishap {
+struct Incident {
   enum Kind {
     overpulled,
     torn,
@@ -38,11 +38,11 @@ struct Mishap {
   const char* detail = "";
 };
 
-/// Mishaps of one tick; what does not fit is not told.
-struct Mishaps {
-  std::array<Mishap, 16> list;
+/// Incidents of one tick; what does not fit is not told.
+struct Incidents {
+  std::array<Incident, 16> list;
   int count = 0;
-  void add(const Mishap& m) {
+  void add(const Incident& m) {
     if (count < int(list.size())) list[size_t(count++)] = m;
   }
 };
@@ -60,7 +60,7 @@ struct Tissues {
 class PullWatch {
  public:
   void update(const Handling& limits, const Tissues& tissues, const sim::Model& model, const sim::State& state,
-              Mishaps& out);
+              Incidents& out);
 
  private:
   std::array<double, sim::kMaxTools> m_over_for{};
@@ -69,7 +69,7 @@ class PullWatch {
 /// Tissue that tears, once a body for as long as it goes on tearing.
 class TearWatch {
  public:
-  void update(const sim::Model& model, const sim::State& state, const sim::StepReport& report, Mishaps& out);
+  void update(const sim::Model& model, const sim::State& state, const sim::StepReport& report, Incidents& out);
 
  private:
   struct Torn {
@@ -83,7 +83,7 @@ class TearWatch {
 class PinchWatch {
  public:
   void update(const Handling& limits, const Tissues& tissues, const sim::Model& model, const sim::State& state,
-              Mishaps& out);
+              Incidents& out);
 
  private:
   std::array<double, sim::kMaxTools> m_impulse{};
@@ -98,7 +98,7 @@ class SightWatch {
   /// Once a sample of `dt` [s]; tips before and now.
   void update(const Handling& limits, const sim::Model& model, const sim::State& state,
               const std::array<Vec3d, sim::kMaxTools>& before, const std::array<Vec3d, sim::kMaxTools>& now, double dt,
-              Mishaps& out);
+              Incidents& out);
 
  private:
   struct Targets {
@@ -113,7 +113,7 @@ class SightWatch {
 /// Instruments that strike each other, once a meeting.
 class CollisionWatch {
  public:
-  void update(const Handling& limits, const sim::Model& model, const sim::State& state, double dt, Mishaps& out);
+  void update(const Handling& limits, const sim::Model& model, const sim::State& state, double dt, Incidents& out);
 
  private:
   using Parts = std::array<interactions::ToolShape, sim::kMaxTools>;

@@ -11,23 +11,23 @@ namespace trocar::training {
 
 using scene::JsonValue;
 
-bool Cause::concerns(const sim::Model& model, const Happening& h) const {
+bool Cause::concerns(const sim::Model& model, const EventInstance& h) const {
   if (on == On::anything) return true;
   bool named = h.body.exists() && std::find(bodies.begin(), bodies.end(), h.body) != bodies.end();
   for (const int v : vessels) named = named || h.name == &model.vessels.list[size_t(v)].name;
   return named == (on == On::these);
 }
 
-bool Cause::matches(const Moment& moment, const Happening& h) const {
-  if (!concerns(moment.model, h)) return false;
+bool Cause::matches(const Snapshot& snapshot, const EventInstance& h) const {
+  if (!concerns(snapshot.model, h)) return false;
   for (const AttributeTest& a : attributes)
-    if (a.test.of(a.attribute->value(moment, h)) != Truth::yes) return false;
-  return while_true.holds(moment) == Truth::yes;
+    if (a.test.of(a.attribute->value(snapshot, h)) != TriState::yes) return false;
+  return while_true.holds(snapshot) == TriState::yes;
 }
 
-const Cause* Act::of(int event, const Moment& moment, const Happening& h) const {
+const Cause* Act::of(int event, const Snapshot& snapshot, const EventInstance& h) const {
   for (const Cause& c : m_causes)
-    if (c.event == event && c.matches(moment, h)) return &c;
+    if (c.event == event && c.matches(snapshot, h)) return &c;
   return nullptr;
 }
 

@@ -27,15 +27,15 @@ struct Cause {
   Condition while_true;
   std::string detail;  ///< what results add; empty: nothing of its own
 
-  bool concerns(const sim::Model& model, const Happening& h) const;
-  bool matches(const Moment& moment, const Happening& h) const;
+  bool concerns(const sim::Model& model, const EventInstance& h) const;
+  bool matches(const Snapshot& snapshot, const EventInstance& h) const;
 };
 
 class Act {
  public:
   bool there() const { return !m_causes.empty(); }
   /// The first cause that what happened is one of; null: none.
-  const Cause* of(int event, const Moment& moment, const Happening& h) const;
+  const Cause* of(int event, const Snapshot& snapshot, const EventInstance& h) const;
   const std::vector<Cause>& causes() const { return m_causes; }
   /// Can it happen at all? Not where it is only asked for on no body.
   bool possible() const;

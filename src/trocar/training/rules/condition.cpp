@@ -11,38 +11,38 @@ namespace trocar::training {
 
 using scene::JsonValue;
 
-Truth Condition::holds(const Moment& moment) const { return holds(moment, nullptr); }
-Truth Condition::would_hold(const Moment& moment, const Happening& h) const { return holds(moment, &h); }
+TriState Condition::holds(const Snapshot& snapshot) const { return holds(snapshot, nullptr); }
+TriState Condition::would_hold(const Snapshot& snapshot, const EventInstance& h) const { return holds(snapshot, &h); }
 
-Truth Condition::holds(const Moment& moment, const Happening* h) const {
+TriState Condition::holds(const Snapshot& snapshot, const EventInstance* h) const {
   switch (m_kind) {
     case Kind::none:
-      return Truth::yes;
+      return TriState::yes;
     case Kind::fact:
-      return m_test.of(h ? m_facts->foretold(m_watch, moment, *h) : m_facts->value(m_watch, moment));
+      return m_test.of(h ? m_facts->foretold(m_watch, snapshot, *h) : m_facts->value(m_watch, snapshot));
     case Kind::step:
-      return of_step(moment);
+      return of_step(snapshot);
     case Kind::negation:
-      return negated(m_parts[0].holds(moment, h));
+      return negated(m_parts[0].holds(snapshot, h));
     case Kind::all:
     case Kind::any:
       break;
   }
-  const Truth decides = m_kind == Kind::all ? Truth::no : Truth::yes;
-  Truth all = negated(decides);
+  const TriState decides = m_kind == Kind::all ? TriState::no : TriState::yes;
+  TriState all = negated(decides);
   for (const Condition& part : m_parts) {
-    const Truth t = part.holds(moment, h);
+    const TriState t = part.holds(snapshot, h);
     if (t == decides) return t;
-    if (t == Truth::unknown) all = t;
+    if (t == TriState::unknown) all = t;
   }
   return all;
 }
 
-Truth Condition::of_step(const Moment& moment) const {
+TriState Condition::of_step(const Snapshot& snapshot) const {
   const StepStatus& s = (*m_steps)[size_t(m_step)];
   const bool is = m_is == StepIs::done ? s.done : m_is == StepIs::missed ? s.missed : !s.done && !s.missed;
-  if (!is || !m_since) return truth(is);
-  return m_test.of(moment.now() - s.at);
+  if (!is || !m_since) return tri_state(is);
+  return m_test.of(snapshot.now() - s.at);
 }
 
 namespace {

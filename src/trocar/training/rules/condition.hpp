@@ -18,9 +18,9 @@ class Condition {
   /// Is there one at all? One that is not there holds.
   bool there() const { return m_kind != Kind::none; }
   /// May be asked when the watches know the tick.
-  Truth holds(const Moment& moment) const;
+  TriState holds(const Snapshot& snapshot) const;
   /// The same if this happened now.
-  Truth would_hold(const Moment& moment, const Happening& happening) const;
+  TriState would_hold(const Snapshot& snapshot, const EventInstance& instance) const;
 
   // What it consists of, for who shows it.
   enum class Kind { none, fact, step, all, any, negation };
@@ -53,8 +53,8 @@ class Condition {
   enum class StepIs { done, missed, open };
 
   friend class ConditionReader;
-  Truth holds(const Moment& moment, const Happening* happening) const;
-  Truth of_step(const Moment& moment) const;
+  TriState holds(const Snapshot& snapshot, const EventInstance* instance) const;
+  TriState of_step(const Snapshot& snapshot) const;
 
   Kind m_kind = Kind::none;
   const FactWatches* m_facts = nullptr;

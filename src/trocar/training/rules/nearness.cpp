@@ -78,7 +78,7 @@ double share_of(const Nearness& n) {
 
 class NearnessReader {
  public:
-  NearnessReader(const Moment& moment, const Names& names) : m_moment(moment), m_names(names) {}
+  NearnessReader(const Snapshot& snapshot, const Names& names) : m_moment(snapshot), m_names(names) {}
 
   std::vector<Nearness> of(const Condition& c, bool negated) const {
     switch (c.kind()) {
@@ -110,7 +110,7 @@ class NearnessReader {
     n.subject = subject_of(watched, m_moment.model, m_names);
     n.known = value.known;
     n.is_truth = watched.fact->is_truth;
-    n.fulfilled = test.of(value) == (negated ? Truth::no : Truth::yes);
+    n.fulfilled = test.of(value) == (negated ? TriState::no : TriState::yes);
     if (n.is_truth) {
       n.wanted = (test.low > 0) != negated;
       n.value = value.number;
@@ -189,7 +189,7 @@ class NearnessReader {
     return best;
   }
 
-  const Moment& m_moment;
+  const Snapshot& m_moment;
   const Names& m_names;
 };
 
@@ -257,8 +257,8 @@ std::string Nearness::target() const {
 
 std::string Nearness::shown_value() const { return known ? number(value) : "-"; }
 
-std::vector<Nearness> nearness(const Condition& condition, const Moment& moment, const Names& names) {
-  std::vector<Nearness> rows = NearnessReader(moment, names).of(condition, false);
+std::vector<Nearness> nearness(const Condition& condition, const Snapshot& snapshot, const Names& names) {
+  std::vector<Nearness> rows = NearnessReader(snapshot, names).of(condition, false);
   name_subjects(rows);
   return rows;
 }

@@ -36,7 +36,7 @@ struct Nearness {
 };
 
 /// @param names  titles of what the scene names
-std::vector<Nearness> nearness(const Condition& condition, const Moment& moment, const Names& names);
+std::vector<Nearness> nearness(const Condition& condition, const Snapshot& snapshot, const Names& names);
 
 /// No more than `most` rows: those of one fact become a count, then fulfilled ones give way.
 std::vector<Nearness> in_short(std::vector<Nearness> rows, std::size_t most);

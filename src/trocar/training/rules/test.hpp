@@ -18,10 +18,10 @@ struct Test {
   bool beyond_low = false, beyond_high = false;  ///< above low, below high
   bool of_size = false;                          ///< of the number without its sign
 
-  Truth of(const Value& value) const {
-    if (!value.known) return Truth::unknown;
+  TriState of(const Value& value) const {
+    if (!value.known) return TriState::unknown;
     const double v = of_size && value.number < 0 ? -value.number : value.number;
-    return truth((beyond_low ? v > low : v >= low) && (beyond_high ? v < high : v <= high));
+    return tri_state((beyond_low ? v > low : v >= low) && (beyond_high ? v < high : v <= high));
   }
   /// "12 to 20", "at most 15", "more than 30", "2", "yes": in a unit, for people.
   std::string shown(const Unit& unit, bool is_truth) const;

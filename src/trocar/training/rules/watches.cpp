@@ -21,16 +21,16 @@ int FactWatches::watch(const Fact& fact, const Arguments& arguments, const sim::
   return int(m_watched.size()) - 1;
 }
 
-void FactWatches::tick(const Moment& moment, const sim::StepReport& report) {
-  const bool written = moment.state.clip_count != m_clips || moment.state.cut_count != m_cuts;
+void FactWatches::tick(const Snapshot& snapshot, const sim::StepReport& report) {
+  const bool written = snapshot.state.clip_count != m_clips || snapshot.state.cut_count != m_cuts;
   if (report.event_count == 0 && !written) return;
-  m_clips = moment.state.clip_count;
-  m_cuts = moment.state.cut_count;
-  for (Watched& w : m_watched) w.observer->happened(moment);
+  m_clips = snapshot.state.clip_count;
+  m_cuts = snapshot.state.cut_count;
+  for (Watched& w : m_watched) w.observer->happened(snapshot);
 }
 
-void FactWatches::sample(const Moment& moment, double dt) {
-  for (Watched& w : m_watched) w.observer->sample(moment, dt);
+void FactWatches::sample(const Snapshot& snapshot, double dt) {
+  for (Watched& w : m_watched) w.observer->sample(snapshot, dt);
 }
 
 int EventWatches::watch(const EventKind& event, const Arguments& arguments, const sim::Model& model) {

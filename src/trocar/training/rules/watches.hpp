@@ -19,14 +19,14 @@ class FactWatches {
   int watch(const Fact& fact, const Arguments& arguments, const sim::Model& model);
 
   /// Every tick, before any condition is asked: memory that changes with events only is brought up to date.
-  void tick(const Moment& moment, const sim::StepReport& report);
+  void tick(const Snapshot& snapshot, const sim::StepReport& report);
   /// Fifty times a second. @param dt  since the last time [s]
-  void sample(const Moment& moment, double dt);
+  void sample(const Snapshot& snapshot, double dt);
 
-  Value value(int watch, const Moment& moment) const { return m_watched[size_t(watch)].observer->value(moment); }
+  Value value(int watch, const Snapshot& snapshot) const { return m_watched[size_t(watch)].observer->value(snapshot); }
   /// What it would be if this happened now.
-  Value foretold(int watch, const Moment& moment, const Happening& happening) const {
-    return m_watched[size_t(watch)].observer->foretold(moment, happening);
+  Value foretold(int watch, const Snapshot& snapshot, const EventInstance& instance) const {
+    return m_watched[size_t(watch)].observer->foretold(snapshot, instance);
   }
 
   struct Watched {
@@ -48,19 +48,19 @@ class EventWatches {
 
   /// Every tick: what has happened of each kind, in the order in which they were first asked for.
   template <class Visit>
-  void tick(const Moment& moment, const sim::StepReport& report, Visit&& visit) {
+  void tick(const Snapshot& snapshot, const sim::StepReport& report, Visit&& visit) {
     for (size_t i = 0; i < m_watched.size(); ++i) {
       m_happened.count = 0;
-      m_watched[i].noticer->tick(moment, report, m_happened);
+      m_watched[i].detector->tick(snapshot, report, m_happened);
       for (int k = 0; k < m_happened.count; ++k) visit(int(i), m_happened.list[size_t(k)]);
     }
   }
   /// Fifty times a second, the same.
   template <class Visit>
-  void sample(const Moment& moment, double dt, Visit&& visit) {
+  void sample(const Snapshot& snapshot, double dt, Visit&& visit) {
     for (size_t i = 0; i < m_watched.size(); ++i) {
       m_happened.count = 0;
-      m_watched[i].noticer->sample(moment, dt, m_happened);
+      m_watched[i].detector->sample(snapshot, dt, m_happened);
       for (int k = 0; k < m_happened.count; ++k) visit(int(i), m_happened.list[size_t(k)]);
     }
   }
@@ -68,13 +68,13 @@ class EventWatches {
   struct Watched {
     const EventKind* event;
     Arguments arguments;
-    std::unique_ptr<Noticer> noticer;
+    std::unique_ptr<EventDetector> detector;
   };
   const std::deque<Watched>& all() const { return m_watched; }
 
  private:
   std::deque<Watched> m_watched;
-  Happenings m_happened;
+  EventInstances m_happened;
 };
 
 }  // namespace trocar::training

@@ -8,29 +8,29 @@ namespace trocar::training {
 namespace {
 
 /// Where a hand's jaws shall take a strand: at a place, at another one after each failure.
-double place_at_try(const sim::Model& model, const Given& given, int tries) {
+double place_at_try(const sim::Model& model, const SkillArgs& args, int tries) {
   constexpr double kElsewhere[] = {0, 0.12, -0.08, 0.20};  // of the stretch
-  if (const std::optional<double> arc = arc_given(model, given)) return *arc;
-  const Stretch between = stretch_of(model, given("of").index, given("after").word, given("before").word);
-  const double share = given.number("share", 0.5) + kElsewhere[tries % 4];
+  if (const std::optional<double> arc = arc_given(model, args)) return *arc;
+  const Stretch between = stretch_of(model, args("of").index, args("after").word, args("before").word);
+  const double share = args.number("share", 0.5) + kElsewhere[tries % 4];
   return between.from + (between.to - between.from) * share;
 }
 
 /// Through the open to before the tissue, jaws open and turned across it, the camera on the tip.
 class Approach final : public Skill {
  public:
-  Approach(const sim::Model& model, const Given& given) : m_hand(given.hand()), m_strand(given("of").index) {
-    for (int t = 0; t < 4; ++t) m_places[size_t(t)] = place_at_try(model, given, t);
-    m_share = given.number("inside_share", 0.6);
+  Approach(const sim::Model& model, const SkillArgs& args) : m_hand(args.hand()), m_strand(args("of").index) {
+    for (int t = 0; t < 4; ++t) m_places[size_t(t)] = place_at_try(model, args, t);
+    m_share = args.number("inside_share", 0.6);
   }
 
  private:
-  void start(Operator& op, int tries) override {
+  void start(Surgeon& op, int tries) override {
     op.posture(m_hand).end();
     m_s = m_places[size_t(tries % 4)];
   }
-  Progress work(Operator& op) override {
-    Operator::Target& target = op.target(m_hand);
+  Progress work(Surgeon& op) override {
+    Surgeon::Target& target = op.target(m_hand);
     target = {m_strand, m_s, m_share * op.tool(m_hand).jaw_length};
     op.want(op.point(m_strand, m_s));
     op.make_room(m_hand);

@@ -13,33 +13,33 @@ using interactions::Bag;
 using interactions::BagModel;
 using interactions::BagState;
 
-const BagModel& bag_model(const Operator& op) { return interactions::part_of<Bag>(op.model().objects).list.front(); }
-const BagState& bag_state(const Operator& op) { return interactions::part_of<Bag>(op.state().objects).front(); }
-Vec3d mouth_of(const Operator& op) { return bag_state(op).middle(bag_model(op)); }
+const BagModel& bag_model(const Surgeon& op) { return interactions::part_of<Bag>(op.model().objects).list.front(); }
+const BagState& bag_state(const Surgeon& op) { return interactions::part_of<Bag>(op.state().objects).front(); }
+Vec3d mouth_of(const Surgeon& op) { return bag_state(op).middle(bag_model(op)); }
 
-double share_inside(const Operator& op, BodyId body) {
+double share_inside(const Surgeon& op, BodyId body) {
   const interactions::BagShare share = share_in(bag_model(op), bag_state(op), body);
   return share.all > 0 ? double(share.inside) / share.all : 0;
 }
 
-Vec3d upwards(const Operator& op) { return -normalised(op.model().gravity, {0, 0, -1}); }
+Vec3d upwards(const Surgeon& op) { return -normalised(op.model().gravity, {0, 0, -1}); }
 
-std::string lacks_bag(const sim::Model& model, const Given&) {
+std::string lacks_bag(const sim::Model& model, const SkillArgs&) {
   return interactions::part_of<Bag>(model.objects).list.empty() ? "there is no bag" : "";
 }
-std::string lacks_bag_in_hand(const sim::Model& model, const Given& given) {
-  if (std::string lack = lacks_bag(model, given); !lack.empty()) return lack;
-  return lacks_tool(model, given.hand(), &interactions::Abilities::bag);
+std::string lacks_bag_in_hand(const sim::Model& model, const SkillArgs& args) {
+  if (std::string lack = lacks_bag(model, args); !lack.empty()) return lack;
+  return lacks_tool(model, args.hand(), &interactions::Abilities::bag);
 }
 
 /// The middle of the mouth to a place, the mouth facing up, and the hoop out.
 class OpenBag final : public Skill {
  public:
-  OpenBag(const sim::Model&, const Given& given)
-      : m_hand(given.hand()), m_at{given.number("x_mm", 0), given.number("y_mm", 0), given.number("z_mm", 0)} {}
+  OpenBag(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()), m_at{args.number("x_mm", 0), args.number("y_mm", 0), args.number("z_mm", 0)} {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     Arms::Arm& arm = op.arm(m_hand);
     const Vec3d along = normalised(m_at - arm.port), tip = m_at - bag_model(op).hoop * along;
     op.want(arm.tip);
@@ -51,7 +51,7 @@ class OpenBag final : public Skill {
     return pushed && bag_state(op).open() ? Progress::done : Progress::working;
   }
   /// All the way round if it must: a mouth that faces down is of no use.
-  bool turn_up(Operator& op, Arms::Arm& arm) const {
+  bool turn_up(Surgeon& op, Arms::Arm& arm) const {
     constexpr double kTurns = 1.5, kLevel = 0.03;  // [rad/s] [rad]
     const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, arm.tip, arm.roll);
     double left = kinematics::roll_towards(pose, upwards(op)) - arm.roll;
@@ -68,20 +68,20 @@ class OpenBag final : public Skill {
 /// What is held to over the mouth, through it, let go of, and back.
 class PutInBag final : public Skill {
  public:
-  PutInBag(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_deep(given.number("deep_mm", 0.015)),
-        m_above(given.number("above_mm", 0.03)),
-        m_least(given.number("least_share", 1)) {}
+  PutInBag(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_deep(args.number("deep_mm", 0.015)),
+        m_above(args.number("above_mm", 0.03)),
+        m_least(args.number("least_share", 1)) {}
 
  private:
   enum Phase { kOver, kIn, kLetGo, kBack, kFalls };
 
-  void start(Operator& op, int) override {
+  void start(Surgeon& op, int) override {
     const interactions::ToolState& tool = op.tool_state(m_hand);
     m_body = tool.holds > 0 ? tool.hold[0].body : BodyId{};
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     const Vec3d up = bag_state(op).frame.up, mouth = mouth_of(op), over = mouth + m_above * up;
     Arms::Arm& arm = op.arm(m_hand);
     op.want(arm.tip);
@@ -105,7 +105,7 @@ class PutInBag final : public Skill {
     return Progress::working;
   }
   /// Only as far as it comes free: jaws that open wide in a fold take that along. A stone falls out of open ones.
-  void loosen(Operator& op) {
+  void loosen(Surgeon& op) {
     constexpr double kMore = 0.08;  // of the handle
     const bool wide = op.arms().grip(m_hand, 0, 0.5);
     const bool falls = m_body.is(BodyKind::rigid);
@@ -122,19 +122,19 @@ class PutInBag final : public Skill {
 /// Closed jaws push what rises over the mouth down into it, again and again.
 class PushIntoBag final : public Skill {
  public:
-  PushIntoBag(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_body(given("body").body()),
-        m_deep(given.number("deep_mm", 0.025)),
-        m_least(given.number("least_share", 1)) {}
+  PushIntoBag(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_body(args("body").body()),
+        m_deep(args.number("deep_mm", 0.025)),
+        m_least(args.number("least_share", 1)) {}
 
  private:
   enum Phase { kShut, kOver, kDown, kUp };
   static constexpr double kClear = 0.012;  ///< above what rises highest [m]
   static constexpr int kMostPushes = 8;
 
-  void start(Operator&, int) override { m_pushes = 0; }
-  Progress work(Operator& op) override {
+  void start(Surgeon&, int) override { m_pushes = 0; }
+  Progress work(Surgeon& op) override {
     const Vec3d up = bag_state(op).frame.up, mouth = mouth_of(op);
     op.want(op.arm(m_hand).tip);
     op.want(mouth);
@@ -154,7 +154,7 @@ class PushIntoBag final : public Skill {
     return Progress::working;
   }
   /// Over the middle of what rises over the mouth.
-  static Vec3d aim(const Operator& op) {
+  static Vec3d aim(const Surgeon& op) {
     const BagModel& bag = bag_model(op);
     const BagState& state = bag_state(op);
     const Vec3d up = state.frame.up, mouth = mouth_of(op);
@@ -184,10 +184,10 @@ class PushIntoBag final : public Skill {
 /// The hoop back into its sleeve.
 class CloseBag final : public Skill {
  public:
-  CloseBag(const sim::Model&, const Given& given) : m_hand(given.hand()) {}
+  CloseBag(const sim::Model&, const SkillArgs& args) : m_hand(args.hand()) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     op.want(op.arm(m_hand).tip);
     op.want(mouth_of(op));
     if (op.arms().grip(m_hand, 1, 2.0) && bag_state(op).shut()) return Progress::done;
@@ -199,10 +199,10 @@ class CloseBag final : public Skill {
 /// Back along the sleeve until its neck is in the trocar.
 class TakeOutBag final : public Skill {
  public:
-  TakeOutBag(const sim::Model&, const Given& given) : m_hand(given.hand()) {}
+  TakeOutBag(const sim::Model&, const SkillArgs& args) : m_hand(args.hand()) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     constexpr double kInPort = 0.010;  // [m]
     op.want(op.arm(m_hand).tip);
     op.arms().move_to_depth(m_hand, kInPort, pace::kCareful);  // what is in it comes along

@@ -7,11 +7,11 @@ namespace {
 /// From under the trocar to where it can work, the camera on its tip.
 class BringIn final : public Skill {
  public:
-  BringIn(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()), m_towards(model, given), m_watched(!given.says("watch", "no")) {}
+  BringIn(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()), m_towards(model, args), m_watched(!args.equals("watch", "no")) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     const Arms::Arm& arm = op.arm(m_hand);
     const Vec3d inwards = normalised(m_towards.point(op, m_hand) - arm.port);
     if (m_watched) {

@@ -13,26 +13,26 @@ namespace {
 /// has to see, or has not all of it between the legs, draws back and tries elsewhere.
 class ClipAt final : public Skill {
  public:
-  ClipAt(const sim::Model& model, const Given& given) : m_hand(given.hand()), m_strand(given("of").index) {
-    m_within = given("within_mm");
-    m_apart = given("apart_mm");
-    m_fixed = given("at_mm").given ? given("at_mm").number() : -1;
-    m_angle_low = given("angle_deg").given ? given("angle_deg").low : 0;
-    m_angle_high = given("angle_deg").given ? given("angle_deg").high : 15 * portable::pi / 180;
+  ClipAt(const sim::Model& model, const SkillArgs& args) : m_hand(args.hand()), m_strand(args("of").index) {
+    m_within = args("within_mm");
+    m_apart = args("apart_mm");
+    m_fixed = args("at_mm").given ? args("at_mm").number() : -1;
+    m_angle_low = args("angle_deg").given ? args("angle_deg").low : 0;
+    m_angle_high = args("angle_deg").given ? args("angle_deg").high : 15 * portable::pi / 180;
     if (m_angle_low == m_angle_high) m_angle_low = 0;
-    m_cover = given.number("cover", 0.98);
-    m_closing = given.number("closing_s", 2.6);
-    m_inside = given("inside_mm").given ? given("inside_mm").number() : -1;
-    m_seen = given("seen").word.empty() ? "both" : given("seen").word;
-    m_away = given.says("look", "away");
-    m_closely = given.says("watch", "closely");
+    m_cover = args.number("cover", 0.98);
+    m_closing = args.number("closing_s", 2.6);
+    m_inside = args("inside_mm").given ? args("inside_mm").number() : -1;
+    m_seen = args("seen").word.empty() ? "both" : args("seen").word;
+    m_away = args.equals("look", "away");
+    m_closely = args.equals("watch", "closely");
     m_length = model.strand_bodies[size_t(m_strand)].length();
   }
 
  private:
   enum Phase { kReach, kEnter, kInspect, kClose, kOpen, kLeave };
 
-  void start(Operator& op, int tries) override {
+  void start(Surgeon& op, int tries) override {
     m_place = place(op, tries);
     m_spare = 0.001;
     m_unseen = 0;
@@ -40,7 +40,7 @@ class ClipAt final : public Skill {
     m_clips_before = op.state().clip_count;
   }
 
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     struct Row {
       double patience;  ///< [s]
       Phase otherwise;
@@ -76,12 +76,12 @@ class ClipAt final : public Skill {
     }
   }
 
-  Vec3d at(Operator& op) const { return op.point(m_strand, m_place); }
-  bool aim(Operator& op, double back, double speed) const {
+  Vec3d at(Surgeon& op) const { return op.point(m_strand, m_place); }
+  bool aim(Surgeon& op, double back, double speed) const {
     return op.aim_at(m_hand, m_strand, m_place, inside(op), back, speed);
   }
 
-  Progress reach(Operator& op) {
+  Progress reach(Surgeon& op) {
     if (!op.still_presented(m_strand)) return fail("the tissue is no longer held");
     op.keep_postures(m_strand, m_place);
     op.make_room(m_hand);
@@ -91,7 +91,7 @@ class ClipAt final : public Skill {
     return Progress::working;
   }
 
-  Progress enter(Operator& op) {
+  Progress enter(Surgeon& op) {
     if (slipped(op)) return Progress::working;
     op.keep_postures(m_strand, m_place);
     op.want(at(op));
@@ -100,7 +100,7 @@ class ClipAt final : public Skill {
     return Progress::working;
   }
 
-  Progress inspect(Operator& op) {
+  Progress inspect(Surgeon& op) {
     if (slipped(op)) return Progress::working;
     op.keep_postures(m_strand, m_place);
     look(op);
@@ -120,7 +120,7 @@ class ClipAt final : public Skill {
     return Progress::working;
   }
 
-  Progress close(Operator& op) {
+  Progress close(Surgeon& op) {
     const double too_late = m_closely ? 0.95 : 0.9;  // of the handle: the clip is being pressed flat
     const double unsure = m_closely ? 0.04 : 0.1;    // [s]
     look(op);
@@ -139,25 +139,25 @@ class ClipAt final : public Skill {
     return Progress::working;
   }
 
-  Progress open(Operator& op) {
+  Progress open(Surgeon& op) {
     op.want(at(op));
     if (op.arms().grip(m_hand, 0, 0.5)) go(kLeave);
     return Progress::working;
   }
 
-  Progress leave(Operator& op) {
+  Progress leave(Surgeon& op) {
     op.want(at(op));
     op.want(op.arm(m_hand).tip);
     op.arms().grip(m_hand, 0, 0.5);
     return aim(op, reach::kBefore, pace::kCareful) ? leave_taken(op) : Progress::working;
   }
 
-  Progress leave_taken(Operator& op) {
+  Progress leave_taken(Surgeon& op) {
     if (op.state().clip_count != m_clips_before) return Progress::done;
     return fail(m_lost ? m_lost : "no clip was set");
   }
 
-  bool slipped(Operator& op) {
+  bool slipped(Surgeon& op) {
     if (op.still_presented(m_strand)) return false;
     m_lost = "the tissue is no longer held";
     go(kLeave);
@@ -167,10 +167,10 @@ class ClipAt final : public Skill {
   /// Where the clip belongs: given, or in the middle of its range; a little nearer or farther after each failure, where
   /// the lower leg may be seen behind the strand. With a sound clip on the strand already, as far from it as they
   /// should be apart.
-  double place(Operator& op, int tries) const {
+  double place(Surgeon& op, int tries) const {
     return m_fixed >= 0 ? m_fixed : clear_of_clips(op, wanted_place(op, tries));
   }
-  double wanted_place(Operator& op, int tries) const {
+  double wanted_place(Surgeon& op, int tries) const {
     constexpr double kElsewhere[] = {0, 0.7, -0.7};  // of what the ranges leave
     const double shift = 0.5 * kElsewhere[tries % 3];
     if (m_within.given && m_apart.given)
@@ -184,7 +184,7 @@ class ClipAt final : public Skill {
   }
 
   /// The nearest place where the legs cross none that are there, good or bad.
-  double clear_of_clips(Operator& op, double wanted) const {
+  double clear_of_clips(Surgeon& op, double wanted) const {
     constexpr double kClear = 0.0024, kStride = 0.0002, kFarthest = 0.005;  // [m]
     const auto is_clear = [&](double s) {
       const auto crosses = [&](const interactions::Clip& c) {
@@ -199,7 +199,7 @@ class ClipAt final : public Skill {
     return wanted;
   }
 
-  double sound_clip(Operator& op) const {
+  double sound_clip(Surgeon& op) const {
     for (int i = 0; i < op.state().clip_count; ++i) {
       const interactions::Clip& c = op.state().clips[size_t(i)];
       if (c.strand == m_strand && c.tips_visible == 2 && c.cover >= m_cover && c.theta <= m_angle_high) return c.s;
@@ -207,13 +207,13 @@ class ClipAt final : public Skill {
     return -1;
   }
 
-  double inside(Operator& op) const {
+  double inside(Surgeon& op) const {
     // The strand next to the clip's bend, so that both legs' tips come into view beyond it; nearer while they do not.
     const interactions::ToolModel& t = op.tool(m_hand);
     return m_inside >= 0 ? m_inside : t.jaw_length - t.clip_length + op.radius(m_strand, m_place) + m_spare;
   }
 
-  void look(Operator& op) const {
+  void look(Surgeon& op) const {
     if (m_away) {  // where the eye sees nothing of it
       const Vec3d begin = op.point(m_strand, 0);
       return op.want({-3 * begin.x, begin.y, begin.z});
@@ -229,14 +229,14 @@ class ClipAt final : public Skill {
     op.want(m_unseen > kPatience ? there - Vec3d{there.x > 0 ? kAside : -kAside, 0, 0} : there);
   }
 
-  bool sees_enough(Operator& op) const {
+  bool sees_enough(Surgeon& op) const {
     if (m_seen == "whatever") return true;
     if (m_seen == "not_both") return !op.sees_jaws(m_hand);
     return m_seen == "one" ? op.sees_tip(m_hand) : op.sees_jaws(m_hand);
   }
 
   /// Null where the whole strand lies between the legs, across, in view; else what is amiss.
-  const char* misfit(Operator& op) const {
+  const char* misfit(Surgeon& op) const {
     constexpr double kSurer = 0.035, kMore = 0.01;  // [rad] and share that are kept from the limits
     const interactions::ToolModel& t = op.tool(m_hand);
     const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), size_t(m_hand));
@@ -266,10 +266,10 @@ class ClipAt final : public Skill {
   const char* m_bad = nullptr;   ///< what is amiss with how the strand lies
 };
 
-std::string clip_at_lacks(const sim::Model& model, const Given& given) {
-  if (std::string lack = lacks_tool(model, given.hand(), &interactions::Abilities::set_clips); !lack.empty())
+std::string clip_at_lacks(const sim::Model& model, const SkillArgs& args) {
+  if (std::string lack = lacks_tool(model, args.hand(), &interactions::Abilities::set_clips); !lack.empty())
     return lack;
-  return Place::lacks(model, given);
+  return Place::lacks(model, args);
 }
 
 }  // namespace

@@ -13,26 +13,26 @@ namespace {
 /// next time.
 class ClipVessel final : public Skill {
  public:
-  ClipVessel(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_upstream(!given.says("side", "beyond")),
-        m_beside(given.number("beside_mm", 0.006)),
-        m_cover(given.number("cover", 0.98)),
-        m_closing(given.number("closing_s", 2.6)),
-        m_inside(given.number("inside_mm", -1)),
-        m_careless(given.says("seen", "whatever")),
-        m_away(given.says("look", "away")) {}
+  ClipVessel(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_upstream(!args.equals("side", "beyond")),
+        m_beside(args.number("beside_mm", 0.006)),
+        m_cover(args.number("cover", 0.98)),
+        m_closing(args.number("closing_s", 2.6)),
+        m_inside(args.number("inside_mm", -1)),
+        m_careless(args.equals("seen", "whatever")),
+        m_away(args.equals("look", "away")) {}
 
  private:
   enum Phase { kReach, kEnter, kInspect, kClose, kOpen, kLeave };
-  void start(Operator& op, int tries) override {
+  void start(Surgeon& op, int tries) override {
     m_tries = tries;
     m_lost = "no clip encloses it";
     if (tries == 0) m_aside = {0, 0, 0};
     m_clips_before = op.state().clip_count;
   }
 
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     switch (m_phase) {
       case kReach:
         return reach(op);
@@ -51,7 +51,7 @@ class ClipVessel final : public Skill {
     }
   }
 
-  Progress reach(Operator& op) {
+  Progress reach(Surgeon& op) {
     m_carrier = carrier(op);
     op.want(bleeding(op));
     op.want(spot(op, place(op)).place);
@@ -63,7 +63,7 @@ class ClipVessel final : public Skill {
     return Progress::working;
   }
 
-  Progress enter(Operator& op) {
+  Progress enter(Surgeon& op) {
     op.want(bleeding(op));
     op.want(op.arm(m_hand).tip);
     if (m_careless && m_in_phase > 2) return go(kInspect), Progress::working;
@@ -76,7 +76,7 @@ class ClipVessel final : public Skill {
     return Progress::working;
   }
 
-  Progress inspect(Operator& op) {
+  Progress inspect(Surgeon& op) {
     look(op);
     if (!m_away) op.want(op.arm(m_hand).tip);
     m_seen_from = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
@@ -91,7 +91,7 @@ class ClipVessel final : public Skill {
     return Progress::working;
   }
 
-  Progress close(Operator& op) {
+  Progress close(Surgeon& op) {
     look(op);
     op.from(m_seen_from + (m_unseen > 0.5 ? 0.008 * double(int(m_unseen / 1.5) % 4) : 0));
     if (!m_away) op.want(op.arm(m_hand).tip);
@@ -106,7 +106,7 @@ class ClipVessel final : public Skill {
     return Progress::working;
   }
 
-  Progress leave(Operator& op) {
+  Progress leave(Surgeon& op) {
     Arms::Arm& arm = op.arm(m_hand);
     op.want(bleeding(op));
     op.want(arm.tip);
@@ -121,46 +121,46 @@ class ClipVessel final : public Skill {
     go(kLeave);
   }
 
-  static const sim::Bleeder& bleeder(Operator& op) { return op.model().vessels.bleeder; }
-  static const interactions::VesselPath& path(Operator& op) {
+  static const sim::Bleeder& bleeder(Surgeon& op) { return op.model().vessels.bleeder; }
+  static const interactions::VesselPath& path(Surgeon& op) {
     return op.model().vessels.list[size_t(bleeder(op).vessel)].path;
   }
-  static interactions::VesselSpot spot(Operator& op, double s) { return op.vessel_spot(bleeder(op).vessel, s); }
-  static Vec3d bleeding(Operator& op) { return spot(op, bleeder(op).s).place; }
+  static interactions::VesselSpot spot(Surgeon& op, double s) { return op.vessel_spot(bleeder(op).vessel, s); }
+  static Vec3d bleeding(Surgeon& op) { return spot(op, bleeder(op).s).place; }
 
   /// Arteries are written from the heart on. A little nearer or farther off after each failure.
-  double place(Operator& op) const {
+  double place(Surgeon& op) const {
     constexpr double kElsewhere[] = {0, -0.001, 0.001};  // [m]
     const double off = (m_beside + kElsewhere[m_tries % 3]) / path(op).length;
     return std::clamp(bleeder(op).s + (m_upstream ? -off : off), 0.0, 1.0);
   }
 
-  bool has_clip(Operator& op) const { return bleeder_clipped(op.model(), op.state(), m_upstream, m_cover); }
+  bool has_clip(Surgeon& op) const { return bleeder_clipped(op.model(), op.state(), m_upstream, m_cover); }
 
-  double inside(Operator& op) const {
+  double inside(Surgeon& op) const {
     constexpr double kSpare = 0.0008;  // [m] between the carrier and the clip's bend
     const interactions::ToolModel& t = op.tool(m_hand);
     return m_inside >= 0 ? m_inside : t.jaw_length - t.clip_length + m_carrier.radius + kSpare;
   }
 
-  VesselCarrier carrier(Operator& op) const { return carrier_at(op, bleeder(op).vessel, place(op)); }
+  VesselCarrier carrier(Surgeon& op) const { return carrier_at(op, bleeder(op).vessel, place(op)); }
 
   /// To where the carrier lay before the legs touched it: who follows tissue that they push drags it along.
-  bool aim(Operator& op, double back, double speed) {
+  bool aim(Surgeon& op, double back, double speed) {
     return op.aim(m_hand, m_carrier.place + m_aside, m_carrier.along, inside(op), back, speed);
   }
 
-  Vec3d in_jaws(Operator& op, const interactions::ToolShape& shape) const {
+  Vec3d in_jaws(Surgeon& op, const interactions::ToolShape& shape) const {
     return interactions::to_jaw(shape, carrier(op).place);
   }
-  interactions::ToolShape shape(Operator& op) const { return sim::shape_of(op.model(), op.state(), size_t(m_hand)); }
-  bool between_legs(Operator& op) const {
+  interactions::ToolShape shape(Surgeon& op) const { return sim::shape_of(op.model(), op.state(), size_t(m_hand)); }
+  bool between_legs(Surgeon& op) const {
     constexpr double kShort = 0.002;  // [m]
     const interactions::ToolShape now = shape(op);
     const Vec3d local = in_jaws(op, now);
     return std::fabs(local.x) < now.half_gap && local.z < inside(op) + kShort;
   }
-  void learn_from_a_miss(Operator& op) {
+  void learn_from_a_miss(Surgeon& op) {
     constexpr double kMost = 0.0008, kFarthest = 0.003;  // [m]
     const interactions::ToolShape now = shape(op);
     const double aside = in_jaws(op, now).x;
@@ -168,7 +168,7 @@ class ClipVessel final : public Skill {
     if (length(m_aside) > kFarthest) m_aside = {0, 0, 0};
   }
 
-  void look(Operator& op) const {
+  void look(Surgeon& op) const {
     // If the legs' tips stay hidden: from the midline, then from the side; one is seen past the artery's carrier.
     constexpr double kPatience = 1, kAside = 0.03;  // [s] [m]
     constexpr double kAsides[] = {0, kAside, -kAside, 1.6 * kAside, -1.6 * kAside};
@@ -190,9 +190,9 @@ class ClipVessel final : public Skill {
   const char* m_lost = "";
 };
 
-std::string clip_vessel_lacks(const sim::Model& model, const Given& given) {
+std::string clip_vessel_lacks(const sim::Model& model, const SkillArgs& args) {
   if (model.vessels.bleeder.vessel < 0) return "the scene has no bleeder";
-  return lacks_tool(model, given.hand(), &interactions::Abilities::set_clips);
+  return lacks_tool(model, args.hand(), &interactions::Abilities::set_clips);
 }
 
 }  // namespace

@@ -7,11 +7,11 @@ namespace {
 /// A handle that closes wherever the jaws are.
 class Close final : public Skill {
  public:
-  Close(const sim::Model&, const Given& given)
-      : m_hand(given.hand()), m_to(given.number("to", 1)), m_time(given.number("in_s", 1)) {}
+  Close(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()), m_to(args.number("to", 1)), m_time(args.number("in_s", 1)) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     op.want(op.arm(m_hand).tip);
     return op.arms().grip(m_hand, m_to, m_time) ? Progress::done : Progress::working;
   }

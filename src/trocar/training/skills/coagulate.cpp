@@ -8,13 +8,13 @@ namespace {
 /// An electrode to a place until it touches, the blue pedal for a time, and back.
 class Coagulate final : public Skill {
  public:
-  Coagulate(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()), m_place(model, given), m_time(given.number("for_s", 1)) {}
+  Coagulate(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()), m_place(model, args), m_time(args.number("for_s", 1)) {}
 
  private:
   enum Phase { kReach, kPress, kLeave };
 
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     constexpr double kFar = 8, kTouch = 0.5;  // [s] farther away is nothing here; a touch without current
     constexpr double kDeeper = 0.002;         // [m] tissue that is pushed gives way
     Arms::Arm& arm = op.arm(m_hand);
@@ -38,11 +38,11 @@ class Coagulate final : public Skill {
   double m_time;
 };
 
-std::string lacks_current(const sim::Model& model, const Given& given) {
+std::string lacks_current(const sim::Model& model, const SkillArgs& args) {
   if (!model.energy.there) return "the scene has no current";
-  if (std::string lack = lacks_tool(model, given.hand(), &interactions::Abilities::coagulate); !lack.empty())
+  if (std::string lack = lacks_tool(model, args.hand(), &interactions::Abilities::coagulate); !lack.empty())
     return lack;
-  return Place::lacks(model, given);
+  return Place::lacks(model, args);
 }
 }  // namespace
 

@@ -14,19 +14,19 @@ namespace {
 /// deeper.
 class CoagulateVessel final : public Skill {
  public:
-  CoagulateVessel(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()),
-        m_vessel(given("vessel").given ? given("vessel").index : model.vessels.bleeder.vessel),
-        m_s(given("vessel").given ? given.number("share", 0.5) : model.vessels.bleeder.s),
-        m_longest(given.number("for_s", 4)),
-        m_share(given.number("inside_share", 0.75)),
-        m_closed(given.number("to", 0.95)) {}
+  CoagulateVessel(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_vessel(args("vessel").given ? args("vessel").index : model.vessels.bleeder.vessel),
+        m_s(args("vessel").given ? args.number("share", 0.5) : model.vessels.bleeder.s),
+        m_longest(args.number("for_s", 4)),
+        m_share(args.number("inside_share", 0.75)),
+        m_closed(args.number("to", 0.95)) {}
 
  private:
   static constexpr double kMostShift = 0.010;  // [m]
   enum Phase { kReach, kEnter, kPinch, kPress, kOpen, kLeave };
 
-  void start(Operator&, int tries) override {
+  void start(Surgeon&, int tries) override {
     if (tries == 0) m_shift = m_missed = 0;
     m_lost = "the vessel is not sealed";
     m_sealed_for = 0;
@@ -34,7 +34,7 @@ class CoagulateVessel final : public Skill {
     m_again = false;
   }
 
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     op.want(op.arm(m_hand).tip);
     op.want(place(op));
     switch (m_phase) {
@@ -55,14 +55,14 @@ class CoagulateVessel final : public Skill {
     }
   }
 
-  Progress reach(Operator& op) {
+  Progress reach(Surgeon& op) {
     m_carrier = carrier_at(op, m_vessel, m_s);
     if (op.arms().grip(m_hand, 0, 0.5) && aim(op, reach::kBefore, pace::kTravel)) go(kEnter);
     if (m_in_phase > 15) give_up("the instrument did not reach the target");
     return Progress::working;
   }
 
-  Progress pinch(Operator& op) {
+  Progress pinch(Surgeon& op) {
     constexpr double kFelt = 1.2;  // [s] until the jaws have closed on what they hold
     if (!op.arms().grip(m_hand, m_closed, 0.8) || m_in_phase < kFelt) return Progress::working;
     if (op.tool_state(m_hand).holds == 0) {
@@ -77,7 +77,7 @@ class CoagulateVessel final : public Skill {
   }
 
   /// How far along what is held the place lies from the jaws' middle.
-  double from_jaws(Operator& op) const {
+  double from_jaws(Surgeon& op) const {
     constexpr double kAcross = 0.3;  // less, and the jaws lie along it
     const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), size_t(m_hand));
     const VesselCarrier now = carrier_at(op, m_vessel, m_s);
@@ -86,7 +86,7 @@ class CoagulateVessel final : public Skill {
     return interactions::to_jaw(shape, now.place).y / across;
   }
 
-  Progress press(Operator& op) {
+  Progress press(Surgeon& op) {
     constexpr double kSpare = 0.2;  // [s] after it has sealed
     m_sealed_for += sealed(op) ? sim::kTick : 0;
     op.arm(m_hand).coagulating = m_in_phase < m_longest && m_sealed_for < kSpare;
@@ -94,7 +94,7 @@ class CoagulateVessel final : public Skill {
     return Progress::working;
   }
 
-  Progress leave(Operator& op) {
+  Progress leave(Surgeon& op) {
     constexpr double kAway = 0.025;  // [m]
     Arms::Arm& arm = op.arm(m_hand);
     const bool away = op.arms().move(m_hand, m_carrier.place + kAway * normalised(arm.port - arm.tip), pace::kCareful);
@@ -115,14 +115,14 @@ class CoagulateVessel final : public Skill {
   }
 
   /// To where the carrier lay before the jaws touched it, and as much farther along it as they dragged it last time.
-  bool aim(Operator& op, double back, double speed) {
+  bool aim(Surgeon& op, double back, double speed) {
     constexpr double kDeeper = 0.0015;  // [m] each time that they took nothing
     const double inside = m_share * op.tool(m_hand).jaw_length - kDeeper * double(m_missed % 4);
     return op.aim(m_hand, m_carrier.place + m_shift * m_carrier.along, m_carrier.along, inside, back, speed);
   }
 
-  Vec3d place(Operator& op) const { return op.vessel_spot(m_vessel, m_s).place; }
-  bool sealed(const Operator& op) const { return vessel_sealed(op.state(), m_vessel, m_s); }
+  Vec3d place(Surgeon& op) const { return op.vessel_spot(m_vessel, m_s).place; }
+  bool sealed(const Surgeon& op) const { return vessel_sealed(op.state(), m_vessel, m_s); }
 
   int m_hand, m_vessel;
   double m_s;  ///< 0 to 1 along it
@@ -136,10 +136,10 @@ class CoagulateVessel final : public Skill {
   const char* m_lost = "";
 };
 
-std::string coagulate_vessel_lacks(const sim::Model& model, const Given& given) {
+std::string coagulate_vessel_lacks(const sim::Model& model, const SkillArgs& args) {
   if (!model.energy.there) return "the scene has no current";
-  if (!given("vessel").given && model.vessels.bleeder.vessel < 0) return "the scene has no bleeder";
-  return lacks_tool(model, given.hand(), &interactions::Abilities::bipolar);
+  if (!args("vessel").given && model.vessels.bleeder.vessel < 0) return "the scene has no bleeder";
+  return lacks_tool(model, args.hand(), &interactions::Abilities::bipolar);
 }
 
 }  // namespace

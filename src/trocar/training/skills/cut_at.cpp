@@ -16,15 +16,15 @@ namespace {
 /// loops of thread, unless a place is given.
 class CutAt final : public Skill {
  public:
-  CutAt(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()),
-        m_strand(given("of").index),
-        m_apart(given("apart_mm")),
-        m_fixed(given.number("at_mm", -1)),
-        m_beyond(given.number("beyond_clip_mm", -1)),
-        m_share(given.number("inside_share", 0.82)),  // near the blades' ends: spare what lies behind
-        m_closing(given.number("closing_s", 0.6)),
-        m_spares(!given.says("spare", "no")),
+  CutAt(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_strand(args("of").index),
+        m_apart(args("apart_mm")),
+        m_fixed(args.number("at_mm", -1)),
+        m_beyond(args.number("beyond_clip_mm", -1)),
+        m_share(args.number("inside_share", 0.82)),  // near the blades' ends: spare what lies behind
+        m_closing(args.number("closing_s", 0.6)),
+        m_spares(!args.equals("spare", "no")),
         m_length(model.strand_bodies[size_t(m_strand)].length()) {}
 
  private:
@@ -40,14 +40,14 @@ class CutAt final : public Skill {
                                     {-0.4, 0.08}, {0.8, 0.04}, {-0.8, 0.04}, {0.8, 0.1},  {-0.8, 0.1},
                                     {0, 0.14},    {0.4, 0.14}, {-0.4, 0.14}, {1.1, 0.06}, {-1.1, 0.06}};
 
-  void start(Operator& op, int) override {
+  void start(Surgeon& op, int) override {
     m_cuts_before = op.state().cut_count;
     m_lost = nullptr;
     m_pose = 0;
     m_tried = 0;
   }
 
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     static constexpr double kPatience[] = {15, 8, 4, 4, 6};  // [s]
     if (m_in_phase > kPatience[m_phase]) {
       if (m_phase == kLeave) return ended(op);
@@ -70,34 +70,34 @@ class CutAt final : public Skill {
     }
   }
 
-  Vec3d at(Operator& op) const { return op.point(m_strand, m_place); }
-  double inside(Operator& op) const {
+  Vec3d at(Surgeon& op) const { return op.point(m_strand, m_place); }
+  double inside(Surgeon& op) const {
     return std::min(1.0, m_share + kPoses[m_pose].nearer) * op.tool(m_hand).jaw_length;
   }
   /// What the blades stand across.
-  Vec3d along(Operator& op) const {
+  Vec3d along(Surgeon& op) const {
     const Vec3d out = normalised(at(op) - op.arm(m_hand).port);
     return rotate(quat_from_rotation_vector(kPoses[m_pose].turned * out), op.tangent(m_strand, m_place));
   }
-  bool lead(Operator& op, double speed) const { return op.aim(m_hand, at(op), along(op), inside(op), 0, speed); }
+  bool lead(Surgeon& op, double speed) const { return op.aim(m_hand, at(op), along(op), inside(op), 0, speed); }
 
   /// What closing blades squeeze slides towards their tips, and the hand goes after it: so much is left between the
   /// tips and what lies behind, and, where another pose is chosen, between the strand and the tips.
   static constexpr double kRoom = 0.002, kSlides = 0.0015;  // [m]
-  bool organ_between(const Operator& op, const interactions::ToolShape& shape, double room) const {
+  bool organ_between(const Surgeon& op, const interactions::ToolShape& shape, double room) const {
     return organ_between_blades(op.model(), op.state(), op.tool(m_hand), shape, room);
   }
-  bool all_between(const Operator& op, const interactions::ToolShape& shape) const {
+  bool all_between(const Surgeon& op, const interactions::ToolShape& shape) const {
     return strand_between_blades(op.model(), op.state(), op.tool(m_hand), shape, m_strand) >= interactions::kThrough;
   }
   /// So led they would part all of it, and no organ.
-  bool looks_free(Operator& op) const {
+  bool looks_free(Surgeon& op) const {
     const bool slides = inside(op) + op.radius(m_strand, m_place) + kSlides > op.tool(m_hand).jaw_length;
     const interactions::ToolShape shape = op.shape_at(m_hand, at(op), along(op), inside(op));
     return !(m_pose > 0 && slides) && all_between(op, shape) && !organ_between(op, shape, kRoom);
   }
   /// The next pose that looks free from here, of those that were not tried; false: there is none.
-  bool look_beside(Operator& op) {
+  bool look_beside(Surgeon& op) {
     const std::size_t now = m_pose;
     for (m_pose = 0; m_pose < std::size(kPoses); ++m_pose)
       if (!(m_tried >> m_pose & 1) && looks_free(op)) return true;
@@ -105,14 +105,14 @@ class CutAt final : public Skill {
     return false;
   }
   /// Tries it in another pose. False: there is none.
-  bool tries_beside(Operator& op) {
+  bool tries_beside(Surgeon& op) {
     m_tried |= 1u << m_pose;
     if (!look_beside(op)) return false;
     go(kEnter);
     return true;
   }
 
-  Progress reach(Operator& op) {
+  Progress reach(Surgeon& op) {
     if (!op.still_presented(m_strand)) return fail("the tissue is no longer held");
     m_place = place(op);
     op.keep_postures(m_strand, m_place);
@@ -126,7 +126,7 @@ class CutAt final : public Skill {
     return Progress::working;
   }
 
-  Progress enter(Operator& op) {
+  Progress enter(Surgeon& op) {
     op.make_room(m_hand);
     op.want(at(op));
     op.want(op.arm(m_hand).tip);
@@ -139,7 +139,7 @@ class CutAt final : public Skill {
     return Progress::working;
   }
 
-  void close_or_look_beside(Operator& op) {
+  void close_or_look_beside(Surgeon& op) {
     const interactions::ToolShape now = sim::shape_of(op.model(), op.state(), size_t(m_hand));
     m_whole = all_between(op, now);
     if (!m_spares || !organ_between(op, now, kRoom)) return go(kClose);
@@ -151,7 +151,7 @@ class CutAt final : public Skill {
 
   /// The blades reach over all of it, there. What gives way before them is cut where it lies: they push a thick tube on
   /// from where they are as wide as it is, and would never catch up with it.
-  bool reached_over(Operator& op) const {
+  bool reached_over(Surgeon& op) const {
     constexpr double kBeyond = 0.0008, kBeside = 0.0015;  // [m] of the tips; along the strand
     const interactions::ToolModel& tool = op.tool(m_hand);
     const Vec3d lies = interactions::to_jaw(sim::shape_of(op.model(), op.state(), size_t(m_hand)), at(op));
@@ -159,7 +159,7 @@ class CutAt final : public Skill {
     return lies.z > radius && lies.z + radius + kBeyond < tool.jaw_length && std::fabs(lies.y) < kBeside;
   }
 
-  Progress close(Operator& op) {
+  Progress close(Surgeon& op) {
     constexpr double kMeet = 0.25;  // aperture at which it is too late to open again
     op.want(at(op));
     lead(op, pace::kTrack);
@@ -174,7 +174,7 @@ class CutAt final : public Skill {
     return Progress::working;
   }
 
-  Progress leave(Operator& op) {
+  Progress leave(Surgeon& op) {
     Arms::Arm& arm = op.arm(m_hand);
     op.want(at(op));
     op.want(arm.tip);
@@ -185,13 +185,13 @@ class CutAt final : public Skill {
     return Progress::working;
   }
 
-  Progress ended(Operator& op) {
+  Progress ended(Surgeon& op) {
     if (op.state().cut_count != m_cuts_before) return Progress::done;
     return fail(m_lost ? m_lost : "nothing was cut");
   }
 
   /// Where clips and loops sit on it, one after the other from its beginning [m].
-  std::vector<double> closures(Operator& op) const {
+  std::vector<double> closures(Surgeon& op) const {
     std::vector<double> at;
     for (int i = 0; i < op.state().clip_count; ++i)
       if (op.state().clips[size_t(i)].strand == m_strand) at.push_back(op.state().clips[size_t(i)].s);
@@ -201,7 +201,7 @@ class CutAt final : public Skill {
     return at;
   }
 
-  double place(Operator& op) const {
+  double place(Surgeon& op) const {
     if (m_fixed >= 0 && m_beyond < 0) return m_fixed;
     const std::vector<double> at = closures(op);
     if (m_beyond >= 0) return m_beyond + (at.empty() ? 0 : at.back());
@@ -224,9 +224,9 @@ class CutAt final : public Skill {
   const char* m_lost = nullptr;
 };
 
-std::string cut_at_lacks(const sim::Model& model, const Given& given) {
-  if (std::string lack = lacks_tool(model, given.hand(), &interactions::Abilities::cut); !lack.empty()) return lack;
-  return Place::lacks(model, given);
+std::string cut_at_lacks(const sim::Model& model, const SkillArgs& args) {
+  if (std::string lack = lacks_tool(model, args.hand(), &interactions::Abilities::cut); !lack.empty()) return lack;
+  return Place::lacks(model, args);
 }
 
 }  // namespace

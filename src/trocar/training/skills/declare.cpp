@@ -7,10 +7,10 @@ namespace {
 /// The key, held for as long as a finger does.
 class Declare final : public Skill {
  public:
-  Declare(const sim::Model&, const Given&) {}
+  Declare(const sim::Model&, const SkillArgs&) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     constexpr double kHeld = 0.2;  // [s]
     op.declare();
     return m_in_phase > kHeld ? Progress::done : Progress::working;

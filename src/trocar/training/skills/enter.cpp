@@ -7,11 +7,11 @@ namespace {
 /// From there until the tissue lies between the jaws.
 class Enter final : public Skill {
  public:
-  Enter(const sim::Model&, const Given& given) : m_hand(given.hand()) {}
+  Enter(const sim::Model&, const SkillArgs& args) : m_hand(args.hand()) {}
 
  private:
-  Progress work(Operator& op) override {
-    const Operator::Target& t = op.target(m_hand);
+  Progress work(Surgeon& op) override {
+    const Surgeon::Target& t = op.target(m_hand);
     if (t.strand < 0) return fail("the hand has no target: use approach first");
     op.want(op.point(t.strand, t.s));
     op.want(op.arm(m_hand).tip);

@@ -12,16 +12,16 @@ namespace {
 /// With the eye from a landmark inwards; if the eye is not enough, with an instrument's tip.
 class Follow final : public Skill {
  public:
-  Follow(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()),
-        m_strand(given("of").index),
-        m_from(model.target_index(model.strands[size_t(m_strand)].name + "." + given("from").word)),
-        m_following({given("to_mm").number(), given.number("speed_mm_s", 0.03), given.number("gap_mm", 0.009),
-                     given.number("pause_s", 1), given.number("touch_mm", 0.01)},
-                    model, m_strand, given("from").word) {}
+  Follow(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_strand(args("of").index),
+        m_from(model.target_index(model.strands[size_t(m_strand)].name + "." + args("from").word)),
+        m_following({args("to_mm").number(), args.number("speed_mm_s", 0.03), args.number("gap_mm", 0.009),
+                     args.number("pause_s", 1), args.number("touch_mm", 0.01)},
+                    model, m_strand, args("from").word) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     constexpr double kByHand = 9;  // [s] after which the instrument helps the eye
     std::array<Vec3d, sim::kMaxTools> tips{};
     for (int h = 0; h < op.arms().count(); ++h) tips[size_t(h)] = tip_of(op.model(), op.state(), size_t(h));
@@ -44,8 +44,8 @@ class Follow final : public Skill {
   Following m_following;
 };
 
-std::string follow_lacks(const sim::Model& model, const Given& given) {
-  return lacks_landmark(model, given("of").index, given("from").word);
+std::string follow_lacks(const sim::Model& model, const SkillArgs& args) {
+  return lacks_landmark(model, args("of").index, args("from").word);
 }
 
 }  // namespace

@@ -8,14 +8,14 @@ namespace {
 /// Closes until the jaws hold the strand.
 class Grasp final : public Skill {
  public:
-  Grasp(const sim::Model& model, const Given& given) : m_hand(given.hand()) {
-    m_beyond = given("of").given ? stretch_of(model, given("of").index, given("after").word, "").from : -1;
-    m_closed = given.number("to", 0.95);
+  Grasp(const sim::Model& model, const SkillArgs& args) : m_hand(args.hand()) {
+    m_beyond = args("of").given ? stretch_of(model, args("of").index, args("after").word, "").from : -1;
+    m_closed = args.number("to", 0.95);
   }
 
  private:
-  Progress work(Operator& op) override {
-    const Operator::Target& t = op.target(m_hand);
+  Progress work(Surgeon& op) override {
+    const Surgeon::Target& t = op.target(m_hand);
     if (t.strand < 0) return fail("the hand has no target: use approach first");
     op.want(op.point(t.strand, t.s));
     if (!op.arms().grip(m_hand, m_closed, 0.8) || m_in_phase < 1.2) return Progress::working;

@@ -7,10 +7,10 @@ namespace {
 /// Hands and camera stay where they are.
 class Wait final : public Skill {
  public:
-  Wait(const sim::Model&, const Given& given) : m_time(given.number("for_s", 1e9)) {}
+  Wait(const sim::Model&, const SkillArgs& args) : m_time(args.number("for_s", 1e9)) {}
 
  private:
-  Progress work(Operator&) override { return m_in_phase > m_time ? Progress::done : Progress::working; }
+  Progress work(Surgeon&) override { return m_in_phase > m_time ? Progress::done : Progress::working; }
   double m_time;
 };
 

@@ -10,11 +10,11 @@ namespace {
 /// A place from changing distances, for a time.
 class Inspect final : public Skill {
  public:
-  Inspect(const sim::Model& model, const Given& given)
-      : m_place(model, given), m_time(given.number("for_s", 2)), m_aside(given.number("aside_mm", 0)) {}
+  Inspect(const sim::Model& model, const SkillArgs& args)
+      : m_place(model, args), m_time(args.number("for_s", 2)), m_aside(args.number("aside_mm", 0)) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     const Vec3d at = m_place.point(op, -1);
     op.want(at);
     if (m_aside > 0) op.want(at - Vec3d{at.x > 0 ? m_aside : -m_aside, 0, 0});
@@ -28,20 +28,20 @@ class Inspect final : public Skill {
 /// Both ends that a cut has made, in view together.
 class InspectStumps final : public Skill {
  public:
-  InspectStumps(const sim::Model& model, const Given& given);
+  InspectStumps(const sim::Model& model, const SkillArgs& args);
 
  private:
-  Progress work(Operator& op) override;
+  Progress work(Surgeon& op) override;
   int m_strand, m_trace;
   double m_time;
 };
 
-InspectStumps::InspectStumps(const sim::Model& model, const Given& given)
-    : m_strand(given("of").index),
+InspectStumps::InspectStumps(const sim::Model& model, const SkillArgs& args)
+    : m_strand(args("of").index),
       m_trace(model.target_index(model.strands[size_t(m_strand)].name + ".trace")),
-      m_time(given.number("for_s", 2)) {}
+      m_time(args.number("for_s", 2)) {}
 
-Progress InspectStumps::work(Operator& op) {
+Progress InspectStumps::work(Surgeon& op) {
   constexpr double kBeside = 0.003, kSure = 0.2;  // [m] of the cut; [s] longer
   op.make_room(op.who_presents(m_strand));
   const int cut = op.cut_element(m_strand);

@@ -10,13 +10,13 @@ namespace {
 /// comes free: wide open inside a fold of it they would take that along.
 class LetGo final : public Skill {
  public:
-  LetGo(const sim::Model&, const Given& given) : m_hand(given.hand()), m_back(given.number("back_mm", 0)) {}
+  LetGo(const sim::Model&, const SkillArgs& args) : m_hand(args.hand()), m_back(args.number("back_mm", 0)) {}
 
  private:
   enum Phase { kLoosen, kBack, kOpen };
 
-  void start(Operator& op, int) override { m_depth = op.tool_state(m_hand).depth - m_back; }
-  Progress work(Operator& op) override {
+  void start(Surgeon& op, int) override { m_depth = op.tool_state(m_hand).depth - m_back; }
+  Progress work(Surgeon& op) override {
     constexpr double kLoose = 0.7, kSlow = 2;  // of the handle [s] all the way
     op.posture(m_hand).end();
     op.want(op.arm(m_hand).tip);

@@ -9,25 +9,25 @@ namespace {
 /// stays so while other skills work there.
 class Lift final : public Skill {
  public:
-  Lift(const sim::Model& model, const Given& given) : m_hand(given.hand()), m_at(given.number("at_mm", 0)) {
-    m_aim.strand = given("of").index;
-    m_aim.beyond = stretch_of(model, m_aim.strand, given("after").word, "").from;
-    m_aim.across = given("across").index;
-    m_aim.pull_low = given("pull_N").low;
-    m_aim.pull_high = given("pull_N").high;
-    m_aim.slant = given.number("slant", 0);
-    m_inner = given.number("outwards_from_mm", m_at);
-    m_straightness = given.number("straightness", 0);
-    m_time = given.number("for_s", 0.2);
+  Lift(const sim::Model& model, const SkillArgs& args) : m_hand(args.hand()), m_at(args.number("at_mm", 0)) {
+    m_aim.strand = args("of").index;
+    m_aim.beyond = stretch_of(model, m_aim.strand, args("after").word, "").from;
+    m_aim.across = args("across").index;
+    m_aim.pull_low = args("pull_N").low;
+    m_aim.pull_high = args("pull_N").high;
+    m_aim.slant = args.number("slant", 0);
+    m_inner = args.number("outwards_from_mm", m_at);
+    m_straightness = args.number("straightness", 0);
+    m_time = args.number("for_s", 0.2);
   }
 
  private:
-  void start(Operator& op, int) override {
-    const Operator::Target& target = op.target(m_hand);
+  void start(Surgeon& op, int) override {
+    const Surgeon::Target& target = op.target(m_hand);
     m_held = target.strand == m_aim.strand ? target.s : m_aim.beyond;
     op.posture(m_hand).begin(op, m_hand, m_aim, m_held, m_inner);
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     Posture& posture = op.posture(m_hand);
     op.want(op.point(m_aim.strand, m_held));
     op.want(op.point(m_aim.strand, m_at));
@@ -52,10 +52,10 @@ class Lift final : public Skill {
 /// Back to where it was taken.
 class Lower final : public Skill {
  public:
-  Lower(const sim::Model&, const Given& given) : m_hand(given.hand()) {}
+  Lower(const sim::Model&, const SkillArgs& args) : m_hand(args.hand()) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     const Posture& posture = op.posture(m_hand);
     op.want(op.arm(m_hand).tip);
     if (!posture.up()) return Progress::done;
@@ -64,7 +64,7 @@ class Lower final : public Skill {
   int m_hand;
 };
 
-std::string lift_lacks(const sim::Model& model, const Given& given) { return Place::lacks(model, given); }
+std::string lift_lacks(const sim::Model& model, const SkillArgs& args) { return Place::lacks(model, args); }
 
 }  // namespace
 

@@ -10,15 +10,15 @@ namespace {
 /// One mark after the other comes into the picture; what instruments hide shows when they are drawn back.
 class LookAround final : public Skill {
  public:
-  LookAround(const sim::Model& model, const Given& given) : m_time(given.number("for_s", 1)) {
-    for (const std::int32_t mark : given("at").marks) {
+  LookAround(const sim::Model& model, const SkillArgs& args) : m_time(args.number("for_s", 1)) {
+    for (const std::int32_t mark : args("at").marks) {
       const bool cord = model.targets[size_t(mark)].kind == sim::VisibilityTarget::strand;
-      m_marks.push_back({mark, cord ? 0.5 : given.number("organ_share", 0.5), 0});
+      m_marks.push_back({mark, cord ? 0.5 : args.number("organ_share", 0.5), 0});
     }
   }
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     constexpr double kGlance = 1.4, kSure = 0.1, kHidden = 2.5;  // [s] at the picture as it is; longer; then draw back
     const LookedFor* missing = nullptr;
     for (LookedFor& l : m_marks) {

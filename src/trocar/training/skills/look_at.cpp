@@ -7,11 +7,11 @@ namespace {
 /// Places in the picture, as near as that allows; counts while the picture is at rest.
 class LookAt final : public Skill {
  public:
-  LookAt(const sim::Model& model, const Given& given)
-      : m_place(model, given), m_time(given.number("for_s", 0)), m_distance(given.number("from_mm", 0.06)) {}
+  LookAt(const sim::Model& model, const SkillArgs& args)
+      : m_place(model, args), m_time(args.number("for_s", 0)), m_distance(args.number("from_mm", 0.06)) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     op.want(m_place.point(op, -1));
     op.from(m_distance);
     m_steady += op.camera().settled() ? sim::kTick : 0;

@@ -7,10 +7,10 @@ namespace {
 /// An instrument that others need not see goes out of the way, and so do all that hold nothing.
 class MakeRoom final : public Skill {
  public:
-  MakeRoom(const sim::Model&, const Given& given) : m_but(given("hand").given ? given.hand() : -1) {}
+  MakeRoom(const sim::Model&, const SkillArgs& args) : m_but(args("hand").given ? args.hand() : -1) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     op.make_room(m_but);
     for (int h = 0; h < op.arms().count(); ++h)
       if (h != m_but && op.tool_state(h).holds == 0 && op.tool_state(h).depth > reach::kIdle + 0.001)

@@ -12,12 +12,12 @@ namespace {
 /// each beat that the finger feels, so many times; and back.
 class Palpate final : public Skill {
  public:
-  Palpate(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()),
-        m_vessel(given("vessel").index),
-        m_share(given.number("share", 0.5)),
-        m_press(given.number("press_N", 0.4)),
-        m_taps(int(given.number("taps", 1))) {
+  Palpate(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_vessel(args("vessel").index),
+        m_share(args.number("share", 0.5)),
+        m_press(args.number("press_N", 0.4)),
+        m_taps(int(args.number("taps", 1))) {
     static_cast<void>(model);
   }
 
@@ -25,7 +25,7 @@ class Palpate final : public Skill {
   enum Phase { kReach, kPress, kFeel, kTap, kLeave };
   static constexpr int kBeats = 1500;  ///< ticks of force that are remembered: more than a beat
 
-  void start(Operator& op, int tries) override {
+  void start(Surgeon& op, int tries) override {
     Skill::start(op, tries);
     m_said = 0;
     m_filled = 0;
@@ -33,7 +33,7 @@ class Palpate final : public Skill {
     m_since_tap = 1;
   }
 
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     constexpr double kOver = 0.015, kSettles = 0.7, kStill = 2.4, kTooMuch = 1.5, kLongest = 12,
                      kPressing = 8;  // [m]; [s]
     Arms::Arm& arm = op.arm(m_hand);
@@ -65,7 +65,7 @@ class Palpate final : public Skill {
   }
 
   /// One tick more of pressing, as slowly as tissue is felt.
-  void press(Operator& op, Vec3d in, double force) {
+  void press(Surgeon& op, Vec3d in, double force) {
     constexpr double kTouched = 0.02, kInTheAir = 0.01;  // [N] [m/s]
     Arms::Arm& arm = op.arm(m_hand);
     arm.tip += (force > kTouched ? pace::kTrack : kInTheAir) * sim::kTick * in;
@@ -81,7 +81,7 @@ class Palpate final : public Skill {
   }
 
   /// Declares when the force rises above its middle, once a beat.
-  Progress tap(Operator& op) {
+  Progress tap(Surgeon& op) {
     constexpr double kHeld = 0.08, kQuickest = 0.4, kNoBeat = 3, kLeast = 0.002;  // [s]; [N]
     const auto count = std::min(m_filled, kBeats);
     const auto [least, most] = std::minmax_element(m_force.begin(), m_force.begin() + count);
@@ -113,9 +113,9 @@ class Palpate final : public Skill {
   std::array<double, kBeats> m_force{};  ///< [N]
 };
 
-std::string lacks_vessel(const sim::Model& model, const Given& given) {
+std::string lacks_vessel(const sim::Model& model, const SkillArgs& args) {
   if (!model.vessels.there()) return "the scene has no vessels";
-  return given("vessel").index < 0 ? "there is no such vessel" : std::string();
+  return args("vessel").index < 0 ? "there is no such vessel" : std::string();
 }
 
 }  // namespace

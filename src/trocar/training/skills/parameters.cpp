@@ -7,24 +7,24 @@
 #include <trocar/training/skills/parameters.hpp>
 
 namespace trocar::training {
-const Argument& Given::operator()(std::string_view name) const {
+const Argument& SkillArgs::operator()(std::string_view name) const {
   static const Argument none;
   for (size_t i = 0; i < m_kind->parameters.size() && i < m_arguments->size(); ++i)
     if (m_kind->parameters[i].name == name) return (*m_arguments)[i];
   return none;
 }
 
-double Given::number(std::string_view name, double otherwise) const {
+double SkillArgs::number(std::string_view name, double otherwise) const {
   const Argument& a = (*this)(name);
   return a.given ? a.number() : otherwise;
 }
 
 Parameter from_end_parameter() { return number_parameter("from_end_mm", "or: distance from the rod's end", 0, 1000); }
 
-std::optional<double> arc_given(const sim::Model& model, const Given& given) {
-  if (given("at_mm").given) return given("at_mm").number();
-  if (!given("from_end_mm").given) return std::nullopt;
-  return std::max(0.0, model.strand_bodies[size_t(given("of").index)].length() - given("from_end_mm").number());
+std::optional<double> arc_given(const sim::Model& model, const SkillArgs& args) {
+  if (args("at_mm").given) return args("at_mm").number();
+  if (!args("from_end_mm").given) return std::nullopt;
+  return std::max(0.0, model.strand_bodies[size_t(args("of").index)].length() - args("from_end_mm").number());
 }
 
 std::vector<Parameter> place_parameters() {
@@ -66,22 +66,22 @@ Stretch stretch_of(const sim::Model& model, int strand, const std::string& after
   return s;
 }
 
-Place::Place(const sim::Model& model, const Given& given) {
-  if (given("of").given) {
-    m_strand = given("of").index;
-    const Stretch between = stretch_of(model, m_strand, given("after").word, given("before").word);
-    const double share = given.number("share", 0.5);
-    m_s = arc_given(model, given).value_or(between.from + (between.to - between.from) * share);
+Place::Place(const sim::Model& model, const SkillArgs& args) {
+  if (args("of").given) {
+    m_strand = args("of").index;
+    const Stretch between = stretch_of(model, m_strand, args("after").word, args("before").word);
+    const double share = args.number("share", 0.5);
+    m_s = arc_given(model, args).value_or(between.from + (between.to - between.from) * share);
   }
-  if (given("mark").given) m_mark = given("mark").index;
-  if (given("nearest_of").given) m_nearest = given("nearest_of").index;
-  m_bleeding = given.says("there", "bleeding");
-  m_pool = given.says("there", "pool");
+  if (args("mark").given) m_mark = args("mark").index;
+  if (args("nearest_of").given) m_nearest = args("nearest_of").index;
+  m_bleeding = args.equals("there", "bleeding");
+  m_pool = args.equals("there", "pool");
 }
 
 namespace {
 
-Vec3d nearest_of(const Operator& op, int mark, Vec3d to) {
+Vec3d nearest_of(const Surgeon& op, int mark, Vec3d to) {
   const int organ = op.model().targets[size_t(mark)].index;
   const tissue::Skin& skin = op.model().skin(organ);
   const tissue::NodeView nodes = nodes_of(op.model(), op.state(), organ);
@@ -93,7 +93,7 @@ Vec3d nearest_of(const Operator& op, int mark, Vec3d to) {
 
 }  // namespace
 
-Vec3d Place::point(Operator& op, int hand) const {
+Vec3d Place::point(Surgeon& op, int hand) const {
   const sim::Bleeder& bleeder = op.model().vessels.bleeder;
   if (m_strand >= 0) return op.point(m_strand, m_s);
   if (m_mark >= 0) return place_of_mark(op.model(), op.state(), m_mark);
@@ -103,24 +103,23 @@ Vec3d Place::point(Operator& op, int hand) const {
   return bleeder.vessel >= 0 ? op.vessel_spot(bleeder.vessel, bleeder.s).place : op.arm(std::max(0, hand)).tip;
 }
 
-Vec3d Place::tangent(Operator& op) const {
+Vec3d Place::tangent(Surgeon& op) const {
   const sim::Bleeder& bleeder = op.model().vessels.bleeder;
   if (m_strand >= 0) return op.tangent(m_strand, m_s);
   if (m_bleeding && bleeder.vessel >= 0) return op.vessel_spot(bleeder.vessel, bleeder.s).along;
   return {1, 0, 0};
 }
 
-std::string Place::lacks(const sim::Model& model, const Given& given) {
-  if (given.says("there", "bleeding") && model.vessels.bleeder.vessel < 0) return "the scene has no bleeder";
-  if (given("nearest_of").given &&
-      model.targets[size_t(given("nearest_of").index)].kind != sim::VisibilityTarget::organ)
-    return fmt::format("\"{}\" is not an organ", model.targets[size_t(given("nearest_of").index)].name);
-  if (given.says("there", "pool") && !model.wet.there) return "the scene has no fluids";
-  const Argument& of = given("of");
+std::string Place::lacks(const sim::Model& model, const SkillArgs& args) {
+  if (args.equals("there", "bleeding") && model.vessels.bleeder.vessel < 0) return "the scene has no bleeder";
+  if (args("nearest_of").given && model.targets[size_t(args("nearest_of").index)].kind != sim::VisibilityTarget::organ)
+    return fmt::format("\"{}\" is not an organ", model.targets[size_t(args("nearest_of").index)].name);
+  if (args.equals("there", "pool") && !model.wet.there) return "the scene has no fluids";
+  const Argument& of = args("of");
   for (const char* landmark : {"after", "before"})
-    if (of.given && given(landmark).given)
-      if (std::string lack = lacks_landmark(model, of.index, given(landmark).word); !lack.empty()) return lack;
-  const double farthest = std::max(given.number("at_mm", 0), given.number("from_end_mm", 0));
+    if (of.given && args(landmark).given)
+      if (std::string lack = lacks_landmark(model, of.index, args(landmark).word); !lack.empty()) return lack;
+  const double farthest = std::max(args.number("at_mm", 0), args.number("from_end_mm", 0));
   if (of.given && farthest > model.strand_bodies[size_t(of.index)].length())
     return fmt::format("the strand \"{}\" is only {:.1f} mm long", model.strands[size_t(of.index)].name,
                        1e3 * model.strand_bodies[size_t(of.index)].length());

@@ -31,7 +31,7 @@ std::vector<Parameter> operator+(std::vector<Parameter> a, std::vector<Parameter
 
 Parameter from_end_parameter();
 /// The place along a strand that `at_mm` or `from_end_mm` says [m]; nothing where neither does.
-std::optional<double> arc_given(const sim::Model& model, const Given& given);
+std::optional<double> arc_given(const sim::Model& model, const SkillArgs& args);
 
 /// Handle of a half closed clip applier: its legs stand around what they will close, and can still be drawn off.
 inline constexpr double kHalfClosed = 0.42;
@@ -44,17 +44,17 @@ std::string lacks_landmark(const sim::Model& model, int strand, const std::strin
 class Place {
  public:
   Place() = default;
-  Place(const sim::Model& model, const Given& given);
+  Place(const sim::Model& model, const SkillArgs& args);
 
   bool given() const { return m_strand >= 0 || m_mark >= 0 || m_nearest >= 0 || m_bleeding || m_pool; }
   /// [m]; where there is no such place any more, the last one. @param hand  who asks
-  Vec3d point(Operator& op, int hand) const;
-  Vec3d tangent(Operator& op) const;  ///< of a strand or a vessel; else across what is seen
+  Vec3d point(Surgeon& op, int hand) const;
+  Vec3d tangent(Surgeon& op) const;  ///< of a strand or a vessel; else across what is seen
   int strand() const { return m_strand; }
   double s() const { return m_s; }
   int mark() const { return m_mark; }
 
-  static std::string lacks(const sim::Model& model, const Given& given);
+  static std::string lacks(const sim::Model& model, const SkillArgs& args);
 
  private:
   int m_strand = -1, m_mark = -1, m_nearest = -1;

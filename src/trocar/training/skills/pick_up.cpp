@@ -6,7 +6,7 @@ namespace trocar::training {
 namespace {
 
 /// Where an object's middle is.
-Vec3d middle_of_object(const Operator& op, BodyId body) {
+Vec3d middle_of_object(const Surgeon& op, BodyId body) {
   Vec3d at;
   interactions::visit_object(body, [&](auto kind) {
     at = kind.middle(interactions::part_of<decltype(kind)>(op.model().objects),
@@ -18,22 +18,22 @@ Vec3d middle_of_object(const Operator& op, BodyId body) {
 /// Half open jaws around an object that lies about, closed, and lifted a little.
 class PickUp final : public Skill {
  public:
-  PickUp(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_body(given("body").body()),
-        m_open(given.number("open_to", 0.45)),
-        m_lift(given.number("lift_mm", 0.012)) {}
+  PickUp(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_body(args("body").body()),
+        m_open(args.number("open_to", 0.45)),
+        m_lift(args.number("lift_mm", 0.012)) {}
 
  private:
   enum Phase { kReach, kEnter, kClose, kLift };
 
   /// After each failure a little beside its middle, and with the jaws turned.
-  void start(Operator&, int tries) override {
+  void start(Surgeon&, int tries) override {
     constexpr double kBeside = 0.0015, kTurn = 0.7;  // [m] [rad]
     m_beside = kBeside * Vec3d{double(tries % 3) - (tries > 0 ? 1.0 : 0.0), double((tries / 3) % 3), 0};
     m_turn = kTurn * (tries % 4);
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     constexpr double kAtTip = 0.8, kPressed = 1.2, kLongest = 4, kFeels = 0.8;  // of the jaws' length; [N] [s] [s]
     Arms::Arm& arm = op.arm(m_hand);
     const Vec3d at = middle_of_object(op, m_body) + m_beside, along = normalised(at - arm.port);
@@ -69,14 +69,14 @@ class PickUp final : public Skill {
 /// What is held to a place, the camera on the jaws. What pulls back is given time, and goes slowly.
 class Carry final : public Skill {
  public:
-  Carry(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_at{given.number("x_mm", 0), given.number("y_mm", 0), given.number("z_mm", 0)},
-        m_minds_pull(given("pull_N").given),
-        m_most(given.number("pull_N", 0)) {}
+  Carry(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_at{args.number("x_mm", 0), args.number("y_mm", 0), args.number("z_mm", 0)},
+        m_minds_pull(args("pull_N").given),
+        m_most(args.number("pull_N", 0)) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     op.want(op.arm(m_hand).tip);
     op.want(m_at);
     if (op.tool_state(m_hand).holds == 0) return fail("it slipped out of the jaws");
@@ -85,7 +85,7 @@ class Carry final : public Skill {
     return op.arms().move(m_hand, m_at, speed) ? Progress::done : Progress::working;
   }
   /// It pulls too hard already, and would still harder on the way: what gives way to the pull need not wait.
-  bool strains(const Operator& op) const {
+  bool strains(const Surgeon& op) const {
     const double(&pull)[3] = op.tool_state(m_hand).pull;
     return norm(pull) > m_most && dot(m_at - op.arm(m_hand).tip, Vec3d{pull[0], pull[1], pull[2]}) <= 0;
   }
@@ -96,9 +96,9 @@ class Carry final : public Skill {
   double m_most;  ///< [N]
 };
 
-std::string lacks_object(const sim::Model& model, const Given& given) {
-  if (!given("body").body().is(BodyKind::rigid)) return "the object to pick up is not rigid";
-  return lacks_tool(model, given.hand(), &interactions::Abilities::grip);
+std::string lacks_object(const sim::Model& model, const SkillArgs& args) {
+  if (!args("body").body().is(BodyKind::rigid)) return "the object to pick up is not rigid";
+  return lacks_tool(model, args.hand(), &interactions::Abilities::grip);
 }
 
 }  // namespace

@@ -7,10 +7,10 @@ namespace {
 /// Lets go of what it holds and goes back to the trocar, where instruments are changed.
 class PutDown final : public Skill {
  public:
-  PutDown(const sim::Model&, const Given& given) : m_hand(given.hand()), m_least(given.number("least_s", 0)) {}
+  PutDown(const sim::Model&, const SkillArgs& args) : m_hand(args.hand()), m_least(args.number("least_s", 0)) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     op.posture(m_hand).end();
     if (op.tool_state(m_hand).holds > 0 || op.arm(m_hand).handle > 0) {
       op.arms().grip(m_hand, 0, 0.4);

@@ -11,14 +11,14 @@ namespace {
 /// comes out the same way.
 class ReachIn final : public Skill {
  public:
-  ReachIn(const sim::Model&, const Given& given)
-      : m_hand(given.hand()), m_mark(given("mark").index), m_for(given.number("for_s", 0.8)) {}
+  ReachIn(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()), m_mark(args("mark").index), m_for(args.number("for_s", 0.8)) {}
 
  private:
   enum Phase { kBring, kIn, kStay, kOut };
   static constexpr double kOver = 0.045, kAt = 0.0015;  // [m] of the tip from the disc
 
-  void start(Operator& op, int tries) override {
+  void start(Surgeon& op, int tries) override {
     Skill::start(op, tries);
     m_plan = {op.tool_state(m_hand).pose(), sim::joints_of(op.state(), size_t(m_hand))};
     m_normal = normal_of_mark(op.model(), op.state(), m_mark).value_or(Vec3d{0, 0, 1});
@@ -27,7 +27,7 @@ class ReachIn final : public Skill {
     plan(op, 60);
   }
 
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     constexpr double kLongest = 15;  // [s]
     op.want(m_place);
     op.want(tip_of(op.model(), op.state(), size_t(m_hand)));
@@ -52,7 +52,7 @@ class ReachIn final : public Skill {
   }
 
   /// One tick along the disc's normal.
-  bool along(Operator& op, double to) {
+  bool along(Surgeon& op, double to) {
     const double pace = pace::kCareful * sim::kTick;
     m_height += std::clamp(to - m_height, -pace, pace);
     plan(op, 3);
@@ -64,7 +64,7 @@ class ReachIn final : public Skill {
     return std::fabs(to - m_height) < 1e-6;
   }
 
-  bool turn(Operator& op) const {
+  bool turn(Surgeon& op) const {
     constexpr double kTurning = 1.5, kTurned = 1e-3;  // [rad/s] [rad]
     double& roll = op.arm(m_hand).roll;
     roll += std::clamp(m_roll - roll, -kTurning * sim::kTick, kTurning * sim::kTick);
@@ -72,7 +72,7 @@ class ReachIn final : public Skill {
   }
 
   /// What the hand does for the tip to be `m_height` before the disc and to point at it.
-  void plan(Operator& op, int rounds) {
+  void plan(Surgeon& op, int rounds) {
     const interactions::ToolModel& tool = op.tool(m_hand);
     const Vec3d at = m_place + m_height * m_normal;
     if (tool.bends.redundant()) {
@@ -106,10 +106,10 @@ class ReachIn final : public Skill {
   sim::WristInput m_wrist;
 };
 
-std::string lacks_wrist(const sim::Model& model, const Given& given) {
-  const sim::HandModel& hand = model.hands[size_t(given.hand())];
+std::string lacks_wrist(const sim::Model& model, const SkillArgs& args) {
+  const sim::HandModel& hand = model.hands[size_t(args.hand())];
   if (!hand.rack.front().bends.bends()) return "the instrument at the trocar \"" + hand.name + "\" does not bend";
-  const int mark = given("mark").index;
+  const int mark = args("mark").index;
   return can_face(model, model.targets[size_t(mark)]) ? "" : "the mark has no single normal";
 }
 

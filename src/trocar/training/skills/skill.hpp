@@ -1,11 +1,11 @@
 // A hand skill: what a surgeon has learnt to do without thinking (approach a tube, close a clip slowly, suck a pool
-// dry), run tick by tick on an Operator. A skill knows no exercise and no body of a scene: those are its parameters. It
+// dry), run tick by tick on an Surgeon. A skill knows no exercise and no body of a scene: those are its parameters. It
 // looks at the State as eyes and fingers would, ends when it is done, or gives up and says why.
 //
 // A new skill is one file, here or in a room for its field, that defines a Skill and its SkillKind, and one line in
 // skills.inl.
 //
-//   class Withdraw final : public Skill { Progress work(Operator& op) override; ... };
+//   class Withdraw final : public Skill { Progress work(Surgeon& op) override; ... };
 //   extern const SkillKind kWithdraw{"withdraw", "draw an instrument back", {hand()}, 6, "...", nothing,
 //   &making<Withdraw>};
 #pragma once
@@ -25,15 +25,15 @@ enum class Progress { working, done, failed };
 struct SkillKind;
 
 /// A skill's parameters by their names.
-class Given {
+class SkillArgs {
  public:
-  Given(const SkillKind& kind, const Arguments& arguments) : m_kind(&kind), m_arguments(&arguments) {}
+  SkillArgs(const SkillKind& kind, const Arguments& arguments) : m_kind(&kind), m_arguments(&arguments) {}
 
   /// What was not given is `given == false`, and so is what this kind of skill does not know.
   const Argument& operator()(std::string_view name) const;
   int hand() const { return (*this)("hand").index; }
   double number(std::string_view name, double otherwise) const;
-  bool says(std::string_view name, std::string_view word) const { return (*this)(name).word == word; }
+  bool equals(std::string_view name, std::string_view word) const { return (*this)(name).word == word; }
 
  private:
   const SkillKind* m_kind;
@@ -45,12 +45,12 @@ class Skill {
   virtual ~Skill() = default;
 
   /// In the tick before the first one. @param tries  how often it was begun before for the same goal
-  void begin(Operator& op, int tries) {
+  void begin(Surgeon& op, int tries) {
     go(0);
     start(op, tries);
   }
   /// @param passed  since the tick before [s]
-  Progress tick(Operator& op, double passed = sim::kTick) {
+  Progress tick(Surgeon& op, double passed = sim::kTick) {
     m_in_phase += passed;
     return work(op);
   }
@@ -58,8 +58,8 @@ class Skill {
   const std::string& why() const { return m_why; }
 
  protected:
-  virtual void start(Operator&, int) { m_why.clear(); }
-  virtual Progress work(Operator& op) = 0;
+  virtual void start(Surgeon&, int) { m_why.clear(); }
+  virtual Progress work(Surgeon& op) = 0;
 
   Progress fail(std::string why) {
     m_why = std::move(why);
@@ -78,7 +78,7 @@ class Skill {
 };
 
 /// What a scene lacks for a skill, for people; empty: nothing.
-using SkillLacks = std::string (*)(const sim::Model& model, const Given& given);
+using SkillLacks = std::string (*)(const sim::Model& model, const SkillArgs& args);
 
 struct SkillKind {
   std::string_view name;
@@ -87,14 +87,14 @@ struct SkillKind {
   double patience = 15;  ///< at_most_s unless a plan says otherwise [s]
   std::string_view meaning;
   SkillLacks lacks;
-  std::unique_ptr<Skill> (*make)(const sim::Model& model, const Given& given);
+  std::unique_ptr<Skill> (*make)(const sim::Model& model, const SkillArgs& args);
 };
 
-inline std::string nothing(const sim::Model&, const Given&) { return {}; }
+inline std::string nothing(const sim::Model&, const SkillArgs&) { return {}; }
 
 template <class S>
-std::unique_ptr<Skill> making(const sim::Model& model, const Given& given) {
-  return std::make_unique<S>(model, given);
+std::unique_ptr<Skill> making(const sim::Model& model, const SkillArgs& args) {
+  return std::make_unique<S>(model, args);
 }
 
 }  // namespace trocar::training

@@ -8,11 +8,11 @@ namespace {
 /// The pool through a suction-irrigator, where it stands deepest, until hardly anything is left.
 class SuckDry final : public Skill {
  public:
-  SuckDry(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()), m_place(model, given), m_left(given.number("left_mL", 0.5e-6)) {}
+  SuckDry(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()), m_place(model, args), m_left(args.number("left_mL", 0.5e-6)) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     constexpr double kTouches = 1;  // [N]
     Arms::Arm& arm = op.arm(m_hand);
     const std::optional<Vec3d> pool = op.deepest_pool(m_hand);
@@ -31,9 +31,9 @@ class SuckDry final : public Skill {
   double m_left;
 };
 
-std::string lacks_suction(const sim::Model& model, const Given& given) {
+std::string lacks_suction(const sim::Model& model, const SkillArgs& args) {
   if (!model.wet.there) return "the scene has no fluids";
-  return lacks_tool(model, given.hand(), &interactions::Abilities::irrigate);
+  return lacks_tool(model, args.hand(), &interactions::Abilities::irrigate);
 }
 
 }  // namespace

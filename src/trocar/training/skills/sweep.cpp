@@ -7,9 +7,9 @@ namespace {
 /// A closed instrument pushes what lies there aside.
 class Sweep final : public Skill {
  public:
-  Sweep(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()), m_place(model, given), m_way(given.number("by_mm", 0.02)) {
-    const std::string& where = given("towards").word;
+  Sweep(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()), m_place(model, args), m_way(args.number("by_mm", 0.02)) {
+    const std::string& where = args("towards").word;
     m_direction = where == "up" ? Vec3d{0, 0, 1} : where == "head" ? Vec3d{0, 1, 0} : Vec3d{0, -1, 0};
     m_sideways = where == "outwards" ? 1 : where == "inwards" ? -1 : 0;
   }
@@ -17,7 +17,7 @@ class Sweep final : public Skill {
  private:
   enum Phase { kReach, kPush };
 
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     Arms::Arm& arm = op.arm(m_hand);
     op.want(arm.tip);
     if (m_phase == kReach) {

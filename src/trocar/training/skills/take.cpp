@@ -9,14 +9,14 @@ namespace {
 /// Another instrument through the same trocar. It waits until the camera shows the trocar's inner end.
 class Take final : public Skill {
  public:
-  Take(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()),
-        m_number(model.hands[size_t(m_hand)].find(given("instrument").word)),
-        m_towards(model, given),
-        m_watched(!given.says("watch", "no")) {}
+  Take(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_number(model.hands[size_t(m_hand)].find(args("instrument").word)),
+        m_towards(model, args),
+        m_watched(!args.equals("watch", "no")) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     Arms::Arm& arm = op.arm(m_hand);
     arm.instrument = m_number;
     const Vec3d to = m_towards.point(op, m_hand), inwards = normalised(to - arm.port);
@@ -33,11 +33,11 @@ class Take final : public Skill {
   bool m_watched;
 };
 
-std::string lacks_instrument(const sim::Model& model, const Given& given) {
-  const sim::HandModel& hand = model.hands[size_t(given.hand())];
-  if (hand.find(given("instrument").word) < 0)
-    return fmt::format("the rack at the trocar \"{}\" has no \"{}\"", hand.name, given("instrument").word);
-  return Place::lacks(model, given);
+std::string lacks_instrument(const sim::Model& model, const SkillArgs& args) {
+  const sim::HandModel& hand = model.hands[size_t(args.hand())];
+  if (hand.find(args("instrument").word) < 0)
+    return fmt::format("the rack at the trocar \"{}\" has no \"{}\"", hand.name, args("instrument").word);
+  return Place::lacks(model, args);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 namespace trocar::training {
 namespace {
 
-VesselCarrier on_strand(Operator& op, int strand, interactions::StrandPlace place) {
+VesselCarrier on_strand(Surgeon& op, int strand, interactions::StrandPlace place) {
   const interactions::StrandBody& body = op.model().strand_bodies[size_t(strand)];
   const tissue::StrandState& state = op.state().strands[size_t(strand)];
   return {interactions::point_at(body, state, place), interactions::tangent_at(body, state, place),
@@ -12,7 +12,7 @@ VesselCarrier on_strand(Operator& op, int strand, interactions::StrandPlace plac
 
 }  // namespace
 
-VesselCarrier carrier_at(Operator& op, int vessel, double s) {
+VesselCarrier carrier_at(Surgeon& op, int vessel, double s) {
   const interactions::VesselSpot at = op.vessel_spot(vessel, s);
   const interactions::VesselPoint& point = op.model().vessels.list[size_t(vessel)].path.points[size_t(at.after)];
   const interactions::VesselHold& hold = point.hold;

@@ -11,6 +11,6 @@ struct VesselCarrier {
 };
 
 /// @param s  place of the vessel, 0 to 1 along it
-VesselCarrier carrier_at(Operator& op, int vessel, double s);
+VesselCarrier carrier_at(Surgeon& op, int vessel, double s);
 
 }  // namespace trocar::training

@@ -9,11 +9,11 @@ namespace {
 /// level: what an oblique scope's light post and a camera's head are for.
 class View final : public Skill {
  public:
-  View(const sim::Model&, const Given& given)
-      : m_mark(given("mark").index), m_distance(given.number("from_mm", 0.05)), m_time(given.number("for_s", 0)) {}
+  View(const sim::Model&, const SkillArgs& args)
+      : m_mark(args("mark").index), m_distance(args.number("from_mm", 0.05)), m_time(args.number("for_s", 0)) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     const Vec3d at = place_of_mark(op.model(), op.state(), m_mark);
     const std::optional<Vec3d> normal = normal_of_mark(op.model(), op.state(), m_mark);
     op.camera().view(at, normal, m_distance);

@@ -7,16 +7,16 @@ namespace {
 /// Until blood shows somewhere.
 class WaitForBlood final : public Skill {
  public:
-  WaitForBlood(const sim::Model&, const Given& given) : m_least(given.number("least_s", 1)) {}
+  WaitForBlood(const sim::Model&, const SkillArgs& args) : m_least(args.number("least_s", 1)) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     return op.state().opening_count > 0 && m_in_phase > m_least ? Progress::done : Progress::working;
   }
   double m_least;
 };
 
-std::string no_blood(const sim::Model& model, const Given&) {
+std::string no_blood(const sim::Model& model, const SkillArgs&) {
   return model.vessels.there() ? "" : "the scene has no vessels";
 }
 

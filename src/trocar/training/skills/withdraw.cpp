@@ -7,14 +7,14 @@ namespace {
 /// Along its shaft to a depth.
 class Withdraw final : public Skill {
  public:
-  Withdraw(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_depth(given.number("to_mm", reach::kBroughtIn)),
-        m_pace(given.says("pace", "brisk") ? pace::kTravel : pace::kCareful),
-        m_watched(!given.says("watch", "no")) {}
+  Withdraw(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_depth(args.number("to_mm", reach::kBroughtIn)),
+        m_pace(args.equals("pace", "brisk") ? pace::kTravel : pace::kCareful),
+        m_watched(!args.equals("watch", "no")) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     if (m_watched) op.want(op.arm(m_hand).tip);
     return op.arms().move_to_depth(m_hand, m_depth, m_pace) ? Progress::done : Progress::working;
   }

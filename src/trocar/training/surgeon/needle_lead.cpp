@@ -51,7 +51,7 @@ NeedleWay way_between(const suture::NeedleModel& m, Vec3d in, Vec3d out, Vec3d u
   return way;
 }
 
-HandWish wish_for(const Operator& op, int hand, const NeedlePose& pose) {
+HandWish wish_for(const Surgeon& op, int hand, const NeedlePose& pose) {
   const interactions::ToolModel& tool = op.tool(hand);
   const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), std::size_t(hand));
   const suture::NeedleState& needle = suture_of(op.state()).needle;
@@ -70,7 +70,7 @@ HandWish wish_for(const Operator& op, int hand, const NeedlePose& pose) {
   return wish;
 }
 
-HandWish wish_for(const Operator& op, int hand, const NeedlePose& pose, double arc) {
+HandWish wish_for(const Surgeon& op, int hand, const NeedlePose& pose, double arc) {
   const interactions::ToolModel& tool = op.tool(hand);
   const suture::NeedleModel& m = suture_of(op.model()).needle;
   const interactions::ToolShape now = sim::shape_of(op.model(), op.state(), std::size_t(hand));
@@ -86,7 +86,7 @@ HandWish wish_for(const Operator& op, int hand, const NeedlePose& pose, double a
 
 namespace {
 
-bool lead_to(Operator& op, int hand, const HandWish& wish, double speed) {
+bool lead_to(Surgeon& op, int hand, const HandWish& wish, double speed) {
   Arms::Arm& arm = op.arm(hand);
   const double step = kRollPace * sim::kTick;
   arm.roll += std::clamp(wish.roll - arm.roll, -step, step);
@@ -95,10 +95,10 @@ bool lead_to(Operator& op, int hand, const HandWish& wish, double speed) {
 
 }  // namespace
 
-bool lead_needle(Operator& op, int hand, const NeedlePose& pose, double speed) {
+bool lead_needle(Surgeon& op, int hand, const NeedlePose& pose, double speed) {
   return lead_to(op, hand, wish_for(op, hand, pose), speed);
 }
-bool lead_needle(Operator& op, int hand, const NeedlePose& pose, double speed, double arc) {
+bool lead_needle(Surgeon& op, int hand, const NeedlePose& pose, double speed, double arc) {
   return lead_to(op, hand, wish_for(op, hand, pose, arc), speed);
 }
 

@@ -32,13 +32,13 @@ struct HandWish {
   Vec3d tip;
   double roll = 0;
 };
-HandWish wish_for(const Operator& op, int hand, const NeedlePose& pose);
+HandWish wish_for(const Surgeon& op, int hand, const NeedlePose& pose);
 /// The same where one place of the needle, `arc` from its tip, shall be exactly where that pose has it: whatever the
 /// shaft cannot turn is then off elsewhere.
-HandWish wish_for(const Operator& op, int hand, const NeedlePose& pose, double arc);
+HandWish wish_for(const Surgeon& op, int hand, const NeedlePose& pose, double arc);
 
 /// One tick towards it. True when it is there.
-bool lead_needle(Operator& op, int hand, const NeedlePose& pose, double speed);
-bool lead_needle(Operator& op, int hand, const NeedlePose& pose, double speed, double arc);
+bool lead_needle(Surgeon& op, int hand, const NeedlePose& pose, double speed);
+bool lead_needle(Surgeon& op, int hand, const NeedlePose& pose, double speed, double arc);
 
 }  // namespace trocar::training

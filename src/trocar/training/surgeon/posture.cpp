@@ -5,7 +5,7 @@
 
 namespace trocar::training {
 
-void Posture::begin(Operator& op, int hand, const Aim& aim, double held_at, double inner) {
+void Posture::begin(Surgeon& op, int hand, const Aim& aim, double held_at, double inner) {
   m_aim = aim;
   m_hand = hand;
   m_from = op.arm(hand).tip;
@@ -16,17 +16,17 @@ void Posture::begin(Operator& op, int hand, const Aim& aim, double held_at, doub
   m_up = normalised(Vec3d{held.x > 0 ? 0.35 : -0.35, 0.10, 1.0});  // away from the middle of the patient
 }
 
-bool Posture::holding(const Operator& op) const {
+bool Posture::holding(const Surgeon& op) const {
   return held_arc(op.model(), op.state(), size_t(m_hand), m_aim.strand) > m_aim.beyond;
 }
 
-double Posture::pull(const Operator& op) const { return norm(op.tool_state(m_hand).pull); }
+double Posture::pull(const Surgeon& op) const { return norm(op.tool_state(m_hand).pull); }
 
-double Posture::slant(Operator& op, double s) const {
+double Posture::slant(Surgeon& op, double s) const {
   return dot(normalised(op.point(m_aim.strand, s) - op.arm(m_aim.across).port), op.tangent(m_aim.strand, s));
 }
 
-void Posture::keep(Operator& op, double s) {
+void Posture::keep(Surgeon& op, double s) {
   if (!holding(op)) return;
   if (m_aim.slant > 0) return keep_slanted(op, s);
   constexpr double kHighest = 0.040, kFarthest = 0.020, kPace = 0.010;  // [m] [m] [m/s]
@@ -45,7 +45,7 @@ void Posture::keep(Operator& op, double s) {
   op.arm(m_hand).tip = m_from + m_lifted * m_up + m_drawn * m_outwards;
 }
 
-void Posture::keep_slanted(Operator& op, double s) {
+void Posture::keep_slanted(Surgeon& op, double s) {
   // Pushed down instead of raised: it dips outwards, along the other shaft instead of across it.
   constexpr double kLowest = 0.045, kOut = 0.006, kPace = 0.010;  // [m] [m] [m/s]
   const double missing = m_aim.slant - slant(op, s);

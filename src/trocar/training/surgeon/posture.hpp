@@ -6,7 +6,7 @@
 
 namespace trocar::training {
 
-class Operator;
+class Surgeon;
 
 /// Two things to hold at once: the place across the other shaft (raising turns it), and a gentle pull on it (drawing it
 /// outwards stretches it).
@@ -21,19 +21,19 @@ class Posture {
     double slant = 0;                    ///< sine of the angle by which it dips outwards instead of lying across
   };
 
-  void begin(Operator& op, int hand, const Aim& aim, double held_at, double inner);
+  void begin(Surgeon& op, int hand, const Aim& aim, double held_at, double inner);
   void end() { m_hand = -1; }
   bool up() const { return m_hand >= 0; }
   const Aim& aim() const { return m_aim; }
   Vec3d from() const { return m_from; }  ///< where the tip was when it began [m]
 
-  bool holding(const Operator& op) const;
-  double pull(const Operator& op) const;       ///< [N]
-  double slant(Operator& op, double s) const;  ///< of the strand at s to the other shaft; + when it dips outwards
-  void keep(Operator& op, double s);
+  bool holding(const Surgeon& op) const;
+  double pull(const Surgeon& op) const;       ///< [N]
+  double slant(Surgeon& op, double s) const;  ///< of the strand at s to the other shaft; + when it dips outwards
+  void keep(Surgeon& op, double s);
 
  private:
-  void keep_slanted(Operator& op, double s);
+  void keep_slanted(Surgeon& op, double s);
 
   Aim m_aim;
   int m_hand = -1;

@@ -28,9 +28,9 @@ inline constexpr double kBroughtIn = 0.085;  ///< [m] of one that was brought in
 inline constexpr double kBefore = 0.022;     ///< [m] in front of tissue
 }  // namespace reach
 
-class Operator {
+class Surgeon {
  public:
-  Operator(const sim::Model& model, const Tremor& tremor);
+  Surgeon(const sim::Model& model, const Tremor& tremor);
 
   void begin_tick(const sim::Model& model, const sim::State& state);
   sim::Input end_tick();

@@ -10,11 +10,11 @@ class FoldWhole final : public Observer {
  public:
   FoldWhole(const sim::Model& model, const Arguments& a)
       : m_columns(model, int(a[0].body().index())), m_from(a[1].low), m_to(a[1].high) {}
-  void sample(const Moment& moment, double) override {
+  void sample(const Snapshot& snapshot, double) override {
     constexpr int kFoldTurns = 5;
-    if (m_turn++ % kFoldTurns == 0) m_value = m_columns.whole_between(moment.model, moment.state, m_from, m_to);
+    if (m_turn++ % kFoldTurns == 0) m_value = m_columns.whole_between(snapshot.model, snapshot.state, m_from, m_to);
   }
-  Value value(const Moment&) const override { return m_turn > 0 ? Value(m_value) : kUnknown; }
+  Value value(const Snapshot&) const override { return m_turn > 0 ? Value(m_value) : kUnknown; }
 
  private:
   FoldColumns m_columns;

@@ -16,9 +16,9 @@ struct Corners {
   Vec3d junction, neck, porta;
 };
 
-Vec3d place_on(const Moment& moment, std::size_t strand, double s) {
-  const interactions::StrandBody& body = moment.model.strand_bodies[strand];
-  return point_at(body, moment.state.strands[strand], interactions::place_at(body, s));
+Vec3d place_on(const Snapshot& snapshot, std::size_t strand, double s) {
+  const interactions::StrandBody& body = snapshot.model.strand_bodies[strand];
+  return point_at(body, snapshot.state.strands[strand], interactions::place_at(body, s));
 }
 
 /// Arc length of the strand's node that is nearest to `p`, as drawn.
@@ -29,29 +29,29 @@ double nearest_as_drawn(const interactions::StrandBody& body, Vec3d p) {
   return body.arc[std::size_t(nearest - rest.begin())];
 }
 
-Corners corners(const Moment& moment, const Arguments& a) {
+Corners corners(const Snapshot& snapshot, const Arguments& a) {
   const std::size_t of = std::size_t(a[0].index), on = std::size_t(a[1].index);
-  const interactions::StrandBody &duct = moment.model.strand_bodies[of], &other = moment.model.strand_bodies[on];
+  const interactions::StrandBody &duct = snapshot.model.strand_bodies[of], &other = snapshot.model.strand_bodies[on];
   const double joins = nearest_as_drawn(other, duct.model.rest.front());
-  return {place_on(moment, of, 0), place_on(moment, of, duct.length()),
-          place_on(moment, on, std::max(0.0, joins - kUpstream))};
+  return {place_on(snapshot, of, 0), place_on(snapshot, of, duct.length()),
+          place_on(snapshot, on, std::max(0.0, joins - kUpstream))};
 }
 
-bool whole(const Moment& moment, const Arguments& a) {
-  const std::vector<std::uint8_t>& alive = moment.state.strands[std::size_t(a[0].index)].alive;
+bool whole(const Snapshot& snapshot, const Arguments& a) {
+  const std::vector<std::uint8_t>& alive = snapshot.state.strands[std::size_t(a[0].index)].alive;
   return std::all_of(alive.begin(), alive.end(), [](std::uint8_t element) { return element != 0; });
 }
 
-Value angle(const Moment& moment, const Arguments& a) {
-  if (!whole(moment, a)) return kUnknown;
-  const Corners c = corners(moment, a);
+Value angle(const Snapshot& snapshot, const Arguments& a) {
+  if (!whole(snapshot, a)) return kUnknown;
+  const Corners c = corners(snapshot, a);
   const Vec3d duct = c.neck - c.junction, up = c.porta - c.junction;
   return portable::atan2(length(cross(duct, up)), dot(duct, up));
 }
 
-Value area(const Moment& moment, const Arguments& a) {
-  if (!whole(moment, a)) return kUnknown;
-  const Corners c = corners(moment, a);
+Value area(const Snapshot& snapshot, const Arguments& a) {
+  if (!whole(snapshot, a)) return kUnknown;
+  const Corners c = corners(snapshot, a);
   return 0.5 * length(cross(c.neck - c.junction, c.porta - c.junction));
 }
 

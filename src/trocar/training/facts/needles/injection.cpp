@@ -11,70 +11,70 @@ namespace {
 
 constexpr double kPaleEnough = 0.5;  // blanched by so much counts
 
-const sim::NeedleHand& needle_of_hand(const Moment& moment, const Arguments& a) {
-  return moment.state.injection.hands[size_t(a[0].index)];
+const sim::NeedleHand& needle_of_hand(const Snapshot& snapshot, const Arguments& a) {
+  return snapshot.state.injection.hands[size_t(a[0].index)];
 }
 
-Value point_depth(const Moment& moment, const Arguments& a) {
-  const sim::NeedleHand& n = needle_of_hand(moment, a);
+Value point_depth(const Snapshot& snapshot, const Arguments& a) {
+  const sim::NeedleHand& n = needle_of_hand(snapshot, a);
   return n.in() ? Value(n.depth) : kUnknown;
 }
-Value point_in(const Moment& moment, const Arguments& a) {
-  const sim::NeedleHand& n = needle_of_hand(moment, a);
+Value point_in(const Snapshot& snapshot, const Arguments& a) {
+  const sim::NeedleHand& n = needle_of_hand(snapshot, a);
   return n.in() && (!a[1].given || n.entry.body == a[1].body());
 }
-Value plunger_force(const Moment& moment, const Arguments& a) { return needle_of_hand(moment, a).plunger; }
-Value syringe_left(const Moment& moment, const Arguments& a) {
-  return fluids::kM3PerPicolitre * double(needle_of_hand(moment, a).left);
+Value plunger_force(const Snapshot& snapshot, const Arguments& a) { return needle_of_hand(snapshot, a).plunger; }
+Value syringe_left(const Snapshot& snapshot, const Arguments& a) {
+  return fluids::kM3PerPicolitre * double(needle_of_hand(snapshot, a).left);
 }
-Value plunger_drawn(const Moment& moment, const Arguments& a) {
-  const sim::NeedleHand& n = needle_of_hand(moment, a);
+Value plunger_drawn(const Snapshot& snapshot, const Arguments& a) {
+  const sim::NeedleHand& n = needle_of_hand(snapshot, a);
   return n.in() ? Value(n.drawn_for) : kUnknown;
 }
-Value blood_drawn(const Moment& moment, const Arguments& a) {
-  return fluids::kM3PerPicolitre * double(needle_of_hand(moment, a).blood);
+Value blood_drawn(const Snapshot& snapshot, const Arguments& a) {
+  return fluids::kM3PerPicolitre * double(needle_of_hand(snapshot, a).blood);
 }
 
-Value injected_into(const Moment& moment, const Arguments& a) {
+Value injected_into(const Snapshot& snapshot, const Arguments& a) {
   const BodyId body = a[0].body();
   if (!body.is(BodyKind::organ)) return 0.0;
-  return fluids::kM3PerPicolitre * double(moment.state.injection.given[body.index()]);
+  return fluids::kM3PerPicolitre * double(snapshot.state.injection.given[body.index()]);
 }
-Value injected_in_vessels(const Moment& moment, const Arguments&) {
-  return fluids::kM3PerPicolitre * double(moment.state.injection.account.vessel);
+Value injected_in_vessels(const Snapshot& snapshot, const Arguments&) {
+  return fluids::kM3PerPicolitre * double(snapshot.state.injection.account.vessel);
 }
-Value spilled_by_needles(const Moment& moment, const Arguments&) {
-  const sim::InjectionAccount& account = moment.state.injection.account;
+Value spilled_by_needles(const Snapshot& snapshot, const Arguments&) {
+  const sim::InjectionAccount& account = snapshot.state.injection.account;
   return fluids::kM3PerPicolitre * double(account.leaked + account.spilled);
 }
-Value units_injected(const Moment& moment, const Arguments&) {
+Value units_injected(const Snapshot& snapshot, const Arguments&) {
   double most = 0;  // a scene's syringes hold the same drug
-  for (const sim::HandModel& hand : moment.model.hands)
+  for (const sim::HandModel& hand : snapshot.model.hands)
     for (const interactions::ToolModel& tool : hand.rack) most = std::max(most, tool.needle.units);
-  return most * 1e6 * fluids::kM3PerPicolitre * double(moment.state.injection.account.drugged);
+  return most * 1e6 * fluids::kM3PerPicolitre * double(snapshot.state.injection.account.drugged);
 }
 
 /// Twice a second: a sum over all of a skin.
 class BlanchedSkin final : public Observer {
  public:
   BlanchedSkin(const sim::Model&, const Arguments& a) : m_body(a[0].body()) {}
-  void sample(const Moment& moment, double) override {
+  void sample(const Snapshot& snapshot, double) override {
     constexpr int kSkinTurns = 25;
-    if (m_turn++ % kSkinTurns == 0) m_area = area(moment);
+    if (m_turn++ % kSkinTurns == 0) m_area = area(snapshot);
   }
-  Value value(const Moment&) const override { return m_turn > 0 ? Value(m_area) : kUnknown; }
+  Value value(const Snapshot&) const override { return m_turn > 0 ? Value(m_area) : kUnknown; }
 
  private:
-  double area(const Moment& moment) const {
+  double area(const Snapshot& snapshot) const {
     const size_t organ = m_body.index();
-    if (!m_body.is(BodyKind::organ) || organ >= moment.model.solids.size()) return 0;
-    if (moment.state.injection.account.drugged == 0) return 0;
-    const tissue::Skin& skin = moment.model.solids[organ].skin;
-    const tissue::NodeView nodes = sim::nodes_of(moment.model, moment.state, int(organ));
+    if (!m_body.is(BodyKind::organ) || organ >= snapshot.model.solids.size()) return 0;
+    if (snapshot.state.injection.account.drugged == 0) return 0;
+    const tissue::Skin& skin = snapshot.model.solids[organ].skin;
+    const tissue::NodeView nodes = sim::nodes_of(snapshot.model, snapshot.state, int(organ));
     double sum = 0;
     for (const std::array<int, 3>& t : skin.triangles) {
       double pale = 0;
-      for (const int v : t) pale += sim::blanched_at(moment.state, organ, skin, v) / 3;
+      for (const int v : t) pale += sim::blanched_at(snapshot.state, organ, skin, v) / 3;
       if (pale < kPaleEnough) continue;
       const Vec3d a = tissue::skin_point(nodes, skin, t[0]);
       sum += 0.5 * length(cross(tissue::skin_point(nodes, skin, t[1]) - a, tissue::skin_point(nodes, skin, t[2]) - a));

@@ -12,11 +12,11 @@ class FeltPulse final : public Observer {
  public:
   FeltPulse(const sim::Model& model, const Arguments& a)
       : m_reader(model), m_hand(a[0].index), m_vessel(a[1].given ? a[1].index : -1) {}
-  Value value(const Moment& moment) const override {
-    if (m_vessel >= 0) return m_reader.beat(moment.state, m_hand, m_vessel);
+  Value value(const Snapshot& snapshot) const override {
+    if (m_vessel >= 0) return m_reader.beat(snapshot.state, m_hand, m_vessel);
     double most = 0;
-    for (int v = 0; v < int(moment.model.vessels.list.size()); ++v)
-      most = std::max(most, m_reader.beat(moment.state, m_hand, v));
+    for (int v = 0; v < int(snapshot.model.vessels.list.size()); ++v)
+      most = std::max(most, m_reader.beat(snapshot.state, m_hand, v));
     return most;
   }
 
@@ -29,20 +29,20 @@ class FeltPulse final : public Observer {
 class TappedRate final : public Observer {
  public:
   TappedRate(const sim::Model&, const Arguments&) {}
-  void happened(const Moment& moment) override {
-    const bool now = moment.state.declaring != 0;
+  void happened(const Snapshot& snapshot) override {
+    const bool now = snapshot.state.declaring != 0;
     if (!now || m_down) return;
     m_down = true;
-    if (m_count > 0 && moment.now() - m_time[size_t((m_count - 1) % kTaps)] > kPause) m_count = 0;
-    m_time[size_t(m_count % kTaps)] = moment.now();
+    if (m_count > 0 && snapshot.now() - m_time[size_t((m_count - 1) % kTaps)] > kPause) m_count = 0;
+    m_time[size_t(m_count % kTaps)] = snapshot.now();
     ++m_count;
   }
-  void sample(const Moment& moment, double) override { m_down = moment.state.declaring != 0; }
-  Value value(const Moment& moment) const override {
+  void sample(const Snapshot& snapshot, double) override { m_down = snapshot.state.declaring != 0; }
+  Value value(const Snapshot& snapshot) const override {
     if (m_count < kTaps) return kUnknown;
     const double first = m_time[size_t(m_count % kTaps)], last = m_time[size_t((m_count - 1) % kTaps)];
     if (!(last > first)) return kUnknown;
-    const double heart = vessels::vitals(moment.model.vessels.flow, moment.state.flow).rate / 60;
+    const double heart = vessels::vitals(snapshot.model.vessels.flow, snapshot.state.flow).rate / 60;
     return double(kTaps - 1) / (last - first) - heart;
   }
 

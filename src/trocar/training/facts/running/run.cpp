@@ -20,10 +20,10 @@ class Run : public Observer {
       : m_stations(model, a[0].marks, a[1].number()), m_step(a[2].number()), m_hands(model.hands.size()) {
     m_held.fill(-1);
   }
-  void sample(const Moment& moment, double) override {
+  void sample(const Snapshot& snapshot, double) override {
     std::array<double, sim::kMaxTools> before = m_held;
     for (size_t h = 0; h < m_hands; ++h) {
-      m_held[h] = m_stations.held_at(moment.state, h);
+      m_held[h] = m_stations.held_at(snapshot.state, h);
       m_grasps += m_held[h] >= 0 && before[h] < 0;
     }
     if (!m_on) return begin();
@@ -82,25 +82,25 @@ class Run : public Observer {
 class Reached final : public Run {
  public:
   using Run::Run;
-  Value value(const Moment&) const override { return reached(); }
+  Value value(const Snapshot&) const override { return reached(); }
 };
 class Lost final : public Run {
  public:
   using Run::Run;
-  Value value(const Moment&) const override { return double(lost()); }
+  Value value(const Snapshot&) const override { return double(lost()); }
 };
 class Grasps final : public Run {
  public:
   using Run::Run;
-  Value value(const Moment&) const override { return double(grasps()); }
+  Value value(const Snapshot&) const override { return double(grasps()); }
 };
 
 class HeldAlong final : public Observer {
  public:
   HeldAlong(const sim::Model& model, const Arguments& a)
       : m_hand(size_t(a[0].index)), m_stations(model, a[1].marks, a[2].number()) {}
-  Value value(const Moment& moment) const override {
-    const double s = m_stations.held_at(moment.state, m_hand);
+  Value value(const Snapshot& snapshot) const override {
+    const double s = m_stations.held_at(snapshot.state, m_hand);
     return s >= 0 ? Value(s) : kUnknown;
   }
 

@@ -11,15 +11,17 @@ class SeenShare final : public Observer {
  public:
   SeenShare(const sim::Model&, const Arguments& a)
       : m_marks(a[0].marks), m_time(std::lround(a[1].number() / sim::kTick)), m_looked(m_marks.size(), 0) {}
-  void sample(const Moment& moment, double dt) override {
+  void sample(const Snapshot& snapshot, double dt) override {
     const long passed = std::lround(dt / sim::kTick);
     for (size_t i = 0; i < m_marks.size(); ++i) {
       if (m_looked[i] >= m_time) continue;
-      m_looked[i] = sim::visible(moment.model, moment.state, m_marks[i]) ? m_looked[i] + passed : 0;
+      m_looked[i] = sim::visible(snapshot.model, snapshot.state, m_marks[i]) ? m_looked[i] + passed : 0;
       m_seen += m_looked[i] >= m_time;
     }
   }
-  Value value(const Moment&) const override { return m_marks.empty() ? 0.0 : double(m_seen) / double(m_marks.size()); }
+  Value value(const Snapshot&) const override {
+    return m_marks.empty() ? 0.0 : double(m_seen) / double(m_marks.size());
+  }
 
  private:
   std::vector<std::int32_t> m_marks;

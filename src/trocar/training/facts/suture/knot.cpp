@@ -8,12 +8,12 @@ namespace {
 class Knotted : public Observer {
  public:
   Knotted(const sim::Model&, const Arguments&) {}
-  void sample(const Moment& moment, double dt) override {
+  void sample(const Snapshot& snapshot, double dt) override {
     m_since += dt;
     if (m_since < kEvery) return;
     m_since = 0;
-    m_known.update(knot_of(moment.model, moment.state));
-    m_above = knot().count > 0 ? knot_above_tissue(moment.model, moment.state, knot()) : 0;
+    m_known.update(knot_of(snapshot.model, snapshot.state));
+    m_above = knot().count > 0 ? knot_above_tissue(snapshot.model, snapshot.state, knot()) : 0;
   }
 
  protected:
@@ -26,12 +26,12 @@ class Knotted : public Observer {
 class Throws final : public Knotted {
  public:
   using Knotted::Knotted;
-  Value value(const Moment&) const override { return double(knot().count); }
+  Value value(const Snapshot&) const override { return double(knot().count); }
 };
 class Turns final : public Knotted {
  public:
   Turns(const sim::Model& model, const Arguments& a) : Knotted(model, a), m_which(int(a[0].number())) {}
-  Value value(const Moment&) const override {
+  Value value(const Snapshot&) const override {
     if (m_which < 1 || m_which > knot().count) return kUnknown;
     const suture::KnotThrow& t = knot().throws[size_t(m_which - 1)];
     return double(t.turns * t.sign);
@@ -44,23 +44,23 @@ template <suture::KnotKind kind>
 class Is final : public Knotted {
  public:
   using Knotted::Knotted;
-  Value value(const Moment&) const override { return knot().kind == kind; }
+  Value value(const Snapshot&) const override { return knot().kind == kind; }
 };
 class Above final : public Knotted {
  public:
   using Knotted::Knotted;
-  Value value(const Moment&) const override { return knot().count > 0 ? Value(m_above) : kUnknown; }
+  Value value(const Snapshot&) const override { return knot().count > 0 ? Value(m_above) : kUnknown; }
 };
 class Tail final : public Knotted {
  public:
   using Knotted::Knotted;
-  Value value(const Moment&) const override {
+  Value value(const Snapshot&) const override {
     return knot().count > 0 ? Value(std::min(knot().tail, knot().standing)) : kUnknown;
   }
 };
 
-Value wrapped(const Moment& moment, const Arguments& a) {
-  return wraps_around(moment.model, moment.state, size_t(a[0].index));
+Value wrapped(const Snapshot& snapshot, const Arguments& a) {
+  return wraps_around(snapshot.model, snapshot.state, size_t(a[0].index));
 }
 
 }  // namespace

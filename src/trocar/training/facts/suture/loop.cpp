@@ -9,51 +9,51 @@
 namespace trocar::training {
 namespace {
 
-std::optional<LoopSeen> on_strand(const Moment& m, const Arguments& a) {
+std::optional<LoopSeen> on_strand(const Snapshot& m, const Arguments& a) {
   return loop_on(m.model, m.state, a[0].index, 0);
 }
 const sim::MarkModel& mark_of(const sim::Model& model, const Arguments& a) {
   return model.marks[size_t(model.targets[size_t(a[0].index)].index)];
 }
-Value closed(const Moment& m, const Arguments& a) {
+Value closed(const Snapshot& m, const Arguments& a) {
   const auto loop = on_strand(m, a);
   return loop && loop->closes();
 }
-Value secured(const Moment& m, const Arguments& a) {
+Value secured(const Snapshot& m, const Arguments& a) {
   const auto loop = on_strand(m, a);
   return loop && loop->closes() && loop->off;
 }
-Value at(const Moment& m, const Arguments& a) {
+Value at(const Snapshot& m, const Arguments& a) {
   const auto loop = on_strand(m, a);
   return loop ? Value(loop->closure.s) : kUnknown;
 }
-Value open_share(const Moment& m, const Arguments& a) {
+Value open_share(const Snapshot& m, const Arguments& a) {
   const auto loop = on_strand(m, a);
   return loop ? 1 - loop->closure.cover : 1.0;
 }
-Value stump(const Moment& m, const Arguments& a) {
+Value stump(const Snapshot& m, const Arguments& a) {
   const auto loop = on_strand(m, a);
   return loop && loop->stump < 1e8 ? Value(loop->stump) : kUnknown;
 }
-Value pull(const Moment& m, const Arguments& a) {
+Value pull(const Snapshot& m, const Arguments& a) {
   const auto loop = on_strand(m, a);
   return loop ? loop->pull : 0.0;
 }
-Value tension(const Moment& m, const Arguments& a) {
+Value tension(const Snapshot& m, const Arguments& a) {
   const auto loop = on_strand(m, a);
   return loop ? loop->tension : 0.0;
 }
-Value count(const Moment& m, const Arguments& a) {
+Value count(const Snapshot& m, const Arguments& a) {
   const SecuredLoops loops = secured_loops(m.model, m.state, a[0].index);
   const auto end = loops.at.begin() + loops.count;
   return double(std::count_if(loops.at.begin(), end, [&](double s) { return !a[1].given || a[1].holds(s); }));
 }
-Value nth_at(const Moment& m, const Arguments& a) {
+Value nth_at(const Snapshot& m, const Arguments& a) {
   const SecuredLoops loops = secured_loops(m.model, m.state, a[0].index);
   const int n = int(std::lround(a[1].number()));
   return n <= loops.count ? Value(loops.at[size_t(n) - 1]) : kUnknown;
 }
-Value to_mark(const Moment& m, const Arguments& a) {
+Value to_mark(const Snapshot& m, const Arguments& a) {
   const sim::MarkModel& mark = mark_of(m.model, a);
   const auto loop = loop_on(m.model, m.state, mark.body, mark.s);
   return loop ? Value(std::fabs(loop->closure.s - mark.s)) : kUnknown;

@@ -4,12 +4,12 @@
 namespace trocar::training {
 namespace {
 
-Value apart(const Moment& moment, const Arguments& a) {
+Value apart(const Snapshot& snapshot, const Arguments& a) {
   Vec3d at[2];
   for (int k = 0; k < 2; ++k) {
-    const sim::VisibilityTarget& t = moment.model.targets[size_t(a[size_t(k)].index)];
+    const sim::VisibilityTarget& t = snapshot.model.targets[size_t(a[size_t(k)].index)];
     if (t.kind != sim::VisibilityTarget::mark) return kUnknown;
-    at[k] = sim::pose_of(moment.model, moment.state, moment.model.marks[size_t(t.index)]).place;
+    at[k] = sim::pose_of(snapshot.model, snapshot.state, snapshot.model.marks[size_t(t.index)]).place;
   }
   return length(at[1] - at[0]);
 }

@@ -5,39 +5,41 @@
 namespace trocar::training {
 namespace {
 
-Value to_mark(const Moment& moment, const Arguments& a, bool entry) {
-  const double off = bite_to_mark(moment.model, moment.state, a[0].index, entry);
+Value to_mark(const Snapshot& snapshot, const Arguments& a, bool entry) {
+  const double off = bite_to_mark(snapshot.model, snapshot.state, a[0].index, entry);
   return off >= 0 ? Value(off) : kUnknown;
 }
-Value entry_to_mark(const Moment& moment, const Arguments& a) { return to_mark(moment, a, true); }
-Value exit_to_mark(const Moment& moment, const Arguments& a) { return to_mark(moment, a, false); }
-Value passages(const Moment& moment, const Arguments& a) { return double(passages_through(moment.state, a[0].body())); }
-Value peak(const Moment& moment, const Arguments&) { return suture_of(moment.state).peak; }
-Value strain(const Moment& moment, const Arguments&) { return suture_of(moment.state).strain; }
-Value torn(const Moment& moment, const Arguments&) { return double(suture_of(moment.state).torn); }
-Value clips(const Moment& moment, const Arguments&) { return double(suture_of(moment.state).thread.clip_count); }
+Value entry_to_mark(const Snapshot& snapshot, const Arguments& a) { return to_mark(snapshot, a, true); }
+Value exit_to_mark(const Snapshot& snapshot, const Arguments& a) { return to_mark(snapshot, a, false); }
+Value passages(const Snapshot& snapshot, const Arguments& a) {
+  return double(passages_through(snapshot.state, a[0].body()));
+}
+Value peak(const Snapshot& snapshot, const Arguments&) { return suture_of(snapshot.state).peak; }
+Value strain(const Snapshot& snapshot, const Arguments&) { return suture_of(snapshot.state).strain; }
+Value torn(const Snapshot& snapshot, const Arguments&) { return double(suture_of(snapshot.state).torn); }
+Value clips(const Snapshot& snapshot, const Arguments&) { return double(suture_of(snapshot.state).thread.clip_count); }
 /// Of the thread, from the clip that is nearest to tissue to where it goes in.
-Value clip_to_tissue(const Moment& moment, const Arguments&) {
-  const double off = clip_to_hole(suture_of(moment.state));
+Value clip_to_tissue(const Snapshot& snapshot, const Arguments&) {
+  const double off = clip_to_hole(suture_of(snapshot.state));
   return off >= 0 ? Value(off) : kUnknown;
 }
-Value broken(const Moment& moment, const Arguments&) { return suture_of(moment.state).broken != 0; }
-Value harmed(const Moment& moment, const Arguments&) {
-  const interactions::SutureState& s = suture_of(moment.state);
+Value broken(const Snapshot& snapshot, const Arguments&) { return suture_of(snapshot.state).broken != 0; }
+Value harmed(const Snapshot& snapshot, const Arguments&) {
+  const interactions::SutureState& s = suture_of(snapshot.state);
   for (int i = 0; i < s.bite_count; ++i)
     if (s.bites[size_t(i)].harmed) return true;
   return false;
 }
-Value holds_needle(const Moment& moment, const Arguments& a) {
-  return held_of_suture(moment.model, moment.state, size_t(a[0].index)) == 1;
+Value holds_needle(const Snapshot& snapshot, const Arguments& a) {
+  return held_of_suture(snapshot.model, snapshot.state, size_t(a[0].index)) == 1;
 }
-Value holds_thread(const Moment& moment, const Arguments& a) {
-  return held_of_suture(moment.model, moment.state, size_t(a[0].index)) == 2;
+Value holds_thread(const Snapshot& snapshot, const Arguments& a) {
+  return held_of_suture(snapshot.model, snapshot.state, size_t(a[0].index)) == 2;
 }
-Value in_view(const Moment& moment, const Arguments&) { return needle_in_picture(moment.model, moment.state); }
+Value in_view(const Snapshot& snapshot, const Arguments&) { return needle_in_picture(snapshot.model, snapshot.state); }
 /// Of the thread that is through tissue, from the swage to the nearest hole.
-Value drawn_through(const Moment& moment, const Arguments&) {
-  const interactions::SutureState& s = suture_of(moment.state);
+Value drawn_through(const Snapshot& snapshot, const Arguments&) {
+  const interactions::SutureState& s = suture_of(snapshot.state);
   double least = -1;
   for (int i = 0; i < s.hole_count; ++i) {
     const interactions::SutureHole& hole = s.holes[size_t(i)];

@@ -20,12 +20,12 @@ using interactions::Fat;
 /// An electrode from lobule to lobule, from the trocar's side inwards, each until it is gone; then back.
 class ClearFat final : public Skill {
  public:
-  ClearFat(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_fat(given("fat").body()),
-        m_bared(given("bare").bodies),
-        m_left(given.number("left_share", 0)),
-        m_most(int(given.number("most", 1000))) {}
+  ClearFat(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_fat(args("fat").body()),
+        m_bared(args("bare").bodies),
+        m_left(args.number("left_share", 0)),
+        m_most(int(args.number("most", 1000))) {}
 
  private:
   enum Phase { kAbove, kReach, kPress, kLift, kAway };
@@ -33,30 +33,30 @@ class ClearFat final : public Skill {
   // Of the metal from tubes [m]: farther than sparks jump when the pedal is down; a hot tip touches none.
   static constexpr double kSpark = 0.0017, kHot = 0.0005;
 
-  const interactions::FatBody& body(const Operator& op) const {
+  const interactions::FatBody& body(const Surgeon& op) const {
     return interactions::part_of<Fat>(op.model().objects).list[m_fat.index()];
   }
-  const interactions::FatBodyState& state(const Operator& op) const {
+  const interactions::FatBodyState& state(const Surgeon& op) const {
     return interactions::part_of<Fat>(op.state().objects)[m_fat.index()];
   }
-  Vec3d place(const Operator& op, int lobule) const { return position(body(op).fat, state(op).fat, lobule); }
-  bool gone(const Operator& op, int lobule) const { return state(op).fat.lobules[size_t(lobule)].gone(); }
+  Vec3d place(const Surgeon& op, int lobule) const { return position(body(op).fat, state(op).fat, lobule); }
+  bool gone(const Surgeon& op, int lobule) const { return state(op).fat.lobules[size_t(lobule)].gone(); }
 
-  void start(Operator& op, int) override {
+  void start(Surgeon& op, int) override {
     m_tried.assign(size_t(body(op).fat.lobules()), 0);
     m_lobule = -1;
     m_done = 0;
   }
 
   /// Is it to stay: on a tube that stays in its fat, or so near to another that hot metal would burn that?
-  bool spared(const Operator& op, Vec3d p) const {
+  bool spared(const Surgeon& op, Vec3d p) const {
     constexpr double kInItsFat = 0.0045, kOnIt = 0.0019;  // [m] of its middle from the tube
     return nearest_strand(op.model(), op.state(), p).apart < kOnIt ||
            nearest_strand(op.model(), op.state(), p, m_bared).apart < kInItsFat;
   }
 
   /// The outermost of those that have not been tried, near to where the hook is.
-  int next(Operator& op) {
+  int next(Surgeon& op) {
     constexpr double kNear = 1.5;     // what the way there counts beside the depth
     constexpr double kAstray = 0.03;  // [m] from where it was drawn: it has come off
     const Arms::Arm& arm = op.arm(m_hand);
@@ -74,14 +74,14 @@ class ClearFat final : public Skill {
   }
 
   /// Its bare metal: the wire's last millimetres, and the foot.
-  std::array<interactions::Capsule, 2> metal(const Operator& op) const {
+  std::array<interactions::Capsule, 2> metal(const Surgeon& op) const {
     const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), size_t(m_hand));
     interactions::Capsule wire = shape.part[interactions::kJawA];
     wire.a = wire.b - interactions::kBareWire * shape.frame.axis();
     return {wire, shape.part[interactions::kJawB]};
   }
   /// What the metal is at, if that is to go.
-  int at_metal(const Operator& op) const {
+  int at_metal(const Surgeon& op) const {
     for (const interactions::Capsule& rod : metal(op)) {
       const int n = interactions::lobule_at(body(op), state(op), rod);
       if (n >= 0 && !spared(op, place(op, n))) return n;
@@ -89,7 +89,7 @@ class ClearFat final : public Skill {
     return -1;
   }
   /// Is it at least so far off every tube?
-  bool off_tubes(const Operator& op, double apart) const {
+  bool off_tubes(const Surgeon& op, double apart) const {
     for (const interactions::Capsule& rod : metal(op))
       for (size_t i = 0; i < op.model().strand_bodies.size(); ++i) {
         const std::vector<Vec3d>& x = op.state().strands[i].x;
@@ -102,12 +102,12 @@ class ClearFat final : public Skill {
     return true;
   }
   /// Where the tip has to be for what is bare of it to lie there: half of the foot reaches beyond it.
-  Vec3d tip_for(const Operator& op, const Arms::Arm& arm, Vec3d place) const {
+  Vec3d tip_for(const Surgeon& op, const Arms::Arm& arm, Vec3d place) const {
     const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, place, arm.roll);
     return place - 0.5 * op.tool(m_hand).foot * kinematics::forward(arm.port, pose).opening();
   }
 
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     Arms::Arm& arm = op.arm(m_hand);
     op.want(arm.tip);
     if (m_phase == kAway) {
@@ -126,7 +126,7 @@ class ClearFat final : public Skill {
     return Progress::working;
   }
 
-  void work_at(Operator& op, Arms::Arm& arm) {
+  void work_at(Surgeon& op, Arms::Arm& arm) {
     constexpr double kTouches = 0.004;                    // [N]
     constexpr double kBefore = 0.006, kDeeper = 0.001;    // [m]
     constexpr double kFar = 2, kLongest = 3, kOff = 0.3;  // [s]
@@ -160,7 +160,7 @@ class ClearFat final : public Skill {
     }
   }
   /// Back from a tube, the way it came.
-  void lift(Operator& op) {
+  void lift(Surgeon& op) {
     constexpr double kBy = 0.005;  // [m]
     Arms::Arm& arm = op.arm(m_hand);
     arm.coagulating = false;
@@ -168,7 +168,7 @@ class ClearFat final : public Skill {
     go(kLift);
   }
   /// Goes on with what the wire is at; lifts it where there is no more, and off what does not go.
-  void press(Operator& op) {
+  void press(Surgeon& op) {
     const int was = m_lobule;
     m_lobule = at_metal(op);
     if (m_lobule == was && m_phase == kPress) return lift(op);
@@ -185,10 +185,10 @@ class ClearFat final : public Skill {
   std::vector<std::uint8_t> m_tried;  ///< (lobules)
 };
 
-std::string lacks_fat(const sim::Model& model, const Given& given) {
-  if (!given("fat").body().is(BodyKind::fat)) return "the body is not fat";
+std::string lacks_fat(const sim::Model& model, const SkillArgs& args) {
+  if (!args("fat").body().is(BodyKind::fat)) return "the body is not fat";
   if (!model.energy.there) return "the scene has no current";
-  return lacks_tool(model, given.hand(), &interactions::Abilities::coagulate);
+  return lacks_tool(model, args.hand(), &interactions::Abilities::coagulate);
 }
 
 }  // namespace

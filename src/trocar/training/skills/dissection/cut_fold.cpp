@@ -13,15 +13,15 @@ namespace {
 /// A fold divided along the strand that it carries, bite by bite from its far end on.
 class CutFold final : public Skill {
  public:
-  CutFold(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()),
-        m_fold(int(given("of").body().index())),
+  CutFold(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_fold(int(args("of").body().index())),
         m_strand(model.membranes[size_t(m_fold)].strand),
         m_columns(model, m_fold),
-        m_away(given.number("away_mm", 0.005)),
-        m_to(given.number("to_mm", 0)),
-        m_bite(given.number("bite_mm", 0.008)),
-        m_most(int(given.number("most", 40))) {}
+        m_away(args.number("away_mm", 0.005)),
+        m_to(args.number("to_mm", 0)),
+        m_bite(args.number("bite_mm", 0.008)),
+        m_most(int(args.number("most", 40))) {}
 
  private:
   enum Phase { kReach, kEnter, kClose, kOpen, kBack };
@@ -34,14 +34,14 @@ class CutFold final : public Skill {
                                        {0.003, 0.0012},  {0.003, 0.0024}, {-0.001, 0.0012}, {-0.002, 0.002},
                                        {0.0045, 0.0018}, {0.0045, 0.0032}};
 
-  void start(Operator& op, int) override {
+  void start(Surgeon& op, int) override {
     m_bites = m_vain = 0;
     m_column = -1;
     look(op);
   }
 
   /// The last column that is whole, and how many before it the blades shall reach over.
-  void look(Operator& op) {
+  void look(Surgeon& op) {
     const int before = m_column;
     m_column = -1;
     for (int c = 0; c < m_columns.count(); ++c)
@@ -54,10 +54,10 @@ class CutFold final : public Skill {
   bool is_last(int column) const { return column == 0 || m_columns.s(column - 1) < m_to; }
   bool goes_on(int column) const { return m_columns.s(column) >= m_to && !is_last(column); }
 
-  Vec3d at(Operator& op, int column) const { return m_columns.point(op.model(), op.state(), column, m_away); }
-  Vec3d middle(Operator& op) const { return 0.5 * (at(op, m_column) + at(op, m_inner)); }
+  Vec3d at(Surgeon& op, int column) const { return m_columns.point(op.model(), op.state(), column, m_away); }
+  Vec3d middle(Surgeon& op) const { return 0.5 * (at(op, m_column) + at(op, m_inner)); }
   /// From the strand to the root: the blades close across that.
-  Vec3d across(Operator& op) const {
+  Vec3d across(Surgeon& op) const {
     constexpr double kAround = 0.003;  // [m]
     const Vec3d near = m_columns.point(op.model(), op.state(), m_column, m_away - kAround);
     const Vec3d far = m_columns.point(op.model(), op.state(), m_column, m_away + kAround);
@@ -65,7 +65,7 @@ class CutFold final : public Skill {
   }
 
   /// To where it lay before the blades touched it: what they push they would never catch up with.
-  bool aim(Operator& op, double back, double speed) const {
+  bool aim(Surgeon& op, double back, double speed) const {
     // a bite in vain is made again a little deeper, then a little less deep
     constexpr double kInside = 0.62, kAtTips = 0.88, kElsewhere[] = {0, -0.12, 0.12, -0.24};
     const double share = m_at_last ? kAtTips : kInside + kElsewhere[m_vain % 4];
@@ -74,7 +74,7 @@ class CutFold final : public Skill {
                   back + beside.back, speed);
   }
 
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     constexpr int kInVain = 8;
     constexpr double kLooks = 0.2, kUnseen = 3.5;  // [s] at what has been divided; to wait for the camera
     if (m_column < 0) return m_in_phase > kLooks ? Progress::done : Progress::working;
@@ -107,7 +107,7 @@ class CutFold final : public Skill {
 
   /// Whether the blades close here. Where something else lies between them another place is tried; where there is none
   /// that is free, the one where they would nick least of what the fold hangs on, but never an organ.
-  void look_beside(Operator& op) {
+  void look_beside(Surgeon& op) {
     constexpr double kMisses = 2, kUnseen = 0.3;  // as bad as nicking so much of the strand
     const interactions::ToolModel& tool = op.tool(m_hand);
     const interactions::ToolShape shape = sim::shape_of(op.model(), op.state(), size_t(m_hand));
@@ -122,7 +122,7 @@ class CutFold final : public Skill {
     m_beside = size_t(std::max(0, m_least_bad));
     go(m_settled ? kEnter : kBack);
   }
-  bool crosses_column(const Operator& op, const geometry::Blade& blade) const {
+  bool crosses_column(const Surgeon& op, const geometry::Blade& blade) const {
     constexpr double kStep = 0.001, kDeepest = 0.02;  // [m] from the strand
     const geometry::BladePlane plane(blade);
     Vec3d from = m_columns.point(op.model(), op.state(), m_column, 0);
@@ -134,7 +134,7 @@ class CutFold final : public Skill {
     return false;
   }
 
-  Progress reach(Operator& op) {
+  Progress reach(Surgeon& op) {
     m_at = middle(op);
     m_across = across(op);
     m_at_last = is_last(m_column);
@@ -149,7 +149,7 @@ class CutFold final : public Skill {
   }
 
   /// Out of what was cut before the next bite is looked for.
-  Progress back(Operator& op) {
+  Progress back(Surgeon& op) {
     Arms::Arm& arm = op.arm(m_hand);
     if (m_in_phase < 1.5 * sim::kTick) m_from = arm.tip;
     const bool away = op.arms().move(m_hand, m_from + kBefore * normalised(arm.port - m_from), pace::kCareful);
@@ -172,9 +172,9 @@ class CutFold final : public Skill {
   std::size_t m_beside = 0;  ///< of kBeside
 };
 
-std::string lacks_fold(const sim::Model& model, const Given& given) {
-  if (!FoldColumns::there(model, given("of").body())) return "the body is not a fold that hangs on a strand";
-  return lacks_tool(model, given.hand(), &interactions::Abilities::cut);
+std::string lacks_fold(const sim::Model& model, const SkillArgs& args) {
+  if (!FoldColumns::there(model, args("of").body())) return "the body is not a fold that hangs on a strand";
+  return lacks_tool(model, args.hand(), &interactions::Abilities::cut);
 }
 
 }  // namespace

@@ -11,19 +11,19 @@ namespace {
 /// Draws what is held, no harder than it shall, and keeps the jaws where that has come to.
 class Draw final : public Skill {
  public:
-  Draw(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_direction(patient_direction(given("towards").word)),
-        m_far(given.number("by_mm", 0.02)),
-        m_speed(given.number("speed_mm_s", 0.008)),
-        m_most(given.number("pull_N", 3)) {}
+  Draw(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_direction(patient_direction(args("towards").word)),
+        m_far(args.number("by_mm", 0.02)),
+        m_speed(args.number("speed_mm_s", 0.008)),
+        m_most(args.number("pull_N", 3)) {}
 
  private:
-  void start(Operator& op, int) override {
+  void start(Surgeon& op, int) override {
     m_from = op.arm(m_hand).tip;
     m_way = 0;
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     Arms::Arm& arm = op.arm(m_hand);
     op.want(arm.tip);
     if (op.tool_state(m_hand).holds == 0) return fail("it slipped out of the jaws");

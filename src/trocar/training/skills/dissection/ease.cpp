@@ -8,15 +8,15 @@ namespace {
 /// Follows what pulls at the jaws until it hardly does: what was drawn tight goes slack.
 class Ease final : public Skill {
  public:
-  Ease(const sim::Model&, const Given& given)
-      : m_hand(given.hand()), m_far(given.number("by_mm", 0.03)), m_least(given.number("pull_N", 0.3)) {}
+  Ease(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()), m_far(args.number("by_mm", 0.03)), m_least(args.number("pull_N", 0.3)) {}
 
  private:
-  void start(Operator& op, int) override {
+  void start(Surgeon& op, int) override {
     m_at = op.arm(m_hand).tip;
     m_way = 0;
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     constexpr double kSpeed = 0.012;  // [m/s]
     op.want(op.arm(m_hand).tip);
     const interactions::ToolState& tool = op.tool_state(m_hand);

@@ -26,11 +26,11 @@ Vec3d out_of_skin(const tissue::NodeView& nodes, const tissue::Skin& skin, int v
 /// lies along what the bonds are rooted in: it neither digs into that nor catches what is drawn off it.
 class PartBonds final : public Skill {
  public:
-  PartBonds(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()),
-        m_set(model.bonds_index(given("bonds").word)),
-        m_left(given.number("left_share", 0)),
-        m_raw(given.says("also", "raw")) {}
+  PartBonds(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_set(model.bonds_index(args("bonds").word)),
+        m_left(args.number("left_share", 0)),
+        m_raw(args.equals("also", "raw")) {}
 
  private:
   enum Phase { kAbove, kReach, kPress, kAway, kOff };
@@ -39,7 +39,7 @@ class PartBonds final : public Skill {
     Vec3d foot, node;
     Vec3d up;  ///< off what it is rooted in
   };
-  Spot spot(const Operator& op, const interactions::Bond& bond) const {
+  Spot spot(const Surgeon& op, const interactions::Bond& bond) const {
     const sim::Model& m = op.model();
     const sim::MembraneBody& wall = m.membranes[size_t(m.bonds[size_t(m_set)].membrane)];
     const Vec3d node = tissue::position(
@@ -57,7 +57,7 @@ class PartBonds final : public Skill {
   bool wanted(const interactions::BondState& s) const { return s.holds() || (m_raw && s.raw()); }
 
   /// The one that is drawn open most, of those that have not been tried since all were; -1: there is none.
-  int next(const Operator& op) {
+  int next(const Surgeon& op) {
     const std::vector<interactions::Bond>& bonds = op.model().bonds[size_t(m_set)].bonds;
     int best = -1;
     double most = -1;
@@ -73,7 +73,7 @@ class PartBonds final : public Skill {
       m_tried[size_t(best)] = 1;
     return best;
   }
-  bool enough(const Operator& op) const {
+  bool enough(const Surgeon& op) const {
     const std::vector<interactions::BondState>& states = op.state().bonds[size_t(m_set)];
     if (m_raw)
       for (const interactions::BondState& s : states)
@@ -81,11 +81,11 @@ class PartBonds final : public Skill {
     return interactions::holding_share(op.model().bonds[size_t(m_set)], states) <= m_left;
   }
 
-  void start(Operator& op, int) override {
+  void start(Surgeon& op, int) override {
     m_tried.assign(op.model().bonds[size_t(m_set)].bonds.size(), 0);
     m_bond = -1;
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     Arms::Arm& arm = op.arm(m_hand);
     op.want(arm.tip);
     if (m_bond < 0 && m_phase != kOff && (enough(op) || (m_bond = next(op)) < 0)) {
@@ -98,11 +98,11 @@ class PartBonds final : public Skill {
     return Progress::working;
   }
   /// Where the tip has to be for what is bare of it to lie on a place: half of the foot reaches beyond it.
-  Vec3d tip_for(Operator& op, const Arms::Arm& arm, Vec3d place) const {
+  Vec3d tip_for(Surgeon& op, const Arms::Arm& arm, Vec3d place) const {
     const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, place, arm.roll);
     return place - 0.5 * op.tool(m_hand).foot * kinematics::forward(arm.port, pose).opening();
   }
-  void work_at(Operator& op, Arms::Arm& arm, const Spot& at) {
+  void work_at(Surgeon& op, Arms::Arm& arm, const Spot& at) {
     constexpr double kTouches = 0.25;                    // [N] tissue that is pushed gives way
     constexpr double kBefore = 0.010, kDeeper = 0.0015;  // [m]
     constexpr double kFar = 4, kTouch = 0.15, kLongest = 1.2, kEvery = 0.4, kOffIt = 0.1;  // [s]
@@ -137,10 +137,10 @@ class PartBonds final : public Skill {
   std::vector<std::uint8_t> m_tried;  ///< (bonds)
 };
 
-std::string lacks_bonds(const sim::Model& model, const Given& given) {
-  if (model.bonds_index(given("bonds").word) < 0) return fmt::format("there are no bonds \"{}\"", given("bonds").word);
+std::string lacks_bonds(const sim::Model& model, const SkillArgs& args) {
+  if (model.bonds_index(args("bonds").word) < 0) return fmt::format("there are no bonds \"{}\"", args("bonds").word);
   if (!model.energy.there) return "the scene has no current";
-  return lacks_tool(model, given.hand(), &interactions::Abilities::coagulate);
+  return lacks_tool(model, args.hand(), &interactions::Abilities::coagulate);
 }
 
 }  // namespace

@@ -13,14 +13,14 @@ using interactions::Fat;
 /// Jaws take fat beside where it still holds on a body, draw it off, and let it go.
 class PeelFat final : public Skill {
  public:
-  PeelFat(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()),
-        m_fat(given("fat").body().index()),
-        m_off(given("off").body()),
-        m_way(patient_direction(given("towards").word)),
-        m_far(given.number("by_mm", 0.02)),
-        m_speed(given.number("speed_mm_s", 0.005)),
-        m_most(given.number("pull_N", 2)),
+  PeelFat(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_fat(args("fat").body().index()),
+        m_off(args("off").body()),
+        m_way(patient_direction(args("towards").word)),
+        m_far(args.number("by_mm", 0.02)),
+        m_speed(args.number("speed_mm_s", 0.005)),
+        m_most(args.number("pull_N", 2)),
         m_tied(std::size_t(interactions::part_of<Fat>(model.objects).list[m_fat].fat.lobules())) {}
 
  private:
@@ -32,16 +32,16 @@ class PeelFat final : public Skill {
     int lobule = -1;  ///< to be taken
     double near = 0;  ///< of the place where it holds to the trocar [m]
   };
-  const interactions::FatBody& body(const Operator& op) const {
+  const interactions::FatBody& body(const Surgeon& op) const {
     return interactions::part_of<Fat>(op.model().objects).list[m_fat];
   }
-  const interactions::FatBodyState& state(const Operator& op) const {
+  const interactions::FatBodyState& state(const Surgeon& op) const {
     return interactions::part_of<Fat>(op.state().objects)[m_fat];
   }
-  Vec3d place(const Operator& op, int lobule) const { return position(body(op).fat, state(op).fat, lobule); }
+  Vec3d place(const Surgeon& op, int lobule) const { return position(body(op).fat, state(op).fat, lobule); }
 
   /// Which lobules hold on the body itself.
-  void note_tied(const Operator& op) {
+  void note_tied(const Surgeon& op) {
     std::fill(m_tied.begin(), m_tied.end(), std::uint8_t(0));
     const interactions::FatBody& b = body(op);
     for (std::size_t i = 0; i < b.ties.size(); ++i)
@@ -55,7 +55,7 @@ class PeelFat final : public Skill {
     }
   }
   /// Of each such lobule the neighbour that does not: what is drawn to draw that off. Nearest to the trocar first.
-  std::vector<Hold> holds(const Operator& op, Vec3d port) {
+  std::vector<Hold> holds(const Surgeon& op, Vec3d port) {
     note_tied(op);
     std::vector<Hold> found;
     const interactions::FatBody& b = body(op);
@@ -72,13 +72,13 @@ class PeelFat final : public Skill {
   }
 
   /// After each failure another one.
-  void start(Operator& op, int tries) override {
+  void start(Surgeon& op, int tries) override {
     constexpr std::size_t kApart = 5;
     const std::vector<Hold> all = holds(op, op.arm(m_hand).port);
     m_lobule = all.empty() ? -1 : all[std::size_t(tries) * kApart % all.size()].lobule;
     m_drawn = 0;
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     Arms::Arm& arm = op.arm(m_hand);
     if (m_lobule < 0) return Progress::done;
     op.want(arm.tip);
@@ -109,7 +109,7 @@ class PeelFat final : public Skill {
     }
     return Progress::working;
   }
-  void draw(Operator& op) {
+  void draw(Surgeon& op) {
     if (op.tool_state(m_hand).holds == 0 || m_in_phase > kLongest[kDraw]) return go(kOpen);
     if (norm(op.tool_state(m_hand).pull) < m_most) m_drawn = std::min(m_drawn + m_speed * sim::kTick, m_far);
     if (op.arms().move(m_hand, m_from + m_drawn * m_way, pace::kCareful) && m_drawn >= m_far) go(kOpen);
@@ -124,9 +124,9 @@ class PeelFat final : public Skill {
   std::vector<std::uint8_t> m_tied;  ///< (lobules)
 };
 
-std::string lacks_peeling(const sim::Model& model, const Given& given) {
-  if (!given("fat").body().is(BodyKind::fat)) return "the body to peel is not fat";
-  return lacks_tool(model, given.hand(), &interactions::Abilities::grip);
+std::string lacks_peeling(const sim::Model& model, const SkillArgs& args) {
+  if (!args("fat").body().is(BodyKind::fat)) return "the body to peel is not fat";
+  return lacks_tool(model, args.hand(), &interactions::Abilities::grip);
 }
 
 }  // namespace

@@ -14,27 +14,27 @@ using interactions::Fat;
 /// Jaws take fat off strands, bite by bite: they open along the tube, close on what lies on it, and draw it off.
 class StripFat final : public Skill {
  public:
-  StripFat(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_fat(given("fat").body()),
-        m_off(given("off").bodies),
-        m_about(given.number("about_mm", 0.0025)),
-        m_far(given.number("by_mm", 0.012)),
-        m_hardest(given.number("pull_N", 1)),
-        m_most(int(given.number("most", 1000))) {}
+  StripFat(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_fat(args("fat").body()),
+        m_off(args("off").bodies),
+        m_about(args.number("about_mm", 0.0025)),
+        m_far(args.number("by_mm", 0.012)),
+        m_hardest(args.number("pull_N", 1)),
+        m_most(int(args.number("most", 1000))) {}
 
  private:
   enum Phase { kChoose, kAbove, kReach, kClose, kDraw, kOpen, kAway };
 
-  const interactions::FatBody& body(const Operator& op) const {
+  const interactions::FatBody& body(const Surgeon& op) const {
     return interactions::part_of<Fat>(op.model().objects).list[m_fat.index()];
   }
-  const tissue::FatState& state(const Operator& op) const {
+  const tissue::FatState& state(const Surgeon& op) const {
     return interactions::part_of<Fat>(op.state().objects)[m_fat.index()].fat;
   }
 
   /// What the jaws did not get hold of is not tried again for the same goal.
-  void start(Operator& op, int tries) override {
+  void start(Surgeon& op, int tries) override {
     const size_t lobules = size_t(body(op).fat.lobules());
     if (tries == 0 || m_missed.size() != lobules) m_missed.assign(lobules, 0);
     m_tried = m_missed;
@@ -43,7 +43,7 @@ class StripFat final : public Skill {
   }
 
   /// Would the instrument strike another hand's on its way there?
-  bool is_barred(const Operator& op, Vec3d place) const {
+  bool is_barred(const Surgeon& op, Vec3d place) const {
     constexpr double kRoom = 0.006;  // [m] for half a shaft and a hand that is not quite steady
     for (int h = 0; h < int(hands(op.model())); ++h) {
       if (h == m_hand) continue;
@@ -57,7 +57,7 @@ class StripFat final : public Skill {
   }
 
   /// The outermost of those about one of the strands, near to where the jaws are.
-  int next(Operator& op) {
+  int next(Surgeon& op) {
     constexpr double kAstray = 0.012;  // [m] from where it was drawn: it has come off
     constexpr double kNear = 1.5;      // what the way there counts beside the depth
     const Arms::Arm& arm = op.arm(m_hand);
@@ -77,7 +77,7 @@ class StripFat final : public Skill {
     return best;
   }
 
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     Arms::Arm& arm = op.arm(m_hand);
     op.want(arm.tip);
     if (m_lobule >= 0) m_at = position(body(op).fat, state(op), m_lobule), op.want(m_at);
@@ -107,7 +107,7 @@ class StripFat final : public Skill {
     return Progress::working;
   }
 
-  void choose(Operator& op) {
+  void choose(Surgeon& op) {
     m_lobule = m_bites < m_most ? next(op) : -1;
     if (m_lobule < 0) return go(kAway);
     m_tried[size_t(m_lobule)] = 1;
@@ -119,11 +119,11 @@ class StripFat final : public Skill {
     go(kAbove);
   }
   /// Jaws that open along the tube close on what lies on it, not around it.
-  bool turned(Operator& op, const Arms::Arm& arm) {
+  bool turned(Surgeon& op, const Arms::Arm& arm) {
     return op.arms().turn_across(m_hand, cross(m_along, normalised(m_at - arm.port)));
   }
   /// Beyond the lobule, so that it lies between the jaws, but with the tips off every tube.
-  Vec3d goal(const Operator& op) const {
+  Vec3d goal(const Surgeon& op) const {
     constexpr double kDeepest = 0.004, kStride = 0.0005, kOff = 0.0012;  // [m]
     const Vec3d along = normalised(m_at - op.arm(m_hand).port);
     for (double deep = kDeepest; deep > 0; deep -= kStride)
@@ -131,20 +131,20 @@ class StripFat final : public Skill {
     return m_at;
   }
 
-  void above(Operator& op, Arms::Arm& arm) {
+  void above(Surgeon& op, Arms::Arm& arm) {
     constexpr double kBefore = 0.006, kLongest = 2.5;  // [m] [s]
     const Vec3d along = normalised(m_at - arm.port);
     const bool open = op.arms().grip(m_hand, kSpread, 0.4), ready = turned(op, arm);
     if ((op.arms().move(m_hand, goal(op) - kBefore * along, pace::kTravel) && open && ready) || m_in_phase > kLongest)
       go(kReach);
   }
-  void reach(Operator& op, Arms::Arm& arm) {
+  void reach(Surgeon& op, Arms::Arm& arm) {
     constexpr double kPressed = 0.4, kLongest = 1.5;  // [N] [s]
     turned(op, arm);
     const bool pressed = norm(op.tool_state(m_hand).contact_force) > kPressed;
     if (op.arms().move(m_hand, goal(op), pace::kCareful) || pressed || m_in_phase > kLongest) go(kClose);
   }
-  void close(Operator& op) {
+  void close(Surgeon& op) {
     constexpr double kFeels = 0.15;  // [s]
     if (!op.arms().grip(m_hand, kClosed, 0.35)) return;
     m_steady += sim::kTick;
@@ -155,13 +155,13 @@ class StripFat final : public Skill {
     if (!taken) m_missed[size_t(m_lobule)] = 1;
     go(taken ? kDraw : kOpen);
   }
-  bool takes_fat_alone(const Operator& op) const {
+  bool takes_fat_alone(const Surgeon& op) const {
     const interactions::ToolState& tool = op.tool_state(m_hand);
     return tool.holds > 0 && std::all_of(tool.hold, tool.hold + tool.holds,
                                          [&](const interactions::Hold& hold) { return hold.body == m_fat; });
   }
   /// Off the tube and back towards the trocar, no harder than it shall.
-  void draw(Operator& op) {
+  void draw(Surgeon& op) {
     constexpr double kSpeed = 0.03, kLongest = 3;  // [m/s] [s]
     const Arms::Arm& arm = op.arm(m_hand);
     const interactions::ToolState& tool = op.tool_state(m_hand);
@@ -183,9 +183,9 @@ class StripFat final : public Skill {
   std::vector<std::uint8_t> m_tried, m_missed;  ///< (lobules)
 };
 
-std::string lacks_strip(const sim::Model& model, const Given& given) {
-  if (!given("fat").body().is(BodyKind::fat)) return "the body is not fat";
-  return lacks_tool(model, given.hand(), &interactions::Abilities::grip);
+std::string lacks_strip(const sim::Model& model, const SkillArgs& args) {
+  if (!args("fat").body().is(BodyKind::fat)) return "the body is not fat";
+  return lacks_tool(model, args.hand(), &interactions::Abilities::grip);
 }
 
 }  // namespace

@@ -15,18 +15,18 @@ namespace {
 /// they take what lies barest near there, and nothing else will do.
 class TakeHold final : public Skill {
  public:
-  TakeHold(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()),
-        m_place(model, given),
-        m_wall(given("wall").given ? model.membrane_index(given("wall").word) : -1),
-        m_deep(given.number("deep_mm", 0.004)),
-        m_closed(given.number("to", 0.95)) {}
+  TakeHold(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_place(model, args),
+        m_wall(args("wall").given ? model.membrane_index(args("wall").word) : -1),
+        m_deep(args.number("deep_mm", 0.004)),
+        m_closed(args.number("to", 0.95)) {}
 
  private:
   enum Phase { kReach, kEnter, kClose };
 
   /// After each failure somewhere else beside it.
-  void start(Operator& op, int tries) override {
+  void start(Surgeon& op, int tries) override {
     constexpr double kBeside = 0.004;  // [m]
     if (tries == 0) m_missed.clear();
     if (m_wall >= 0)
@@ -34,18 +34,18 @@ class TakeHold final : public Skill {
                             m_missed);
     m_beside = kBeside * Vec3d{double(tries % 3) - (tries > 0 ? 1.0 : 0.0), double((tries / 3) % 3), 0};
   }
-  Vec3d goal(Operator& op) const {
+  Vec3d goal(Surgeon& op) const {
     if (m_wall < 0) return m_place.point(op, m_hand) + m_beside;
     return tissue::position(op.model().membranes[size_t(m_wall)].sheet.network,
                             op.state().membranes[size_t(m_wall)].network, m_node);
   }
-  bool is_taken(const Operator& op) const {
+  bool is_taken(const Surgeon& op) const {
     const interactions::ToolState& tool = op.tool_state(m_hand);
     if (m_wall < 0) return tool.holds > 0;
     return std::any_of(tool.hold, tool.hold + tool.holds,
                        [&](const interactions::Hold& h) { return h.body == BodyId::membrane(size_t(m_wall)); });
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     constexpr double kPressed = 0.8, kLongest = 4, kFeels = 1.2;  // [N] [s] [s]
     if (m_wall >= 0 && m_node < 0) return fail("no part of it is exposed");
     Arms::Arm& arm = op.arm(m_hand);
@@ -74,10 +74,10 @@ class TakeHold final : public Skill {
   std::vector<int> m_missed;  ///< nodes of the wall
 };
 
-std::string lacks_wall_or_place(const sim::Model& model, const Given& given) {
-  if (given("wall").given && model.membrane_index(given("wall").word) < 0)
-    return fmt::format("there is no wall \"{}\"", given("wall").word);
-  return Place::lacks(model, given);
+std::string lacks_wall_or_place(const sim::Model& model, const SkillArgs& args) {
+  if (args("wall").given && model.membrane_index(args("wall").word) < 0)
+    return fmt::format("there is no wall \"{}\"", args("wall").word);
+  return Place::lacks(model, args);
 }
 
 }  // namespace

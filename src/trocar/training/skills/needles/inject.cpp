@@ -7,7 +7,7 @@
 namespace trocar::training {
 namespace {
 
-const sim::NeedleHand& needle_in(const Operator& op, int hand) { return op.state().injection.hands[size_t(hand)]; }
+const sim::NeedleHand& needle_in(const Surgeon& op, int hand) { return op.state().injection.hands[size_t(hand)]; }
 
 /// The skin's vertex that was drawn nearest to a place.
 int vertex_near(const tissue::Skin& skin, Vec3d place) {
@@ -25,9 +25,9 @@ int vertex_near(const tissue::Skin& skin, Vec3d place) {
 /// To before a place of an organ, then along the shaft through its skin, and as deep as it shall be.
 class Pierce final : public Skill {
  public:
-  Pierce(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()), m_organ(given("of").body()), m_depth(given.number("depth_mm", 0.003)) {
-    const Vec3d at{given.number("x_mm", 0), given.number("y_mm", 0), given.number("z_mm", 0)};
+  Pierce(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()), m_organ(args("of").body()), m_depth(args.number("depth_mm", 0.003)) {
+    const Vec3d at{args.number("x_mm", 0), args.number("y_mm", 0), args.number("z_mm", 0)};
     m_vertex = vertex_near(model.solids[m_organ.index()].skin, at);
   }
 
@@ -35,18 +35,18 @@ class Pierce final : public Skill {
   enum Phase { kReach, kOut, kIn, kSettle };
   static constexpr double kBefore = 0.012;  // [m] of the point from the skin
 
-  void start(Operator& op, int tries) override {
+  void start(Surgeon& op, int tries) override {
     Skill::start(op, tries);
     m_still = 0;
     if (needle_in(op, m_hand).in()) go(kSettle);
   }
 
-  Vec3d place(const Operator& op) const {
+  Vec3d place(const Surgeon& op) const {
     return tissue::skin_point(sim::nodes_of(op.model(), op.state(), int(m_organ.index())),
                               op.model().solids[m_organ.index()].skin, m_vertex);
   }
 
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     constexpr double kLongest = 20, kPush = 0.006, kSlow = 0.003, kNearly = 0.0004, kRest = 0.4;  // [s] [m/s] [m] [s]
     Arms::Arm& arm = op.arm(m_hand);
     const sim::NeedleHand& needle = needle_in(op, m_hand);
@@ -95,10 +95,10 @@ class Pierce final : public Skill {
 /// The plunger is drawn: does blood come?
 class Aspirate final : public Skill {
  public:
-  Aspirate(const sim::Model&, const Given& given) : m_hand(given.hand()), m_for(given.number("for_s", 1.5)) {}
+  Aspirate(const sim::Model&, const SkillArgs& args) : m_hand(args.hand()), m_for(args.number("for_s", 1.5)) {}
 
  private:
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     Arms::Arm& arm = op.arm(m_hand);
     op.want(needle_in(op, m_hand).at);
     arm.sucking = m_in_phase < m_for;
@@ -115,14 +115,14 @@ class Aspirate final : public Skill {
 /// The plunger is pressed until so much has flowed, or nothing is left.
 class Inject final : public Skill {
  public:
-  Inject(const sim::Model&, const Given& given) : m_hand(given.hand()), m_volume(given.number("volume_mL", 5e-6)) {}
+  Inject(const sim::Model&, const SkillArgs& args) : m_hand(args.hand()), m_volume(args.number("volume_mL", 5e-6)) {}
 
  private:
-  void start(Operator& op, int tries) override {
+  void start(Surgeon& op, int tries) override {
     Skill::start(op, tries);
     m_left = needle_in(op, m_hand).left;
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     Arms::Arm& arm = op.arm(m_hand);
     const sim::NeedleHand& needle = needle_in(op, m_hand);
     op.want(needle.at);
@@ -138,17 +138,17 @@ class Inject final : public Skill {
 /// Out of the tissue along the shaft, and the needle into it.
 class DrawOut final : public Skill {
  public:
-  DrawOut(const sim::Model&, const Given& given) : m_hand(given.hand()) {}
+  DrawOut(const sim::Model&, const SkillArgs& args) : m_hand(args.hand()) {}
 
  private:
   static constexpr double kBack = 0.03;  // [m]
-  void start(Operator& op, int tries) override {
+  void start(Surgeon& op, int tries) override {
     Skill::start(op, tries);
     const Arms::Arm& arm = op.arm(m_hand);
     m_to = length(arm.tip - arm.port) - kBack;
     m_at = needle_in(op, m_hand).at;
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     op.want(m_at);
     const bool back = op.arms().move_to_depth(m_hand, m_to, pace::kCareful);
     const bool in = needle_in(op, m_hand).in() || op.arms().grip(m_hand, 1, 0.5);
@@ -159,15 +159,15 @@ class DrawOut final : public Skill {
   Vec3d m_at;
 };
 
-std::string lacks_needle(const sim::Model& model, const Given& given) {
-  return lacks_tool(model, given.hand(), &interactions::Abilities::inject);
+std::string lacks_needle(const sim::Model& model, const SkillArgs& args) {
+  return lacks_tool(model, args.hand(), &interactions::Abilities::inject);
 }
-std::string lacks_pierced_organ(const sim::Model& model, const Given& given) {
-  const BodyId body = given("of").body();
+std::string lacks_pierced_organ(const sim::Model& model, const SkillArgs& args) {
+  const BodyId body = args("of").body();
   if (!body.is(BodyKind::organ) || body.index() >= model.injection.organs.size() ||
       !(model.injection.organs[body.index()].puncture > 0))
     return "the body is not an organ that a needle can enter";
-  return lacks_needle(model, given);
+  return lacks_needle(model, args);
 }
 
 }  // namespace

@@ -19,18 +19,18 @@ namespace {
 /// closes them, and opens them again before it lifts anything else.
 class RunAlong final : public Skill {
  public:
-  RunAlong(const sim::Model& model, const Given& given)
-      : m_side{given("stations").marks, given("others").marks},
-        m_stations(model, m_side[0], given.number("spacing_mm", 0.01)),
-        m_spacing(given.number("spacing_mm", 0.01)),
-        m_hands{given.hand(), given("other_hand").index},
-        m_first(given.number("from_mm", 0.02)),
-        m_to(given.number("to_mm", 0.3)),
-        m_step(given.number("step_mm", 0.06)),
-        m_lift(given.number("lift_mm", 0.035)),
-        m_most(given.number("pull_N", 2)),
-        m_look(given.number("look_s", 0.3)),
-        m_deep(given.number("deep_mm", 0.008)) {
+  RunAlong(const sim::Model& model, const SkillArgs& args)
+      : m_side{args("stations").marks, args("others").marks},
+        m_stations(model, m_side[0], args.number("spacing_mm", 0.01)),
+        m_spacing(args.number("spacing_mm", 0.01)),
+        m_hands{args.hand(), args("other_hand").index},
+        m_first(args.number("from_mm", 0.02)),
+        m_to(args.number("to_mm", 0.3)),
+        m_step(args.number("step_mm", 0.06)),
+        m_lift(args.number("lift_mm", 0.035)),
+        m_most(args.number("pull_N", 2)),
+        m_look(args.number("look_s", 0.3)),
+        m_deep(args.number("deep_mm", 0.008)) {
     for (auto& looked : m_looked) looked.assign(m_side[0].size(), 0.0);
   }
 
@@ -42,10 +42,10 @@ class RunAlong final : public Skill {
     Vec3d middle, out, along;  ///< [m]; unit, away from its mesentery; unit, onwards
     double radius = 0;         ///< [m]
   };
-  Vec3d side(const Operator& op, size_t which, int station) const {
+  Vec3d side(const Surgeon& op, size_t which, int station) const {
     return place_of_mark(op.model(), op.state(), m_side[which][size_t(station)]);
   }
-  Place place(const Operator& op, double s) const {
+  Place place(const Surgeon& op, double s) const {
     const int last = int(m_side[0].size()) - 1;
     const int k = std::clamp(int(s / m_spacing + 0.5) - 1, 0, last);
     const Vec3d a = side(op, 0, k), b = side(op, 1, k);
@@ -63,7 +63,7 @@ class RunAlong final : public Skill {
   }
 
   /// It goes on from what is held: a run that was interrupted is taken up again.
-  void start(Operator& op, int tries) override {
+  void start(Surgeon& op, int tries) override {
     m_offset = tries;
     const double held0 = m_stations.held_at(op.state(), size_t(m_hands[0]));
     const double held1 = m_stations.held_at(op.state(), size_t(m_hands[1]));
@@ -79,7 +79,7 @@ class RunAlong final : public Skill {
     m_way_in = -1;
   }
 
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     note_looks(op);
     const int hand = m_hands[size_t(m_taker)], holder = m_hands[size_t(1 - m_taker)];
     if (m_phase != kLetGo) give_way(op, holder);
@@ -103,7 +103,7 @@ class RunAlong final : public Skill {
   static constexpr double kTooHard = 1.25;  // of what it may pull
 
   /// A hand that pulls too hard follows what it holds, at once where that is near to what tears it.
-  void give_way(Operator& op, int hand) const {
+  void give_way(Surgeon& op, int hand) const {
     constexpr double kAhead = 0.01, kMuchTooHard = 1.6;  // [m], of what it may pull
     const interactions::ToolState& tool = op.tool_state(hand);
     const double pull = norm(tool.pull);
@@ -113,19 +113,19 @@ class RunAlong final : public Skill {
                    pull < kMuchTooHard * m_most ? pace::kCareful : pace::kTravel);
   }
   /// From a tip of this hand's to the other instrument [m].
-  double way_from_other(const Operator& op, int hand, Vec3d tip) const {
+  double way_from_other(const Surgeon& op, int hand, Vec3d tip) const {
     const Arms::Arm& other = op.arm(m_hands[0] == hand ? m_hands[1] : m_hands[0]);
     const Vec3d shaft = other.tip - other.port;
     const double along = std::clamp(dot(tip - other.port, shaft) / dot(shaft, shaft), 0.0, 1.0);
     return length(tip - other.port - along * shaft);
   }
   /// Slower beside the other instrument: they shall not strike each other.
-  double pace_beside(const Operator& op, int hand) const {
+  double pace_beside(const Surgeon& op, int hand) const {
     constexpr double kBeside = 0.030, kGently = 0.012;  // [m] [m/s]
     return way_from_other(op, hand, op.arm(hand).tip) < kBeside ? kGently : pace::kTravel;
   }
   /// An instrument in the body is looked for before it moves.
-  bool blind(const Operator& op, int hand) const {
+  bool blind(const Surgeon& op, int hand) const {
     constexpr double kUnseen = 3;  // [s] to wait for the camera
     return op.tool_state(hand).depth > reach::kIdle && !op.sees_tip(hand) && m_in_phase < kUnseen;
   }
@@ -140,17 +140,17 @@ class RunAlong final : public Skill {
                                   {0, -0.7},   {0.006, -1}, {-0.006, -1}};
 
   /// Where the jaws come down on the gut: on that side of it, and away from its mesentery.
-  Vec3d entrance(const Operator& op, int hand, const Place& p, double side) const {
+  Vec3d entrance(const Surgeon& op, int hand, const Place& p, double side) const {
     const Vec3d back = normalised(op.arm(hand).port - p.middle);
     const Vec3d across = back - dot(back, p.along) * p.along;
     return p.middle + p.radius * normalised(side * across + p.out, p.out);
   }
-  Vec3d inwards(const Operator& op, int hand, const Place& p) const { return normalised(p.middle - op.arm(hand).port); }
+  Vec3d inwards(const Surgeon& op, int hand, const Place& p) const { return normalised(p.middle - op.arm(hand).port); }
   double deep() const {
     constexpr double kDeeper = 0.002;  // [m]
     return m_deep + kDeeper * std::min(m_attempt, 3);
   }
-  Place wanted(const Operator& op) const { return place(op, m_next + kWays[size_t(std::max(m_way_in, 0))].beside); }
+  Place wanted(const Surgeon& op) const { return place(op, m_next + kWays[size_t(std::max(m_way_in, 0))].beside); }
   double side_in() const { return kWays[size_t(std::max(m_way_in, 0))].side; }
 
   /// What is between jaws that are open so far: vertices of the gut's skin of the loop that is meant; those of others,
@@ -158,7 +158,7 @@ class RunAlong final : public Skill {
   struct Between {
     int own = 0, others = 0;
   };
-  Between between(const Operator& op, const interactions::ToolModel& tool, const interactions::ToolShape& shape) const {
+  Between between(const Surgeon& op, const interactions::ToolModel& tool, const interactions::ToolShape& shape) const {
     constexpr double kOwn = 0.035, kBeside = 0.0015;  // [m]
     const int gut = int(m_stations.body().index());
     const tissue::Skin& skin = op.model().skin(gut);
@@ -176,7 +176,7 @@ class RunAlong final : public Skill {
     return found;
   }
   /// Of bands and their stumps: jaws close on what stands up between them before they close on the wall.
-  static int strands_between(const Operator& op, const interactions::ToolModel& tool,
+  static int strands_between(const Surgeon& op, const interactions::ToolModel& tool,
                              const interactions::ToolShape& shape) {
     int elements = 0;
     for (size_t s = 0; s < op.model().strand_bodies.size(); ++s) {
@@ -189,7 +189,7 @@ class RunAlong final : public Skill {
   }
   /// How good a way in is: something of the own loop where the jaws will close, nothing of others between them as they
   /// come, and not beside the other instrument.
-  double worth(const Operator& op, int hand, const Way& way) const {
+  double worth(const Surgeon& op, int hand, const Way& way) const {
     constexpr double kClosing = 0.12, kComing = 0.5, kApart = 0.012;  // apertures; [m]
     constexpr int kEnough = 4;
     const Place p = place(op, m_next + way.beside);
@@ -204,7 +204,7 @@ class RunAlong final : public Skill {
            std::abs(way.beside) / 0.012;
   }
   /// The best way in that was not tried yet at this place.
-  void choose_way(const Operator& op, int hand) {
+  void choose_perturbation(const Surgeon& op, int hand) {
     constexpr int kCount = int(std::size(kWays));
     if (m_attempt == 0) m_tried.fill(false);
     double best = -1e9;
@@ -227,7 +227,7 @@ class RunAlong final : public Skill {
     return Progress::working;
   }
 
-  Progress reach(Operator& op, int hand) {
+  Progress reach(Surgeon& op, int hand) {
     constexpr double kLongest = 12;
     op.want(op.arm(hand).tip);
     op.from(0.06);
@@ -236,7 +236,7 @@ class RunAlong final : public Skill {
       op.arms().grip(hand, 0, 0.8);
       return Progress::working;
     }
-    if (m_way_in < 0) choose_way(op, hand);
+    if (m_way_in < 0) choose_perturbation(op, hand);
     const Place p = wanted(op);
     const Vec3d at = entrance(op, hand, p, side_in()), in = inwards(op, hand, p);
     op.want(at);
@@ -246,7 +246,7 @@ class RunAlong final : public Skill {
     if ((open && turned && there) || m_in_phase > kLongest) go(kEnter);
     return Progress::working;
   }
-  Progress enter(Operator& op, int hand) {
+  Progress enter(Surgeon& op, int hand) {
     constexpr double kPressed = 0.9, kLongest = 4;  // [N] [s]
     const Place p = wanted(op);
     const Vec3d in = inwards(op, hand, p);
@@ -261,13 +261,13 @@ class RunAlong final : public Skill {
     return Progress::working;
   }
   /// Would jaws that close here take more of other loops than of the one that is meant?
-  bool takes_another(const Operator& op, int hand) const {
+  bool takes_another(const Surgeon& op, int hand) const {
     constexpr double kClosing = 0.2;  // aperture
     const interactions::ToolModel& tool = op.tool(hand);
     const Between found = between(op, tool, interactions::shape_of(tool, op.tool_state(hand).pose(), kClosing));
     return found.others > found.own;
   }
-  Progress close(Operator& op, int hand) {
+  Progress close(Surgeon& op, int hand) {
     constexpr double kFeels = 0.9;
     op.want(op.arm(hand).tip);
     op.from(0.06);
@@ -288,13 +288,13 @@ class RunAlong final : public Skill {
   }
   /// How far a hold is lifted: one beside the other hand's no farther than there is gut between them, which they would
   /// tear apart.
-  double rise_beside(const Operator& op, int hand) const {
+  double rise_beside(const Surgeon& op, int hand) const {
     constexpr double kOfGut = 0.5;
     const int other = m_hands[0] == hand ? m_hands[1] : m_hands[0];
     if (op.tool_state(other).holds == 0 || m_between > m_lift) return m_lift;
     return kOfGut * m_between;
   }
-  Progress lift(Operator& op, int hand) {
+  Progress lift(Surgeon& op, int hand) {
     constexpr double kSpeed = 0.025, kLongest = 4;  // [m/s] [s]
     op.want(op.arm(hand).tip);
     op.from(0.06);
@@ -316,7 +316,7 @@ class RunAlong final : public Skill {
     return Progress::working;
   }
 
-  void note_looks(const Operator& op) {
+  void note_looks(const Surgeon& op) {
     for (size_t which = 0; which < 2; ++which)
       for (size_t i = 0; i < m_side[which].size(); ++i) {
         double& looked = m_looked[which][i];
@@ -333,7 +333,7 @@ class RunAlong final : public Skill {
     }
     return -1;
   }
-  Progress show(Operator& op, int hand, int holder) {
+  Progress show(Surgeon& op, int hand, int holder) {
     constexpr double kLongest = 2.2, kBack = 0.04;  // [s] at a mark; [m] what lies before is looked at again
     const double held = m_stations.held_at(op.state(), size_t(hand));
     if (held < 0) return again();
@@ -362,7 +362,7 @@ class RunAlong final : public Skill {
     go(kLetGo);
     return Progress::working;
   }
-  Progress let_go(Operator& op, int holder) {
+  Progress let_go(Surgeon& op, int holder) {
     constexpr double kAway = 0.025, kLongest = 6;
     op.want(op.arm(holder).tip);
     op.from(0.06);
@@ -397,13 +397,13 @@ class RunAlong final : public Skill {
   Vec3d m_from;
 };
 
-std::string lacks_run(const sim::Model& model, const Given& given) {
-  const Argument &a = given("stations"), &b = given("others");
+std::string lacks_run(const sim::Model& model, const SkillArgs& args) {
+  const Argument &a = args("stations"), &b = args("others");
   if (const std::string why = no_stations(model, a.marks); !why.empty()) return why;
   if (const std::string why = no_stations(model, b.marks); !why.empty()) return why;
   if (a.marks.size() != b.marks.size()) return "as many stations on one side as on the other";
-  const std::string first = lacks_tool(model, given.hand(), &interactions::Abilities::grip);
-  return first.empty() ? lacks_tool(model, given("other_hand").index, &interactions::Abilities::grip) : first;
+  const std::string first = lacks_tool(model, args.hand(), &interactions::Abilities::grip);
+  return first.empty() ? lacks_tool(model, args("other_hand").index, &interactions::Abilities::grip) : first;
 }
 
 }  // namespace

@@ -11,12 +11,12 @@ namespace {
 /// Open jaws around the thread's tail, then closed; the hand that holds the thread goes along.
 class GraspTail final : public Skill {
  public:
-  GraspTail(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_with(given("with").given ? given("with").index : -1),
-        m_at(given.number("at_mm", 0.006)),
-        m_apart(given.number("apart_mm", 0)),
-        m_open(given.number("open_to", 0.5)) {}
+  GraspTail(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_with(args("with").given ? args("with").index : -1),
+        m_at(args.number("at_mm", 0.006)),
+        m_apart(args.number("apart_mm", 0)),
+        m_open(args.number("open_to", 0.5)) {}
 
  private:
   enum Phase { kAway, kReach, kEnter, kClose };
@@ -27,7 +27,7 @@ class GraspTail final : public Skill {
   static constexpr double kSwings = 2, kNearer = 0.004, kNearest = 0.016;  // [s], [m/s], [m] from its end
   static constexpr int kMostAgain = 5;
 
-  void start(Operator& op, int tries) override {
+  void start(Surgeon& op, int tries) override {
     m_beside = 0.0015 * (tries % 3);
     m_shift = {0, 0, 0}, m_again = 0, m_bare_for = 0;
     if (m_with < 0) return go(kReach);
@@ -36,12 +36,12 @@ class GraspTail final : public Skill {
     m_offset += m_apart * normalised(op.arm(m_with).port - op.arm(m_with).tip);
   }
   /// As far as the hand that reaches, and nearer when the thread is taut.
-  void follow(Operator& op) {
+  void follow(Surgeon& op) {
     if (m_with < 0) return;
     if (tying::tension_from(op, m_with, m_free) > 0.15) m_offset *= 1 - 0.5 * sim::kTick;
     op.arms().move(m_with, op.arm(m_hand).tip + m_offset, 2 * pace::kTravel);
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     tying::watch(op);
     const interactions::SutureModel& m = suture_of(op.model());
     const interactions::SutureState& s = suture_of(op.state());
@@ -83,14 +83,14 @@ class GraspTail final : public Skill {
     return Progress::working;
   }
 
-  bool has_tail(const Operator& op, double at) const {
+  bool has_tail(const Surgeon& op, double at) const {
     constexpr double kTail = 0.010;  // [m] of thread
     if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 2) return false;
     const suture::ThreadState& thread = suture_of(op.state()).thread;
     return std::fabs(thread.holds[std::size_t(interactions::kFirstHandSlot + m_hand)].s - at) < kTail;
   }
   /// The closed jaws have thread between them that is not the tail; `off`: unit, away from it.
-  bool pinches_other(const Operator& op, double at, Vec3d& off) const {
+  bool pinches_other(const Surgeon& op, double at, Vec3d& off) const {
     constexpr double kTail = 0.012;  // [m] of thread that is the tail
     const interactions::SutureModel& m = suture_of(op.model());
     const std::vector<Vec3d>& x = suture_of(op.state()).thread.x;
@@ -109,7 +109,7 @@ class GraspTail final : public Skill {
     return nearest < between;
   }
   /// Towards the tail's side of the jaws, seen from the other stretch.
-  Vec3d towards_tail(const Operator& op, Vec3d beside) const {
+  Vec3d towards_tail(const Surgeon& op, Vec3d beside) const {
     const interactions::SutureModel& m = suture_of(op.model());
     const interactions::SutureState& s = suture_of(op.state());
     const Vec3d tip = op.arm(m_hand).tip, axis = normalised(tip - op.arm(m_hand).port);

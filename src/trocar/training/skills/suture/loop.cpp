@@ -12,18 +12,18 @@ namespace {
 
 using interactions::SlingState;
 
-const SlingState* sling_in(const Operator& op, int hand) {
+const SlingState* sling_in(const Surgeon& op, int hand) {
   const int i = sling_of_hand(op.state(), hand);
   if (i < 0 || op.state().objects.sutures[std::size_t(i)].sling.stage == SlingState::left) return nullptr;
   return &op.state().objects.sutures[std::size_t(i)].sling;
 }
-double loop_of(const Operator& op, int hand) {
+double loop_of(const Surgeon& op, int hand) {
   const int i = sling_of_hand(op.state(), hand);
   return i < 0 ? 0 : op.model().objects.sutures.list[std::size_t(i)].sling.loop;
 }
 
 /// Turns the plane of the loop to stand across `along`, as far as it can. True when it does.
-bool face(Operator& op, int hand, Vec3d along) {
+bool face(Surgeon& op, int hand, Vec3d along) {
   constexpr double kTurns = 1.2, kNear = 0.03;  // [rad/s] [rad]
   Arms::Arm& arm = op.arm(hand);
   const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, arm.tip, arm.roll);
@@ -43,7 +43,7 @@ struct Around {
   static constexpr double kNearest = 0.0058;  ///< [m] of the mouth to the strand's middle line
   static constexpr double kTouches = 0.045;   ///< [m] of thread: from here on the strand gives way
 
-  void look(const Operator& op, int strand, double s) {
+  void look(const Surgeon& op, int strand, double s) {
     at = op.point(strand, s);
     along = op.tangent(strand, s);
   }
@@ -58,19 +58,19 @@ struct Around {
 /// Opens the loop above the free end and leads it down over the strand.
 class PutLoopOver final : public Skill {
  public:
-  PutLoopOver(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()),
-        m_strand(given("of").index),
-        m_at(given.number("at_mm", 0.01)),
-        m_thread(given.number("thread_mm", 1)),
+  PutLoopOver(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_strand(args("of").index),
+        m_at(args.number("at_mm", 0.01)),
+        m_thread(args.number("thread_mm", 1)),
         m_end(model.strand_bodies[std::size_t(m_strand)].length() - 0.001) {}
 
  private:
   enum Phase { kAbove, kOpen, kOver, kDown };
   static constexpr double kHigh = 0.024, kOnto = 0.012, kLongest = 6, kTakes = 0.5;  // [m], [s]
 
-  void start(Operator&, int) override { m_s = m_end; }
-  Progress work(Operator& op) override {
+  void start(Surgeon&, int) override { m_s = m_end; }
+  Progress work(Surgeon& op) override {
     const SlingState* g = sling_in(op, m_hand);
     if (!g) return m_in_phase > kTakes ? fail("there is no loop in the tube") : Progress::working;
     Around end, here;
@@ -102,7 +102,7 @@ class PutLoopOver final : public Skill {
   }
 
   /// Draws it to as much thread as it shall have when it comes down; then the hand only holds it.
-  void narrow(Operator& op, const SlingState& g) const {
+  void narrow(Surgeon& op, const SlingState& g) const {
     constexpr double kDrawn = 0.2, kHeld = 0.06, kWithin = 0.02;  // of the handle; [m] of the end: still being put over
     if (m_thread >= loop_of(op, m_hand) || !g.lies_around(m_strand) || m_s > m_end - kWithin) return;
     op.arms().grip(m_hand, g.fed > m_thread ? kDrawn : kHeld, 1.5);
@@ -115,22 +115,22 @@ class PutLoopOver final : public Skill {
 /// Draws it closed; the mouth comes after it, so that the knot stands at the place.
 class CloseLoop final : public Skill {
  public:
-  CloseLoop(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_strand(given("of").index),
-        m_at(given.number("at_mm", 0.01)),
-        m_to(given.number("close_to", 0.4)),
-        m_leads(given.says("lead_back", "yes")) {}
+  CloseLoop(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_strand(args("of").index),
+        m_at(args.number("at_mm", 0.01)),
+        m_to(args.number("close_to", 0.4)),
+        m_leads(args.equals("lead_back", "yes")) {}
 
  private:
   static constexpr double kDraws = 0.25, kLies = 0.4, kSettles = 0.8, kLongest = 12;  // of the handle, [N], [s]
 
-  void start(Operator& op, int) override {
+  void start(Surgeon& op, int) override {
     m_around.look(op, m_strand, m_at);
     m_ended = m_shift = 0;
   }
   /// Where the loop slides off the place while it closes, the knot is led the other way.
-  void lead_back(const Operator& op, const SlingState& g) {
+  void lead_back(const Surgeon& op, const SlingState& g) {
     constexpr double kGain = 2, kMost = 0.004;  // [1/s] [m]
     for (std::int32_t i = 0; i < g.around_count; ++i) {
       const interactions::SlingAround& a = g.around[std::size_t(i)];
@@ -139,7 +139,7 @@ class CloseLoop final : public Skill {
       m_shift = std::clamp(m_shift + kGain * (m_at - lies) * sim::kTick, -kMost, kMost);
     }
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     const SlingState* g = sling_in(op, m_hand);
     if (!g) return fail("there is no loop in the tube");
     if (!g->lies_around(m_strand)) return fail("the loop does not lie around it");
@@ -169,11 +169,11 @@ class CloseLoop final : public Skill {
 /// Opens the handle and draws the tube back: the loop stays with its knot, thread comes out behind it.
 class LeaveLoop final : public Skill {
  public:
-  LeaveLoop(const sim::Model&, const Given& given) : m_hand(given.hand()), m_back(given.number("back_mm", 0.03)) {}
+  LeaveLoop(const sim::Model&, const SkillArgs& args) : m_hand(args.hand()), m_back(args.number("back_mm", 0.03)) {}
 
  private:
-  void start(Operator& op, int) override { m_from = op.arm(m_hand).tip; }
-  Progress work(Operator& op) override {
+  void start(Surgeon& op, int) override { m_from = op.arm(m_hand).tip; }
+  Progress work(Surgeon& op) override {
     const SlingState* g = sling_in(op, m_hand);
     if (!g) return fail("there is no loop in the tube");
     Arms::Arm& arm = op.arm(m_hand);
@@ -194,22 +194,22 @@ class LeaveLoop final : public Skill {
 /// Scissors around the thread between knot and tube.
 class CutTail final : public Skill {
  public:
-  CutTail(const sim::Model&, const Given& given)
-      : m_hand(given.hand()), m_at(given.number("at_mm", 0.01)), m_share(given.number("inside_share", 0.7)) {}
+  CutTail(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()), m_at(args.number("at_mm", 0.01)), m_share(args.number("inside_share", 0.7)) {}
 
  private:
   enum Phase { kReach, kEnter, kClose, kOpen, kLeave };
   static constexpr double kSteady = 0.15, kLongest = 10;  // [s]
 
   /// The sling whose tail is to be cut.
-  const interactions::SutureState* tail(const Operator& op) const {
+  const interactions::SutureState* tail(const Surgeon& op) const {
     const auto& list = op.state().objects.sutures;
     const auto off = [](const interactions::SutureState& s) { return s.sling.stage == SlingState::off; };
     const auto found = std::find_if(list.begin(), list.end(), off);
     return found == list.end() ? nullptr : &*found;
   }
-  void start(Operator&, int) override { m_was = false; }
-  Progress work(Operator& op) override {
+  void start(Surgeon&, int) override { m_was = false; }
+  Progress work(Surgeon& op) override {
     if (const interactions::SutureState* s = tail(op)) {
       const std::size_t i = std::size_t(s - op.state().objects.sutures.data());
       const suture::ThreadModel& m = op.model().objects.sutures.list[i].thread;
@@ -249,11 +249,11 @@ class CutTail final : public Skill {
   bool m_was = false;
 };
 
-std::string lacks_sling(const sim::Model& model, const Given& given) {
-  return lacks_tool(model, given.hand(), &interactions::Abilities::sling);
+std::string lacks_sling(const sim::Model& model, const SkillArgs& args) {
+  return lacks_tool(model, args.hand(), &interactions::Abilities::sling);
 }
-std::string lacks_scissors(const sim::Model& model, const Given& given) {
-  return lacks_tool(model, given.hand(), &interactions::Abilities::cut);
+std::string lacks_scissors(const sim::Model& model, const SkillArgs& args) {
+  return lacks_tool(model, args.hand(), &interactions::Abilities::cut);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace trocar::training {
 namespace {
 
-sim::MarkPose mark_pose(const Operator& op, int target) {
+sim::MarkPose mark_pose(const Surgeon& op, int target) {
   const sim::VisibilityTarget& t = op.model().targets[std::size_t(target)];
   return sim::pose_of(op.model(), op.state(), op.model().marks[std::size_t(t.index)]);
 }
@@ -20,18 +20,18 @@ sim::MarkPose mark_pose(const Operator& op, int target) {
 /// In at one mark, out at another, by turning the wrist.
 class DriveNeedle final : public Skill {
  public:
-  DriveNeedle(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_in(given("in").index),
-        m_out(given("out").index),
-        m_beyond(given.number("beyond_mm", 0.005)),
-        m_speed(given.number("speed_mm_s", 0.008)) {}
+  DriveNeedle(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_in(args("in").index),
+        m_out(args("out").index),
+        m_beyond(args.number("beyond_mm", 0.005)),
+        m_speed(args.number("speed_mm_s", 0.008)) {}
 
  private:
   enum Phase { kAbove, kDown, kDrive, kRest };
   static constexpr double kHigh = 0.016, kBeforeIn = 0.35, kHang = 0.4;  // [m], [rad], [s]
 
-  void start(Operator& op, int) override {
+  void start(Surgeon& op, int) override {
     const suture::NeedleModel& m = suture_of(op.model()).needle;
     const sim::MarkPose in = mark_pose(op, m_in), out = mark_pose(op, m_out);
     m_up = normalised(in.normal + out.normal, {0, 0, 1});
@@ -42,7 +42,7 @@ class DriveNeedle final : public Skill {
     m_share = 0;
     m_bites = suture_of(op.state()).bite_count;
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 1) return fail("the jaws lost the needle");
     const suture::NeedleModel& m = suture_of(op.model()).needle;
     op.want(m_way.in);
@@ -69,7 +69,7 @@ class DriveNeedle final : public Skill {
     }
     return Progress::working;
   }
-  bool through(const Operator& op) const {
+  bool through(const Surgeon& op) const {
     const interactions::SutureState& s = suture_of(op.state());
     return s.bite_count > m_bites && !s.inside.exists() &&
            s.bites[std::size_t(s.bite_count - 1)].stage == interactions::SutureBite::through;
@@ -85,8 +85,8 @@ class DriveNeedle final : public Skill {
 /// Open jaws around the needle at a place of its length, then closed.
 class TakeNeedle final : public Skill {
  public:
-  TakeNeedle(const sim::Model& model, const Given& given)
-      : m_hand(given.hand()), m_at(given.number("at_mm", 0.003)), m_open(given.number("open_to", 0.35)) {
+  TakeNeedle(const sim::Model& model, const SkillArgs& args)
+      : m_hand(args.hand()), m_at(args.number("at_mm", 0.003)), m_open(args.number("open_to", 0.35)) {
     (void)model;
   }
 
@@ -94,8 +94,8 @@ class TakeNeedle final : public Skill {
   enum Phase { kReach, kEnter, kClose };
   static constexpr double kInside = 0.55, kFeels = 0.6, kLongest = 5;  // of the jaws' length, [s]
 
-  void start(Operator&, int tries) override { m_beside = 0.0004 * (tries % 3); }
-  Progress work(Operator& op) override {
+  void start(Surgeon&, int tries) override { m_beside = 0.0004 * (tries % 3); }
+  Progress work(Surgeon& op) override {
     const suture::NeedleModel& m = suture_of(op.model()).needle;
     const suture::NeedleState& s = suture_of(op.state()).needle;
     const double arc = m_at + m_beside;
@@ -119,7 +119,7 @@ class TakeNeedle final : public Skill {
   }
 
   /// A needle that another hand holds stays where it is: jaws that close on it come to it.
-  void give_way(Operator& op, Vec3d at) const {
+  void give_way(Surgeon& op, Vec3d at) const {
     constexpr double kPace = 0.004, kGives = 2e-5, kMost = 2e-5;  // [m/s], [m/N] a tick, [m] a tick
     Arms::Arm& arm = op.arm(m_hand);
     if (op.tool_state(m_hand).holds == 0) {
@@ -141,17 +141,17 @@ class TakeNeedle final : public Skill {
 /// Along its own arc until its swage is out, then away with the thread behind it.
 class DrawThrough final : public Skill {
  public:
-  DrawThrough(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_thread(given.number("thread_mm", 0.08)),
-        m_at{given.number("x_mm", 0), given.number("y_mm", 0), given.number("z_mm", 0)},
-        m_pull(given.number("pull_N", 1.5)) {}
+  DrawThrough(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_thread(args.number("thread_mm", 0.08)),
+        m_at{args.number("x_mm", 0), args.number("y_mm", 0), args.number("z_mm", 0)},
+        m_pull(args.number("pull_N", 1.5)) {}
 
  private:
   enum Phase { kArc, kLift, kAway };
   static constexpr double kPace = 0.010, kTurns = 1.6, kFarthest = 0.045;  // [m/s], [rad], [m]
 
-  void start(Operator& op, int) override {
+  void start(Surgeon& op, int) override {
     const suture::NeedleModel& m = suture_of(op.model()).needle;
     const suture::NeedleState& s = suture_of(op.state()).needle;
     m_from = training::pose_of(s);
@@ -159,13 +159,13 @@ class DrawThrough final : public Skill {
     m_axis = rotate(s.q, Vec3d{0, 0, 1});
     m_turned = 0;
   }
-  void lift_from(Operator& op) {
+  void lift_from(Surgeon& op) {
     m_pose = training::pose_of(suture_of(op.state()).needle);
     m_lifted = 0;
     go(kLift);
   }
   /// Along the wire where it leaves tissue, and a little up.
-  Vec3d way_out(const Operator& op) const {
+  Vec3d way_out(const Surgeon& op) const {
     const interactions::SutureState& s = suture_of(op.state());
     double arc = 0;
     for (int i = 0; i < s.hole_count; ++i) {
@@ -175,20 +175,20 @@ class DrawThrough final : public Skill {
     const Vec3d along = suture::needle_direction(suture_of(op.model()).needle, s.needle, arc);
     return normalised(along - 0.5 * normalised(op.model().gravity, {0, 0, -1}));
   }
-  bool needle_is_out(const Operator& op) const {
+  bool needle_is_out(const Surgeon& op) const {
     const interactions::SutureState& s = suture_of(op.state());
     for (int i = 0; i < s.hole_count; ++i)
       if (s.holes[std::size_t(i)].slot < 0) return false;
     return true;
   }
-  double drawn(const Operator& op) const {
+  double drawn(const Surgeon& op) const {
     const interactions::SutureState& s = suture_of(op.state());
     double least = 1e9;
     for (int i = 0; i < s.hole_count; ++i)
       if (s.holes[std::size_t(i)].slot >= 0) least = std::min(least, double(s.holes[std::size_t(i)].arc));
     return least < 1e8 ? least : 0;
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 1) return fail("the jaws lost the needle");
     const suture::NeedleModel& m = suture_of(op.model()).needle;
     op.want(m_centre);
@@ -224,9 +224,9 @@ class DrawThrough final : public Skill {
   Vec3d m_centre, m_axis;
 };
 
-std::string lacks_needle(const sim::Model& model, const Given& given) {
+std::string lacks_needle(const sim::Model& model, const SkillArgs& args) {
   if (!needs_needle(model).empty()) return std::string(needs_needle(model));
-  return lacks_tool(model, given.hand(), &interactions::Abilities::grip);
+  return lacks_tool(model, args.hand(), &interactions::Abilities::grip);
 }
 
 }  // namespace

@@ -10,22 +10,22 @@ namespace {
 /// Off the jaws with what is wound round them, and apart until both pull.
 class PullThrow final : public Skill {
  public:
-  PullThrow(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_with(given("with").index),
-        m_way{given.number("x_mm", 0), given.number("y_mm", 0), given.number("z_mm", 0)},
-        m_pull(given.number("pull_N", 1.5)),
-        m_back(given.number("back_mm", 0.012)),
-        m_ahead(given.number("ahead_mm", 0.025)),
-        m_reach(given.number("reach_mm", 0.022)),
-        m_rest(given.number("for_s", 0.5)) {}
+  PullThrow(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_with(args("with").index),
+        m_way{args.number("x_mm", 0), args.number("y_mm", 0), args.number("z_mm", 0)},
+        m_pull(args.number("pull_N", 1.5)),
+        m_back(args.number("back_mm", 0.012)),
+        m_ahead(args.number("ahead_mm", 0.025)),
+        m_reach(args.number("reach_mm", 0.022)),
+        m_rest(args.number("for_s", 0.5)) {}
 
  private:
   enum Phase { kLift, kOff, kPost, kDraw, kKeep, kLoosen };
   static constexpr double kPace = 0.025, kTight = 0.004, kSlowly = 0.05;  // [m/s], [m/s] from what pull on [N]
   static constexpr double kFirmly = 0.5, kStraight = 0.25, kFarthest = 0.14, kAbove = 0.004;  // [N], [N], [m], [m]
 
-  void start(Operator& op, int) override {
+  void start(Surgeon& op, int) override {
     constexpr double kLifted = 0.022, kLeastLifted = 0.006;  // [m]
     m_offset = op.arm(m_with).tip - op.arm(m_hand).tip;
     m_reach_now = m_reach, m_ahead_now = m_ahead;
@@ -37,11 +37,11 @@ class PullThrow final : public Skill {
     m_lifted = m_ties ? std::clamp(tail - m_back, kLeastLifted, kLifted) : kLifted;
     m_dir = normalised(m_way, {1, 0, 0});
   }
-  bool both_hold(const Operator& op) const {
+  bool both_hold(const Surgeon& op) const {
     return held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 0 &&
            held_of_suture(op.model(), op.state(), std::size_t(m_with)) != 0;
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     tying::watch(op);
     if (!both_hold(op)) return fail("the jaws lost the thread");
     op.want(op.arm(m_hand).tip);
@@ -68,12 +68,10 @@ class PullThrow final : public Skill {
   /// [m] in a tick of a hand that feels so much [N].
   static double step_at(double pull) { return pace_at(pull) * sim::kTick; }
   static double pace_at(double pull) { return pull > kSlowly ? kTight : kPace; }
-  double wound(const Operator& op) const {
-    return std::fabs(wraps_around(op.model(), op.state(), std::size_t(m_hand)));
-  }
+  double wound(const Surgeon& op) const { return std::fabs(wraps_around(op.model(), op.state(), std::size_t(m_hand))); }
 
   /// As far above the tissue as the tail lets it, so that there is room ahead of the jaws.
-  Progress lift(Operator& op, Vec3d stitch) {
+  Progress lift(Surgeon& op, Vec3d stitch) {
     constexpr double kHomewards = 0.3, kLongest = 6;  // of the height, [s]
     const Vec3d up = tying::upwards(op), home = op.arm(m_hand).port - stitch;
     const Vec3d high = stitch + m_lifted * (up + kHomewards * normalised(home - dot(home, up) * up));
@@ -83,14 +81,14 @@ class PullThrow final : public Skill {
     return Progress::working;
   }
 
-  void begin_off(Operator& op) {
+  void begin_off(Surgeon& op) {
     m_far = op.tool_state(m_hand).depth - m_back;
     m_off_for = 0, m_gone = 0;
     go(kOff);
   }
   /// The thread is led ahead of the jaws, along them, and these are drawn out of what is wound: pulled tight it would
   /// not slide.
-  Progress slide_off(Operator& op) {
+  Progress slide_off(Surgeon& op) {
     constexpr double kAside = 1, kSeenOf = 0.9, kGently = 0.15;   // of the way ahead, of the thread, [N]
     constexpr double kOffAt = 0.25, kStays = 0.5, kLongest = 14;  // of a turn, [s], [s]
     const Vec3d axis = normalised(op.arm(m_hand).tip - op.arm(m_hand).port);
@@ -113,7 +111,7 @@ class PullThrow final : public Skill {
 
   /// The tail is drawn straight over what is tied, so that what is wound slides down along it and takes no slack
   /// between; where nothing is tied it would be drawn out through the tissue.
-  Progress straighten_tail(Operator& op, Vec3d above) {
+  Progress straighten_tail(Surgeon& op, Vec3d above) {
     constexpr double kStillOn = 0.6;  // of a turn
     const bool there = op.arms().move(m_hand, above + m_reach_now * m_dir, pace_at(m_tail));
     if (there && m_ties) m_reach_now += step_at(m_tail);
@@ -124,13 +122,13 @@ class PullThrow final : public Skill {
 
   /// What is wound is drawn tight round the jaws instead of over the tail: they are pressed, and the tail is not
   /// pulled.
-  bool lies_on_jaws(const Operator& op) const {
+  bool lies_on_jaws(const Surgeon& op) const {
     constexpr double kPressed = 0.6;  // [N]
     const double(&touched)[3] = op.tool_state(m_hand).contact_force;
     const double pressed = -dot(Vec3d{touched[0], touched[1], touched[2]}, m_dir);
     return pressed > kPressed && pressed > 2 * tying::pull_of(op, m_hand);
   }
-  Progress draw(Operator& op, Vec3d above) {
+  Progress draw(Surgeon& op, Vec3d above) {
     constexpr int kMostAgain = 2;
     if (m_tail < kFirmly && lies_on_jaws(op) && m_again++ < kMostAgain) return begin_off(op), Progress::working;
     if (m_gone == 0) m_gone = std::max(0.0, dot(above - tying::held_thread(op, m_with), m_dir));
@@ -140,7 +138,7 @@ class PullThrow final : public Skill {
   }
 
   /// Evenly: who pulls more waits, or the throw turns over and what is tied is drawn off the tissue.
-  Progress keep(Operator& op) {
+  Progress keep(Surgeon& op) {
     constexpr double kEven = 0.2, kMostOf = 0.8, kLongest = 14;     // [N], of the pull, [s]
     const bool borne = std::max(m_tail, m_other) < m_pull + kEven;  // thread may lie about jaws that do not feel it
     if (borne && m_tail < std::min(m_pull, m_other + kEven)) op.arm(m_hand).tip += step_at(m_tail) * m_dir;
@@ -151,7 +149,7 @@ class PullThrow final : public Skill {
   }
 
   /// Hands give way before one lets go, and are still for as long as it takes to see what was tied.
-  Progress loosen(Operator& op) {
+  Progress loosen(Surgeon& op) {
     constexpr double kGive = 0.002, kLooks = 0.5;  // [m], [s]
     if (m_in_phase * kPace > kGive) return m_in_phase > kLooks ? Progress::done : Progress::working;
     op.arm(m_hand).tip -= step_at(m_other) * m_dir;

@@ -7,7 +7,7 @@
 
 namespace trocar::training::tying {
 
-Vec3d held_thread(const Operator& op, int hand) {
+Vec3d held_thread(const Surgeon& op, int hand) {
   const interactions::SutureModel& m = suture_of(op.model());
   const interactions::SutureState& s = suture_of(op.state());
   if (held_of_suture(op.model(), op.state(), std::size_t(hand)) == 1)
@@ -18,20 +18,20 @@ Vec3d held_thread(const Operator& op, int hand) {
   return op.arm(hand).tip;
 }
 
-double pull_of(const Operator& op, int hand) {
+double pull_of(const Surgeon& op, int hand) {
   const double(&held)[3] = op.tool_state(hand).pull;
   return length(Vec3d{held[0], held[1], held[2]});
 }
 
-double felt_by(const Operator& op, int hand, Vec3d against) {
+double felt_by(const Surgeon& op, int hand, Vec3d against) {
   const double(&held)[3] = op.tool_state(hand).pull;
   const double(&touched)[3] = op.tool_state(hand).contact_force;
   return std::max(0.0, -dot(Vec3d{held[0] + touched[0], held[1] + touched[1], held[2] + touched[2]}, against));
 }
 
-Vec3d upwards(const Operator& op) { return -normalised(op.model().gravity, {0, 0, -1}); }
+Vec3d upwards(const Surgeon& op) { return -normalised(op.model().gravity, {0, 0, -1}); }
 
-bool find_stitch(const Operator& op, Vec3d& middle) {
+bool find_stitch(const Surgeon& op, Vec3d& middle) {
   const interactions::SutureState& s = suture_of(op.state());
   const Vec3d up = upwards(op);
   Vec3d sum{};
@@ -47,13 +47,13 @@ bool find_stitch(const Operator& op, Vec3d& middle) {
   return true;
 }
 
-double held_at(const Operator& op, int hand) {
+double held_at(const Surgeon& op, int hand) {
   const suture::ThreadState& thread = suture_of(op.state()).thread;
   const std::size_t slot = std::size_t(interactions::kFirstHandSlot + hand);
   return slot < thread.holds.size() && thread.holds[slot].active ? thread.holds[slot].s : 0;
 }
 
-double free_thread(const Operator& op, int hand) {
+double free_thread(const Surgeon& op, int hand) {
   constexpr double kAtStitch = 0.006;  // [m]: a knot lies there
   const interactions::SutureState& s = suture_of(op.state());
   const suture::ThreadModel& m = suture_of(op.model()).thread;
@@ -74,14 +74,14 @@ double free_thread(const Operator& op, int hand) {
   return std::fabs(arc - from);
 }
 
-bool ties(Operator& op) { return op.known_knot().update(knot_of(op.model(), op.state())).count > 0; }
+bool ties(Surgeon& op) { return op.known_knot().update(knot_of(op.model(), op.state())).count > 0; }
 
-void watch(Operator& op) {
+void watch(Surgeon& op) {
   constexpr std::uint64_t kEvery = 500;  // ticks: reading a knot takes some milliseconds
   if (op.state().tick % kEvery == 0) ties(op);
 }
 
-double tension_from(const Operator& op, int hand, double much) {
+double tension_from(const Surgeon& op, int hand, double much) {
   const suture::ThreadModel& m = suture_of(op.model()).thread;
   const double at = held_at(op, hand);
   const double other = at < arc_to_stitch(op.model(), op.state()) ? at + much : at - much;
@@ -95,7 +95,7 @@ double tension_from(const Operator& op, int hand, double much) {
 namespace {
 
 /// How far jaws and a needle in them reach below where its thread leaves it [m].
-double hangs_below(const Operator& op, int hand) {
+double hangs_below(const Surgeon& op, int hand) {
   if (held_of_suture(op.model(), op.state(), std::size_t(hand)) != 1) return 0;
   constexpr int kPlaces = 12;
   const suture::NeedleModel& m = suture_of(op.model()).needle;
@@ -109,7 +109,7 @@ double hangs_below(const Operator& op, int hand) {
 
 }  // namespace
 
-Vec3d above_tissue(const Operator& op, int hand, Vec3d at) {
+Vec3d above_tissue(const Surgeon& op, int hand, Vec3d at) {
   constexpr double kLow = 0.010, kClear = 0.004;  // [m] of thread, of steel
   Vec3d stitch;
   if (!find_stitch(op, stitch)) return at;
@@ -118,13 +118,13 @@ Vec3d above_tissue(const Operator& op, int hand, Vec3d at) {
   return at + std::max(0.0, lowest + dot(up, stitch - at)) * up;
 }
 
-bool lead(Operator& op, int hand, Vec3d to, double speed) {
+bool lead(Surgeon& op, int hand, Vec3d to, double speed) {
   return op.arms().move(hand, op.arm(hand).tip + (to - held_thread(op, hand)), speed);
 }
 
-std::string lacks_thread(const sim::Model& model, const Given& given) {
+std::string lacks_thread(const sim::Model& model, const SkillArgs& args) {
   if (!needs_thread(model).empty()) return std::string(needs_thread(model));
-  return lacks_tool(model, given.hand(), &interactions::Abilities::grip);
+  return lacks_tool(model, args.hand(), &interactions::Abilities::grip);
 }
 
 }  // namespace trocar::training::tying

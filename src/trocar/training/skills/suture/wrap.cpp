@@ -12,12 +12,12 @@ namespace {
 /// Round and round the other hand's jaws, which stand still.
 class Wrap final : public Skill {
  public:
-  Wrap(const sim::Model&, const Given& given)
-      : m_hand(given.hand()),
-        m_around(given("around").index),
-        m_turns(given.number("turns", 1)),
-        m_sense(given.says("way", "left") ? -1 : 1),
-        m_pull(given.number("pull_N", 0.3)) {}
+  Wrap(const sim::Model&, const SkillArgs& args)
+      : m_hand(args.hand()),
+        m_around(args("around").index),
+        m_turns(args.number("turns", 1)),
+        m_sense(args.equals("way", "left") ? -1 : 1),
+        m_pull(args.number("pull_N", 0.3)) {}
 
  private:
   enum Phase { kLay, kStand, kBegin, kTurn };
@@ -33,7 +33,7 @@ class Wrap final : public Skill {
   static constexpr double kSpare = 0.4;                                                   // of a turn, that is lost
   static constexpr double kPace = 0.035, kTighter = 0.03, kWider = 0.02, kLeast = 0.004;  // [m/s], [m]
 
-  void start(Operator& op, int tries) override {
+  void start(Surgeon& op, int tries) override {
     m_angle = 0;
     // with more thread the jaws stand farther from the stitch, as what is wound hangs between them
     m_stitch = op.arm(m_around).tip;
@@ -51,12 +51,12 @@ class Wrap final : public Skill {
   }
   /// Thread is drawn straight behind the jaws that it will be wound round, so that its slack does not bend before them;
   /// from another side each time.
-  bool laid(Operator& op, Vec3d q) const {
+  bool laid(Surgeon& op, Vec3d q) const {
     const bool away = dot(m_laid - q, q - m_stitch) > 0;
     const bool taut = tying::tension_from(op, m_hand, kSeenOf * m_free) > kTaut;
     return (away && taut) || tying::lead(op, m_hand, m_laid, pace::kTravel) || m_in_phase > kLongestLay;
   }
-  Progress work(Operator& op) override {
+  Progress work(Surgeon& op) override {
     tying::watch(op);
     if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) == 0) return fail("the jaws lost the thread");
     op.want(op.arm(m_around).tip);
@@ -98,7 +98,7 @@ class Wrap final : public Skill {
     return m_angle > portable::two_pi * (m_turns + kMostMore) ? fail("the turns slip off the jaws") : Progress::working;
   }
   /// Farther ahead where this shaft would cross those jaws.
-  Vec3d before_jaws(const Operator& op, Vec3d at) const {
+  Vec3d before_jaws(const Surgeon& op, Vec3d at) const {
     constexpr double kBefore = 0.007, kNear = 0.008, kFar = 0.014, kFarthest = 0.025;  // [m] between middle lines
     const Vec3d port = op.arm(m_hand).port, tip = op.arm(m_around).tip, far = op.arm(m_around).port;
     const Vec3d shaft = at - port, jaws = tip + kBefore * m_axis - far;
@@ -111,7 +111,7 @@ class Wrap final : public Skill {
   }
   /// Rolls the needle until its thread leaves it `towards`: what is wound round one hand's jaws winds itself round the
   /// other's too if these do not turn along.
-  bool turn_swage(Operator& op, Vec3d towards) const {
+  bool turn_swage(Surgeon& op, Vec3d towards) const {
     if (held_of_suture(op.model(), op.state(), std::size_t(m_hand)) != 1) return true;
     constexpr double kTurns = 2, kNear = 0.06, kSeen = 0.3;  // [rad/s] [rad], sine of the angle to the shaft
     Arms::Arm& arm = op.arm(m_hand);
