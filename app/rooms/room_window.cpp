@@ -30,7 +30,7 @@ namespace {
 
 using namespace studies;
 
-constexpr double kRadian = portable::pi / 180, kTiltStep = 1 * kRadian;
+constexpr double kDegree = portable::pi / 180, kTiltStep = 1 * kDegree;
 constexpr float kPanelWidth = 360, kPortReach = 14;  // [px]
 constexpr double kPlayedEvery = 0.05;                // [s] of a programme that is gone through
 constexpr double kGapShown = 0.06;                   // [m]
@@ -54,8 +54,8 @@ class RoomWindow {
 
  private:
   void tell_log(const std::string& what) {
-    m_log.event(what, {{"head_down_deg", m_pose.tilt.head_down / kRadian},
-                       {"left_down_deg", m_pose.tilt.left_down / kRadian},
+    m_log.event(what, {{"head_down_deg", m_pose.tilt.head_down / kDegree},
+                       {"left_down_deg", m_pose.tilt.left_down / kDegree},
                        {"time", m_time},
                        {"least_mm", m_near.empty() ? 0 : 1e3 * m_near.front().distance}});
   }
@@ -229,12 +229,12 @@ class RoomWindow {
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
     ui::title(m_room.title.empty() ? m_room.name : m_room.title);
     ui::heading("Table");
-    double head = m_pose.tilt.head_down / kRadian, left = m_pose.tilt.left_down / kRadian;
+    double head = m_pose.tilt.head_down / kDegree, left = m_pose.tilt.left_down / kDegree;
     const scene::RoomTable& t = m_room.table;
-    if (ui::slider("head down", head, -t.head_up_most / kRadian, t.head_down_most / kRadian, "%.0f deg", false))
-      tilt(head * kRadian - m_pose.tilt.head_down, 0);
-    if (ui::slider("left down", left, -t.side_most / kRadian, t.side_most / kRadian, "%.0f deg", false))
-      tilt(0, left * kRadian - m_pose.tilt.left_down);
+    if (ui::slider("head down", head, -t.head_up_most / kDegree, t.head_down_most / kDegree, "%.0f deg", false))
+      tilt(head * kDegree - m_pose.tilt.head_down, 0);
+    if (ui::slider("left down", left, -t.side_most / kDegree, t.side_most / kDegree, "%.0f deg", false))
+      tilt(0, left * kDegree - m_pose.tilt.left_down);
     const Vec3d g = m_model->gravity(m_pose.tilt);
     ui::text(fmt::format("gravity in the patient {:.2f}, {:.2f}, {:.2f} m/s2", g.x, g.y, g.z), ui::kGrey);
     ui::heading("Arms and their ports");

@@ -325,7 +325,7 @@ TEST(Reader, ToolsMustReachAndFit) {
             one("expected a port of at least 10 mm for this shaft, got \"navel\" of 6 mm"));
 }
 
-TEST(Reader, InstrumentsMustBeOfOneMind) {
+TEST(Reader, RejectsConflictingInstrumentKeys) {
   EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "probe", "clips": @2}],)"}}),
             one("expected clips only in a clip_applier, got 2 in a probe"));
   EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "clip_applier", "parallel_gap_mm": 6, )"

@@ -260,7 +260,7 @@ std::vector<Mistake> checked_by_table() {
 }
 INSTANTIATE_TEST_SUITE_P(Codes, AnError, testing::ValuesIn(checked_by_table()), word);
 
-TEST(Errors, WhatTheOtherClipAlreadyEarnedStaysEarned) {
+TEST(Errors, ALaterMistakeAddsOnlyItsOwnCode) {
   for (const Mistake& m : kMistakes)
     if (std::string(m.what) == "4.5 mm apart" || std::string(m.what) == "cut") {
       Attempt a;

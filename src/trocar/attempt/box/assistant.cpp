@@ -14,7 +14,7 @@ using devices::BoxAxis;
 namespace {
 
 constexpr devices::BoxTime kHeldFor = 500'000'000;  // [ns]
-constexpr double kRadian = 3.14159265358979323846 / 180;
+constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr std::size_t kLeastBlocks = 8;  // of a held axis: at 50 Hz 160 ms
 
 const char* who(BoxActor actor) {
@@ -54,7 +54,7 @@ std::string sweep_text(BoxActor actor, BoxAxis axis) {
 
 /// Where it shall be held; angles as kinematics/fulcrum.hpp has them.
 std::string hold_text(BoxActor actor, BoxAxis axis, double value) {
-  const double degrees = std::round(10 * value / kRadian) / 10;
+  const double degrees = std::round(10 * value / kDegree) / 10;
   const auto leant = [&](const char* positive, const char* negative) {
     if (degrees == 0) return tr("Hold the {} upright: its shaft straight down.", who(actor));
     return tr("Lean the {} so that its tip points {:g} degrees towards the patient's {}, and hold it still.",
@@ -101,8 +101,8 @@ const char* axis_word(BoxActor actor, BoxAxis axis) {
 /// At which values an axis is held. [rad], [m], 0 .. 1
 std::vector<double> first_values(BoxActor actor, BoxAxis axis) {
   if (axis == BoxAxis::depth) return {0.05, 0.15, 0.25};
-  if (axis == BoxAxis::yaw || axis == BoxAxis::pitch) return {-40 * kRadian, 0, 40 * kRadian};
-  if (axis == BoxAxis::roll || is_post(actor, axis)) return {-90 * kRadian, 0, 90 * kRadian};
+  if (axis == BoxAxis::yaw || axis == BoxAxis::pitch) return {-40 * kDegree, 0, 40 * kDegree};
+  if (axis == BoxAxis::roll || is_post(actor, axis)) return {-90 * kDegree, 0, 90 * kDegree};
   return {0, 1};
 }
 

@@ -22,7 +22,7 @@ using scene::JsonObject;
 using scene::JsonValue;
 
 constexpr double kStandardGravity = 9.81;  // [m/s^2]
-constexpr double kRadian = portable::pi / 180;
+constexpr double kDegree = portable::pi / 180;
 
 /// Lying level is gravity along -z. Head down is a turn about the patient's x, a side down one about his y.
 Operation tilt() {
@@ -31,7 +31,7 @@ Operation tilt() {
            {keys::number("head_down_deg", -60, 60, "Trendelenburg; negative: head up; default 0"),
             keys::number("left_down_deg", -45, 45, "left side down; negative: right side; default 0")}},
           [](const JsonObject& o, Draft& draft) {
-            const double head = o.number("head_down_deg") * kRadian, left = o.number("left_down_deg") * kRadian;
+            const double head = o.number("head_down_deg") * kDegree, left = o.number("left_down_deg") * kDegree;
             const Vec3d down{portable::sin(left) * portable::cos(head), portable::sin(head),
                              -portable::cos(left) * portable::cos(head)};
             draft.set(draft.document().root(), "/gravity_m_s2", point(down * kStandardGravity));
