@@ -28,10 +28,10 @@ struct BodyKindName {
 inline constexpr BodyKindName kBodyKinds[] = {
     {BodyKind::strand, "strand", "strands", "a tube or a ligament: a chain of elements"},
     {BodyKind::organ, "organ", "organs", "a volume with a skin: a lattice, or tetrahedra that can be cut"},
-    {BodyKind::membrane, "membrane", "membranes", "a fold, or the wall of a pouch"},
-    {BodyKind::rigid, "rigid object", "rigid objects", "a ring or a rod that does not bend, and is no tissue"},
-    {BodyKind::fat, "fat", "bodies of fat", "lobules between ducts and vessels, which come apart"},
-    {BodyKind::bag, "bag", "bags", "a retrieval bag: cloth on a hoop, which holds what is put into it"},
+    {BodyKind::membrane, "membrane", "membranes", "a membrane (fold), or the wall of a closed membrane (pouch)"},
+    {BodyKind::rigid, "rigid object", "rigid objects", "a rigid object, not tissue"},
+    {BodyKind::fat, "fat", "bodies of fat", "lobules of fat between ducts and vessels, which can be separated"},
+    {BodyKind::bag, "bag", "bags", "a retrieval bag: cloth on a hoop"},
     {BodyKind::suture, "suture", "sutures", "a needle with a thread, or either alone"},
 };
 

@@ -94,16 +94,15 @@ const Table<Description>& tissue_file_keys();
 /// What its surface looks like; where nothing is said, as the look that is called as the body is.
 template <class Body>
 Row<Body> look_row() {
-  return {
-      keys::name("look", "its surface in the picture, a file of looks/; default: the one of its name, else neutral"),
-      [](const JsonObject& o, Body& body, Context& c) {
-        body.look = o.text("look", body.name);
-        if (o.has("look")) c.references.push_back({Reference::To::look, body.look, o.at("look")});
-      },
-      [](const Body& body, bool) {
-        return body.look.empty() || body.look == body.name ? std::nullopt
-                                                           : std::optional<JsonValue>(json_text(body.look));
-      }};
+  return {keys::name("look", "its material, a file of looks/; default: the material with its name, else neutral"),
+          [](const JsonObject& o, Body& body, Context& c) {
+            body.look = o.text("look", body.name);
+            if (o.has("look")) c.references.push_back({Reference::To::look, body.look, o.at("look")});
+          },
+          [](const Body& body, bool) {
+            return body.look.empty() || body.look == body.name ? std::nullopt
+                                                               : std::optional<JsonValue>(json_text(body.look));
+          }};
 }
 
 /// Length of the Catmull-Rom curve through the points: within a few per cent of any smooth curve through them.
