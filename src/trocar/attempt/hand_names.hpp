@@ -22,7 +22,7 @@ std::array<int, 2> sides_of(const sim::Model& model);
 /// The instrument that hand `h` holds now.
 const interactions::ToolModel& held_by(const sim::Model& model, const sim::State& state, int h);
 
-/// Does it hold a suction-irrigator, or a needle, whose plunger is led as those valves are?
+/// Does it hold a suction-irrigator, or a needle, whose plunger is controlled as those valves are?
 bool has_valves(const sim::Model& model, const sim::State& state, int h);
 /// An electrode without jaws.
 bool is_bare_electrode(const sim::Model& model, const sim::State& state, int h);

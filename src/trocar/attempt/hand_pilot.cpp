@@ -12,7 +12,7 @@ constexpr double kLeash = 0.02;         // [m] a command runs ahead of the instr
 constexpr double kTimeConstant = 0.01;  // [s] of the smoothing
 constexpr double kParked = 0.010;       // [m] a changed instrument waits this deep, in the trocar's sleeve
 constexpr double kInsertSpeed = 0.06;   // [m/s]
-constexpr double kInView = 0.012;       // [m] an instrument that comes into the view goes on for this long
+constexpr double kInView = 0.012;       // [m] an instrument that comes into the view continues for this long
 constexpr double kHollow = 0.040;       // [m] as deep as an instrument goes in by itself without being seen
 
 std::array<float, 3> as_array(Vec3d v) { return {float(v.x), float(v.y), float(v.z)}; }
@@ -149,7 +149,7 @@ void HandPilot::move_tool(const devices::HandCommand& command, const kinematics:
   const bool moved = command.tip.right != 0 || command.tip.up != 0 || command.tip.in != 0;
   if (m_inserting[size_t(command.led)] && !moved) return;
   m_inserting[size_t(command.led)] = false;
-  // Of an instrument that bends, too, the straight one's tip is led; a redundant one's has another pose for it.
+  // Of an instrument that bends, too, the straight one's tip is controlled; a redundant one's has another pose for it.
   const Vec3d is_at = sim::led_place(m_model, state, size_t(command.led));
   const kinematics::TipFrame commanded = kinematics::forward(tool.port, pose_of(input));
   Vec3d tip = commanded.tip + as_vector(devices::in_space(command.tip, as_array(view.right), as_array(view.up),

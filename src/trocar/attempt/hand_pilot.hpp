@@ -23,11 +23,11 @@ class HandPilot {
 
   /// One sample; `state` is the newest one seen. Returns where everything is commanded to be now.
   const sim::Input& lead(const devices::HandSample& sample, const sim::State& state);
-  /// Nobody's hand moves anything, but what runs by itself (an insertion) goes on for `dt` seconds.
+  /// Nobody's hand moves anything, but what runs by itself (an insertion) continues for `dt` seconds.
   const sim::Input& rest(float dt, const sim::State& state);
   bool asks_for_rack() const { return m_asks_for_rack; }  ///< in the last lead()
 
-  /// Both hands at once, or one. Where the scene has no two, one is led.
+  /// Both hands at once, or one. Where the scene has no two, one is controlled.
   void lead_both(bool on) { devices::lead_both(m_settings, on, m_hands); }
   bool leads_both() const { return devices::leads_both(m_settings, m_hands); }
   void exchange() { devices::exchange(m_hands); }  ///< of both: what mouse and keys lead
@@ -39,7 +39,7 @@ class HandPilot {
   void toggle_fine() { m_hands.state.fine = !m_hands.state.fine; }
   bool changing(int hand, const sim::State& state) const;  ///< its instrument
   bool inserting(int hand) const { return m_inserting[size_t(hand)]; }
-  /// Does its insertion go on only when it is seen?
+  /// Does its insertion continue only when it is seen?
   bool waits_for_eye(int hand) const { return m_inserting[size_t(hand)] && m_unseen[size_t(hand)]; }
 
   /// After a pause or a lost device: nothing that is held down now acts, every handle keeps its grip.

@@ -62,7 +62,7 @@ std::unique_ptr<Lesson> load_adapted(const std::string& exercise, std::uint64_t 
   if (!report.said) report.said = told_of_solvers();
   lesson->model = scene::compile(description, &report);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
-  // An exercise that does not fit its scene is told here, not when somebody starts it.
+  // An exercise that does not fit its scene is reported here, not when somebody starts it.
   if (lesson->exercise) training::check_in_scene(*lesson->exercise, lesson->model, faults);
   if (!faults.empty()) throw core::BadInput(std::move(faults));
   core::log::info("compiled in {:.1f} s: {} free nodes", took.count(), lesson->model.free_nodes());

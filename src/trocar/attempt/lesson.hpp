@@ -49,7 +49,7 @@ struct Lesson {
   std::string name;  ///< "SCENE/EXERCISE", or the path as given
   std::string title;
   std::filesystem::path file, scene;
-  std::uint64_t seed = 0;  ///< of the anatomy; 0: as drawn
+  std::uint64_t seed = 0;  ///< of the anatomy; 0: the standard patient
   sim::Model model;
   std::optional<training::Exercise> exercise;  ///< nothing for a bare scene
 
@@ -60,15 +60,15 @@ struct Lesson {
 /// Exercise files name a scene; scene files do not. False also for what cannot be read.
 bool is_exercise(const std::filesystem::path& path);
 
-/// Reads and compiles what EXERCISE names; tells on stderr when that takes a while.
-/// @param seed varies the anatomy within its healthy range; 0: as drawn. A recording's header holds it.
+/// Reads and compiles what EXERCISE names; reports on stderr when that takes a while.
+/// @param seed varies the anatomy within its healthy range; 0: the standard patient. A recording's header holds it.
 /// @throws core::BadInput, core::EnvironmentLacks
 std::unique_ptr<Lesson> load_lesson(const std::string& exercise, std::uint64_t seed = 0);
 
 /// Changes a scene before it is compiled; may throw core::BadInput.
 using Adapt = std::function<void(scene::Description&)>;
 /// The same of a scene that `adapt` has changed, after its anatomy was varied.
-/// @param report  what the compiler said; where its said() is empty, what takes long is told on stderr
+/// @param report  what the compiler said; where its said() is empty, what takes long is reported on stderr
 std::unique_ptr<Lesson> load_adapted(const std::string& exercise, std::uint64_t seed, const Adapt& adapt,
                                      scene::CompileReport* report = nullptr);
 

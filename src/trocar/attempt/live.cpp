@@ -12,7 +12,7 @@ constexpr std::uint64_t kAftermath = 1500;             // ticks shown after the 
 constexpr std::uint64_t kHurry = 30;                   // ticks that wait to be made: no pace is kept
 constexpr double kSpeedWindow = 0.25;                  // [s]
 constexpr double kSlow = 0.97;
-constexpr auto kIdle = std::chrono::milliseconds(2);  // while time stands still
+constexpr auto kIdle = std::chrono::milliseconds(2);  // while paused
 // A copy takes nearly half a tick and throws the simulation's data out of the cache: none is made that nobody draws.
 constexpr auto kPatience = std::chrono::milliseconds(4);  // of who asked for one
 constexpr auto kLookEvery = std::chrono::microseconds(50);

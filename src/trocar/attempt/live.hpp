@@ -40,7 +40,7 @@ class Live {
   void pause(bool on) { m_paused.store(on, std::memory_order_relaxed); }
 
   /// Asks for the State as it is now and has it a tick later. False, and snapshot() as it was, when nothing newer
-  /// has come: time stands still, or a tick takes longer than a few milliseconds (drawing thread only).
+  /// has come: a pause, or a tick takes longer than a few milliseconds (drawing thread only).
   bool refresh();
   const Snapshot& snapshot() const { return m_published.latest(); }
   /// What has happened since the last call.

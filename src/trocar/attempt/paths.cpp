@@ -31,7 +31,7 @@ namespace {
 std::vector<scene::JsonDocument> layers_of(fs::path path) {
   constexpr std::size_t kMostLayers = 16;
   std::vector<scene::JsonDocument> layers;
-  std::vector<core::Fault> ignored;  // who opens the exercise is told
+  std::vector<core::Fault> ignored;  // opening the exercise reports them
   while (layers.size() < kMostLayers) {
     layers.push_back(scene::load_json(path, ignored));
     const scene::JsonMember* like = layers.back().root.find(scene::kLike);

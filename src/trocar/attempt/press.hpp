@@ -1,4 +1,4 @@
-// Hands for whoever wants to know how an organ gives way: one instrument goes to where the organ faces its trocar best
+// Hands that measure how an organ gives way: one instrument goes to where the organ faces its trocar best
 // (the middle of a triangle, as a thin tip slips off vertices),
 // presses in along the surface's inward normal in steps, holds, and withdraws. All others stay where they were placed.
 //
@@ -16,7 +16,7 @@ double organ_size(const sim::Model& model, int organ);
 struct Press {
   int organ = -1, hand = -1;
   int triangle = -1;  ///< of the skin that is touched
-  Vec3d at;           ///< its middle, as drawn [m]
+  Vec3d at;           ///< its middle, in the rest shape [m]
   Vec3d out;          ///< unit, the surface's normal there
   double depth = 0;   ///< how far the instrument's front goes in, from where it touches [m]
   bool clear = true;  ///< nothing that is drawn lies on its way

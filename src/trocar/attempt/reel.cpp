@@ -15,7 +15,7 @@ namespace trocar::attempt {
 namespace {
 
 constexpr int kSlice = 20;                         // ticks between looks at what is wanted
-constexpr std::uint64_t kChaseWhilePlaying = 600;  // ticks; what is farther comes from keyframes
+constexpr std::uint64_t kChaseWhilePlaying = 600;  // ticks; what is further comes from keyframes
 constexpr std::size_t kRecent = 48;
 
 TimelineMark::Kind kind_of(const std::string& what) {

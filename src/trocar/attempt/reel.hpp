@@ -43,7 +43,7 @@ struct Findings {
   const GuideState* guide_at(std::uint64_t tick) const;
 };
 
-/// Marks and guide as the recording's own result tells them; nothing where it has none.
+/// Marks and guide as the recording's own result reports them; nothing where it has none.
 Findings findings_of_result(const std::string& result_json);
 
 class Reel {
@@ -73,7 +73,7 @@ class Reel {
   /// From here on doing it again differs from the recording: show keyframes. kNowhere: it does not, so far.
   std::uint64_t differs_from() const { return m_differs_from.load(std::memory_order_acquire); }
 
-  /// How far it has been looked through [ticks].
+  /// How far it has been read [ticks].
   std::uint64_t known_until() const { return m_known.load(std::memory_order_acquire); }
   bool complete() const { return m_complete.load(std::memory_order_acquire); }
   /// Ticks between where the thread is and what look_at() asked for; 0: there.

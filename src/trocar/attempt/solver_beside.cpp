@@ -50,7 +50,7 @@ std::unique_ptr<Lesson> load_beside(const std::string& exercise, std::uint64_t s
       if (s.name == organ)
         return set_solver(scene, organ,
                           s.is_quasi_static() ? scene::Solver::dynamic_network : scene::Solver::elastostatic, asked);
-    set_solver(scene, organ, scene::Solver::elastostatic, asked);  // tells what organs there are
+    set_solver(scene, organ, scene::Solver::elastostatic, asked);  // reports what organs there are
   });
 }
 

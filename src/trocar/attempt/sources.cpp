@@ -68,7 +68,7 @@ constexpr double kApproachLeast = 0.5;   // [s]
 
 Mat3d from_columns(Vec3d x, Vec3d y, Vec3d z) { return {{{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}}}; }
 
-/// The one of the first two instruments whose trocar lies farther to the picture's left, or right.
+/// The one of the first two instruments whose trocar lies further to the picture's left, or right.
 int tool_of(const sim::Model& model, Vec3d picture_right, devices::Hand hand) {
   const bool first_is_left = dot(model.hands[0].port - model.hands[1].port, picture_right) < 0;
   return first_is_left == (hand == devices::Hand::left) ? 0 : 1;
@@ -194,7 +194,7 @@ Json MotionSource::describe() const {
 
 namespace {
 
-/// The inputs of a recording; where they were made for something else, what they do here is told to be another story.
+/// The inputs of a recording; where they were made for something else, their different effect here is reported.
 std::unique_ptr<InputSource> replay_source(const Lesson& lesson, const std::string& file) {
   sim::Recording recording = sim::read_recording(file);
   if (!recording.damage.empty())

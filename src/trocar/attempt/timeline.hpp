@@ -39,7 +39,7 @@ class Timeline {
 
   /// Shows `factor` times as much; what is at `around` stays where it is. At least kFrameTicks, at most all.
   void zoom(double factor, double around);
-  void pan(double share);    ///< of the visible stretch; positive goes on in time
+  void pan(double share);    ///< of the visible stretch; positive continues in time
   void follow(double tick);  ///< pans where `tick` has left the visible stretch
   void show_all();
   bool shows_all() const { return m_from <= 0 && m_to >= double(m_last); }

@@ -50,7 +50,7 @@ std::optional<std::int64_t> to_integer(std::string_view word) {
   std::size_t i = after_sign(word);
   if (i == word.size()) return std::nullopt;
   constexpr std::int64_t least = std::numeric_limits<std::int64_t>::min();
-  std::int64_t below = 0;  // minus the value: the negative side reaches one farther
+  std::int64_t below = 0;  // minus the value: the negative side reaches one further
   for (; i < word.size(); ++i) {
     if (!is_digit(word[i])) return std::nullopt;
     const int digit = word[i] - '0';

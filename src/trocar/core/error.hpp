@@ -1,4 +1,4 @@
-// What can go wrong outside the step, and how it is told: bad input (exit 2) with every fault located, a lacking
+// What can go wrong outside the step, and how it is reported: bad input (exit 2) with every fault located, a lacking
 // environment (exit 3) with its remedy.
 #pragma once
 

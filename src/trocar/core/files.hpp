@@ -12,7 +12,7 @@ namespace trocar::core {
 std::string read_file(const std::filesystem::path& path, std::uint64_t most);
 
 /// Puts the bytes into a file at once and for good: written beside it, flushed to the disk, then renamed, so that
-/// whoever dies meanwhile leaves the old one.
+/// an interrupted write leaves the old one.
 /// @param mode  of a new file; one that is there keeps its own
 /// @return empty, or what the system says is wrong
 std::string write_file(const std::filesystem::path& path, const void* bytes, std::size_t size, unsigned mode = 0644);

@@ -20,7 +20,7 @@ constexpr int kMaxThreads = 64;
 // stages of a tick that run on one thread are bridged; between ticks they sleep. To be woken takes some 40 us.
 constexpr int kSpins = 8000;
 
-/// Tells the processor that this thread is only looking.
+/// Informs the processor that this thread is only looking.
 inline void pause() noexcept {
 #if defined(__x86_64__) || defined(__i386__)
   _mm_pause();

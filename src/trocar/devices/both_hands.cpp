@@ -41,14 +41,14 @@ constexpr HelpLine kHelpBoth[] = {
 
 constexpr Button kShoulders[2] = {Button::left_shoulder, Button::right_shoulder};
 constexpr Button kLocks[2] = {Button::left, Button::right};
-/// Keys that choose who is led, or speak of the hand last used: no hand's own.
+/// Keys that choose the controlled hand, or refer to the hand last used: no hand's own.
 constexpr Key kChoosing[] = {Key::tab, Key::one, Key::two, Key::three, Key::four, Key::zero, Key::c, Key::v, Key::h};
 
 int instruments_of(const HandSettings& settings) { return std::clamp(settings.instruments, 0, kMaxHands); }
 
 // --- shares of a sample ---
 
-/// A mouse as right-handed people hold it. The gamepad stays as it is: each side leads the hand of its own side.
+/// A mouse as right-handed people hold it. The gamepad stays as it is: each side controls the hand of its own side.
 HandSample as_meant(const HandSettings& settings, HandSample sample) {
   if (settings.left_handed) std::swap(sample.left_button, sample.right_button);
   return sample;
@@ -63,7 +63,7 @@ void take_out_choosing(KeySet& keys) {
   for (const Key key : kChoosing) keys.set(key, false);
 }
 
-/// Buttons that are the same whoever is led.
+/// Buttons that are the same whatever is controlled.
 std::uint32_t common_buttons(const Gamepad& pad) {
   Gamepad common;
   for (const Button b : {Button::a, Button::b, Button::y, Button::right_stick}) common.set(b, pad.has(b));
@@ -93,7 +93,8 @@ bool presses_stick(int side, const Gamepad& pad, const BothHands& hands) {
   return has_needle(kLeft, hands) || has_needle(kRight, hands) ? has_needle(side, hands) : side == kLeft;
 }
 
-/// One side of the pad as the whole pad of a hand that is led alone: with the shoulder the stick is the right one.
+/// One side of the pad as the whole pad of a hand that is controlled alone: with the shoulder the stick is the right
+/// one.
 Gamepad pad_share(int side, const Gamepad& pad, const BothHands& hands) {
   Gamepad share;
   const Stick stick = hands.away[std::size_t(side)] ? Stick{} : stick_of(side, pad);
@@ -148,7 +149,7 @@ HandSample share_of_scope(const HandSettings& settings, HandSample share) {
   return share;
 }
 
-// --- which ones are led ---
+// --- which ones are controlled ---
 
 bool both_shoulders(const HandSample& sample) {
   return sample.gamepad.has(Button::left_shoulder) && sample.gamepad.has(Button::right_shoulder);
@@ -267,7 +268,8 @@ void choose_pair(const HandSettings& settings, const HandSample& sample, const H
 
 bool pulls(const HandSample& share) { return squeezes(share) || finite(share.gamepad.right_trigger) > kTriggerTouched; }
 
-/// The endoscope is led instead. Who lets go meanwhile keeps the grip; who holds on is in charge of it afterwards.
+/// The endoscope is controlled instead. Who lets go meanwhile keeps the grip; who holds on is in charge of it
+/// afterwards.
 void keep(const HandSettings& settings, const HandSample& share, HandState& side) {
   const bool holds_on = side.opening && pulls(share);
   take_up(settings_of_share(settings), share, side);

@@ -258,7 +258,7 @@ Vector<N> slope(const Vector<N>& from, const Vector<N>& to, double dt) {
   return result;
 }
 
-/// Velocity at `at`, where the motion comes from `before` and goes on to `after`.
+/// Velocity at `at`, where the motion comes from `before` and continues to `after`.
 HandMotion velocity_at(const HandMotion& before, const HandMotion& at, const HandMotion& after, double dt_before,
                        double dt_after) {
   const auto scalar = [&](double p, double q, double r) {

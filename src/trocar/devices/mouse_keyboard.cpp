@@ -106,7 +106,7 @@ HandSample as_right_handed(const HandSettings& settings, HandSample sample) {
   return sample;
 }
 
-// --- which one is led ---
+// --- which one is controlled ---
 
 void choose_next_instrument(int instruments, HandState& state) {
   if (instruments == 0) return;

@@ -1,6 +1,7 @@
-// One mouse, one keyboard or one gamepad for several instruments: one hand at a time is led, the others keep pose and
-// grip. Each of the three devices is enough alone. Pure logic without a window: the program fills a HandSample from its
-// events, once per picture, and gets what the led instrument or the endoscope should do, in the picture's directions.
+// One mouse, one keyboard or one gamepad for several instruments: one hand at a time is controlled, the others keep
+// pose and grip. Each of the three devices is enough alone. Pure logic without a window: the program fills a HandSample
+// from its events, once per picture, and gets what the led instrument or the endoscope should do, in the picture's
+// directions.
 //
 //   HandState state;                                       // lives as long as the session
 //   const HandCommand command = lead(settings, sample, state);
@@ -22,7 +23,7 @@
 
 namespace trocar::devices {
 
-inline constexpr int kMaxHands = 4;  ///< instruments that can be led
+inline constexpr int kMaxHands = 4;  ///< instruments that can be controlled
 inline constexpr int kScope = -1;    ///< in place of an instrument's number: the endoscope
 
 enum class Device : std::uint8_t { keyboard, mouse, gamepad };
@@ -158,9 +159,9 @@ struct HandCommand {
   bool rack = false;                    ///< asked for what there is to choose from: hands, instruments
   bool insert = false;                  ///< asked to bring the led instrument into the view
   bool irrigate = false, suck = false;  ///< valves of the led instrument, as long as they are held
-  bool wipe = false;                    ///< asked for a clean lens, whoever is led
-  bool declare = false;                 ///< "this is what was to be shown", whoever is led
-  bool blue = false, yellow = false;    ///< foot switches as long as they are held, whoever is led
+  bool wipe = false;                    ///< asked for a clean lens, whatever is controlled
+  bool declare = false;                 ///< "this is what was to be shown", whatever is controlled
+  bool blue = false, yellow = false;    ///< foot switches as long as they are held, whatever is controlled
 };
 
 /// How much a device's motion means.  Our choice: 10 cm across a picture of 1000 px.
@@ -216,7 +217,7 @@ struct HandState {
   HandSample last;        ///< as used, to notice presses
 };
 
-/// One sample: moves `state` on and tells what the led one does.
+/// One sample: moves `state` on and reports what the led one does.
 HandCommand lead(const HandSettings& settings, const HandSample& sample, HandState& state) noexcept;
 
 /// Leads hand `hand` from now on (a number, or kScope), as if its key had been pressed.
@@ -224,7 +225,7 @@ void choose(int hand, HandState& state) noexcept;
 /// The ratchet of the led hand on or off, as Space does.
 void toggle_ratchet(HandState& state) noexcept;
 /// After a pause, a menu or a lost device: whatever is held down now counts as old, and every handle keeps its grip
-/// until it is squeezed anew. Call with the sample that begins the new stretch.
+/// until it is squeezed again. Call with the sample that begins the new stretch.
 void take_up(const HandSettings& settings, const HandSample& sample, HandState& state) noexcept;
 
 /// A tip's motion in space, from the unit vectors of the picture and of the shaft (port to tip).

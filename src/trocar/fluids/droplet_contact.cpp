@@ -33,7 +33,7 @@ struct Moment {
   DropletWork& w;
   Below& below;
   FluidReport& report;
-  float dt, run_dt;       ///< a tick; what a drop on a surface goes on by at a time [s]
+  float dt, run_dt;       ///< a tick; by which a drop on a surface advances at a time [s]
   Vec3f g;                ///< gravity [m/s^2]
   float per_viscosity;    ///< rho / 3 mu [s/m^2]
   float retention, hold;  ///< width-free retention and overhang [N/m]
@@ -111,7 +111,7 @@ Vec3f run(const Moment& t, int i, Vec3f along, Vec3f g_along, float drop_mass, f
   return speed > stop ? ((speed - stop) / (speed * (1 + dt / tau))) * pushed : Vec3f{0, 0, 0};
 }
 
-/// A drop that is on a surface, at the end of the tick. @param dt  by which it goes on [s]
+/// A drop that is on a surface, at the end of the tick. @param dt  by which it advances [s]
 void run_down(Moment& t, int i, float dt) {
   DropletState& s = t.s;
   const Ground& ground = s.ground[i];
@@ -372,7 +372,8 @@ FluidReport resolve(const DropletModel& m, std::span<const Capsule> capsules, Dr
     const bool flew = s.body[i] < 0;
     meet(t, i, question, w.near[k]);
     if (s.body[i] >= 0)
-      run_down(t, i, flew && w.ways > 1 ? t.dt : t.run_dt);  // crowds go on by much at a time: not from the jet's speed
+      run_down(t, i,
+               flew && w.ways > 1 ? t.dt : t.run_dt);  // crowds advance by much at a time: not from the jet's speed
     else
       put(s, i, {w.to_x[i], w.to_y[i], w.to_z[i]}, velocity(s, i));
     if (s.body[i] >= 0 || turn_of(t, i, kPoolEveryFlying)) fall_in(t, i);

@@ -166,7 +166,7 @@ struct Impact {
   std::int32_t body = -1, film = -1;
   Vec3f point{0, 0, 0};
   Vec3f impulse{0, 0, 0};  ///< of the drop's motion relative to the surface [N s]
-  float mass = 0;          ///< of the drop, which goes on with the surface [kg]
+  float mass = 0;          ///< of the drop, which continues with the surface [kg]
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>

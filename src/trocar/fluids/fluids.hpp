@@ -10,7 +10,7 @@
 //   FluidsReport r = finish_tick(m, input, s, w);      // r.tools[0].sucked, w.droplets.impacts, balanced(s.ledger)
 //
 // Pool and smoke work on some ticks only (their periods), the forces between drops too; which ones follows from the
-// State, so a State saved at any tick goes on with the same bits.
+// State, so a State saved at any tick continues with the same bits.
 #pragma once
 
 #include <array>

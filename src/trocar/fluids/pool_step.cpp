@@ -98,7 +98,7 @@ Capsule in_frame(const PoolModel& m, const Capsule& c) {
 /// misplace.
 Interval seen_in_row(const Capsule& c, float y, float cell) {
   const float margin = c.radius + 0.5f * cell, dy = c.b.y - c.a.y, dx = c.b.x - c.a.x;
-  float t0 = 0, t1 = 1;  // of the axis: what is no farther than the radius from the row
+  float t0 = 0, t1 = 1;  // of the axis: what is no further than the radius from the row
   if (std::fabs(dy) > 1e-6f) {
     const float from = (y - margin - c.a.y) / dy, to = (y + margin - c.a.y) / dy;
     t0 = std::max(std::min(from, to), 0.0f), t1 = std::min(std::max(from, to), 1.0f);

@@ -1,4 +1,4 @@
-// Fluids as a picture shows them, in few bytes: enough to draw them, not to go on with them. What lies on the lens;
+// Fluids as a picture shows them, in few bytes: enough to draw them, not to continue with them. What lies on the lens;
 // drops, film and pool in whole nanolitres; smoke in shades. No speeds in the pool, and no account.
 #pragma once
 

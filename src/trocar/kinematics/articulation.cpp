@@ -69,7 +69,7 @@ void let_turn(Slopes& s, Vec3d axis) noexcept {
   }
 }
 
-/// What is missing, scaled; no farther than a round can answer to.
+/// What is missing, scaled; no further than a round can answer to.
 Column missing(const Goal& goal, const TipFrame& tip) noexcept {
   Column e{};
   Vec3d turn = turn_between(tip.rotation, goal.rotation);

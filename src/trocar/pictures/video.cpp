@@ -108,7 +108,7 @@ std::vector<std::string> h264_encoder() {
       "no film: this ffmpeg has no H.264 encoder (libx264 or libopenh264); one of Debian has: {}", kInstall));
 }
 
-/// Makes the file, so that a missing folder or right is told now.
+/// Makes the file, so that a missing folder or right is reported now.
 void make_empty(const fs::path& path) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (!file)
@@ -136,7 +136,7 @@ std::unique_ptr<Video> Video::open(const fs::path& path, PictureSize size) {
   if (std::strcmp(format, "matroska") != 0) words.insert(words.end(), {"-movflags", "+faststart"});
   words.insert(words.end(), {"-f", format, "file:" + part.string()});
   const Child child = start_ffmpeg(words, true);
-  std::signal(SIGPIPE, SIG_IGN);  // a write to an ffmpeg that gave up is an error to be told, not our death
+  std::signal(SIGPIPE, SIG_IGN);  // a write to an ffmpeg that gave up is an error to report, not a signal that ends us
   return std::unique_ptr<Video>(new Video(path, part, child.pipe, child.process));
 }
 

@@ -29,7 +29,7 @@ class Video {
   Video(const Video&) = delete;
   Video& operator=(const Video&) = delete;
 
-  /// All pictures must have the size that open() was told.
+  /// All pictures must have the size given to open().
   void add(const render::Image& image);
   /// Waits for ffmpeg; false, and a message on stderr, when it failed.
   bool finish();

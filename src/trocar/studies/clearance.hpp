@@ -5,7 +5,8 @@
 //
 // Links that joints without freedom keep together are one part. Parts that a joint or a closure connects are
 // neighbours, and meant to touch: they are not looked at. A pair that overlaps in every pose is modelled so (hinged on
-// one pin) and is told apart. A mechanism with neither drives nor loops is led by all coordinates that have limits.
+// one pin) and is reported separately. A mechanism with neither drives nor loops is controlled by all coordinates that
+// have limits.
 #pragma once
 
 #include <string>

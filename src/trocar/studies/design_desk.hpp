@@ -41,7 +41,7 @@ class DesignDesk {
   const std::vector<Dial>& dials() const { return m_dials; }
   double value(const Dial& dial) const { return m_values[std::size_t(dial.parameter)]; }
   double value_in_file(const Dial& dial) const { return m_start.parameter_values[std::size_t(dial.parameter)]; }
-  /// Bounded by the dial; what follows is made anew.
+  /// Bounded by the dial; what follows is made again.
   void turn(const Dial& dial, double value);
 
   /// What is moved: a drive, or, where nothing is driven and no loop closed, a coordinate with limits.

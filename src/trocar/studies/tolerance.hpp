@@ -1,5 +1,5 @@
 // What errors of dimensions do to a quantity at a pose: slopes, their worst and their likely sum, and samples of
-// mechanisms as they may be made (Monte Carlo), each closed anew.
+// mechanisms as they may be made (Monte Carlo), each closed again.
 //
 //   const ToleranceStudy study(m, handles, {MeasuredKind::along, tip, -1, {1, 0, 0}}, everywhere(m, 1e-5, 0));
 //   study.linear().ranked[0];                                   // the dimension that matters most

@@ -129,7 +129,7 @@ struct FlowModel {
 };
 
 /// Something that blood gets out by. Index in the input's span = slot in State and in the outputs; a slot that is not
-/// used has no area. A slot that changes its segment or kind starts anew (clot, remainder).
+/// used has no area. A slot that changes its segment or kind starts again (clot, remainder).
 struct Opening {
   enum class Kind : std::int32_t { hole, cut };
   int segment = -1;

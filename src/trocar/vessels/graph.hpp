@@ -135,7 +135,7 @@ struct GraphFault {
   std::string message;
 };
 
-/// All faults, in the order of the arrays; empty = sound. At most 100 are told, then one says how many more there are.
+/// All faults, in the order of the arrays; empty = sound. At most 100 are reported, then the number of the others.
 std::vector<GraphFault> check(const VesselGraph& graph);
 
 /// B of a segment's wall [Pa], and its wave speed at the reference pressure [m/s].

@@ -358,7 +358,7 @@ double piece_flow(const FlowPoint* p, int points, int k, double end_a, double en
   return p[k].g * (pressure(k - 1) - pressure(k)) + p[k].s;
 }
 
-/// What flowed for a tick: tells whole picolitres, keeps the rest. A flow that came out below zero is owed first.
+/// What flowed for a tick: returns whole picolitres, keeps the rest. A flow that came out below zero is owed first.
 std::int64_t book(double flow, double tick, double& remainder) {
   remainder += flow * tick / kPicolitre;
   if (!(remainder >= 1)) return 0;
@@ -367,7 +367,7 @@ std::int64_t book(double flow, double tick, double& remainder) {
   return whole;
 }
 
-/// New flow of a piece from its mean over the tick; nothing goes on moving where nothing can.
+/// New flow of a piece from its mean over the tick; nothing continues moving where nothing can.
 double next_flow(double flow, double mean, double implicitness) {
   return mean == 0 ? 0 : flow + (mean - flow) / implicitness;
 }

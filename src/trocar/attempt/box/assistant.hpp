@@ -1,4 +1,4 @@
-// Finds out how a box is wired, and calibrates it, by questions to whoever sits at it: which channel moves when they
+// Finds out how a box is wired, and calibrates it, by questions to the user: which channel moves when they
 // move an axis, what it reads where they hold it still at a known angle, which bit a pedal is. Knows nothing of
 // windows.
 //

@@ -21,7 +21,7 @@ namespace keys = scene::keys;
 
 constexpr double kMostDegrees = 720, kMostMillimetres = 500;
 
-/// Of an axis: its table's key, and how many of its units are one of ours (a radian, a metre, all the way).
+/// Of an axis: its table's key, and how many of its units are one SI unit (a radian, a metre, all the way).
 struct AxisUnit {
   const char* key;
   double per_ours;
@@ -109,7 +109,7 @@ const scene::Shape& box_shape() {
   return shape;
 }
 
-/// What is used twice is told.
+/// Double use is reported.
 class Taken {
  public:
   explicit Taken(const char* what) : m_what(what) {}

@@ -44,7 +44,7 @@ BoxHands::BoxHands(const sim::Model& model, const devices::BoxWiring& wiring) : 
   const auto hands = int(model.hands.size());
   for (int h = 0; h < devices::kBoxHands; ++h) m_hand[std::size_t(h)] = h < hands ? h : -1;
   m_hand[std::size_t(BoxActor::scope)] = kScope;
-  if (hands >= 2) {  // left is whose trocar lies farther to the left of the picture, as placed
+  if (hands >= 2) {  // left is whose trocar lies further to the left of the picture, as placed
     const Vec3d right =
         kinematics::scope_frame(model.scope.port, pose_of(model.start.scope), model.scope.angle, model.start.scope.post)
             .right;

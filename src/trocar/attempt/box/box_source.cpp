@@ -182,7 +182,7 @@ void BoxSource::take_live() {
   if (m_thread->take(m_pose)) m_leader.take(m_pose);
 }
 
-/// Takes the answer to the last request, then asks anew: a request goes out while its predecessor's answer is used.
+/// Takes the answer to the last request, then asks again: a request goes out while its predecessor's answer is used.
 void BoxSource::step_line(std::uint64_t tick) {
   if (tick < m_next_ask) return;
   m_next_ask = tick + std::max<std::uint64_t>(1, std::uint64_t(m_link->settings().period() / kTickTime));

@@ -2,7 +2,7 @@
 //
 //   BoxSource source(lesson.model, "/dev/ttyUSB0", wiring, BoxPace::live);   // throws core::EnvironmentLacks
 //
-// Where the box's hands are when an attempt begins, goes on after a pause, or after blocks were missing, the
+// Where the box's hands are when an attempt begins, continues after a pause, or after blocks were missing, the
 // instruments are not: they go there no faster than kCatchSpeed, and jaws keep their grip until the handle has come to
 // it. After an exchange the new instrument waits in its trocar until the hand has been drawn back less than kDrawnBack
 // deep.
@@ -61,7 +61,7 @@ class BoxLeader {
   std::array<int, sim::kMaxTools> m_instrument{};
   std::array<std::uint32_t, devices::kBoxHands> m_changes{};
   std::uint64_t m_reset_ticks = 0;
-  bool m_reset_was_up = false;  ///< who begins anew has the foot on it still
+  bool m_reset_was_up = false;  ///< who restarts has the foot on it still
 };
 
 class BoxSource : public InputSource {

@@ -19,7 +19,7 @@ constexpr double kLeastWay = 1e-4;                 // [m] in kTicks from which a
 constexpr double kNewShare = 0.05;                 // of an estimate, a tick
 constexpr double kSameSide = 0.8;                  // cosine of normals that count as one plane's
 constexpr double kSameContact = 0.9;               // ... of last tick's and this one's
-constexpr double kNear = 0.004;                    // [m] another instrument from which on it is told
+constexpr double kNear = 0.004;                    // [m] another instrument from which on it is reported
 constexpr double kMetal = 1000;                    // [N/m] of instruments on each other, where nothing else is touched
 constexpr double kLeastShare = 0.2;                // of the depth: contacts near the trocar are hardly felt
 

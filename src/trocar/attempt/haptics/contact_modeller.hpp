@@ -41,7 +41,7 @@ class ContactModeller {
  public:
   ContactModeller(const sim::Model& model, int hand) : m_model(model), m_hand(hand) {}
 
-  /// After a tick. @param wanted  where the hand wants the tip: the place that forces are told for [m]
+  /// After a tick. @param wanted  where the hand wants the tip: the place that forces are reported for [m]
   /// @param seal  friction of the trocar's seal [N]
   devices::LocalModel of(const sim::State& state, Vec3d wanted, double seal) noexcept;
 

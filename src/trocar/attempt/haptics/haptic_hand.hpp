@@ -20,7 +20,8 @@ namespace trocar::attempt {
 
 class HapticHand {
  public:
-  /// own_loop: a thread at 1 kHz. with_ticks: one period a tick, however fast those are; for devices that are led.
+  /// own_loop: a thread at 1 kHz. with_ticks: one period a tick, however fast those are; for devices that are
+  /// controlled.
   enum class Pace { own_loop, with_ticks };
 
   struct Feel {

@@ -1,4 +1,4 @@
-// Whoever leads, a haptic device leads one of the hands in their place, and feels.
+// Beside the other inputs, a haptic device leads one of the hands in their place, and feels.
 //
 //   HapticSource source(hands, haptic_hand);        // both must outlive it
 #pragma once

@@ -1,4 +1,5 @@
-// Several devices at one attempt: each has a part that it leads, as if it were led alone; the rest is the operator's.
+// Several devices at one attempt: each has a part that it leads, as if it were controlled alone; the rest is the
+// operator's.
 //
 //   DeviceParts parts(read_input_map(file), model);
 //   put(parts.lead(pilot.lead(sample, state), readings, dt, state));

@@ -73,7 +73,7 @@ struct DemonstrationMaker::Job {
   void make(const std::string& exercise, std::uint64_t seed);
   void record(const std::string& exercise, std::uint64_t seed);
   bool given_up() const { return stop || interrupted(); }
-  /// Changes what is told, unless it has been cancelled.
+  /// Changes what is reported, unless it has been cancelled.
   template <class Change>
   void tell(const Change& change) {
     const std::lock_guard guard(lock);

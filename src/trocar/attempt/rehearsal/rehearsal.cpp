@@ -19,7 +19,7 @@ namespace {
 
 constexpr size_t kMostKept = 2000;           // choices that are not as written, and failures that are remembered
 constexpr int kCameOff = 0, kFailed = 1;     // how a process ends
-constexpr double kBack = 5, kFarther = 1.4;  // [s] before a failure it is taken up again; as much farther each time
+constexpr double kBack = 5, kFarther = 1.4;  // [s] before a failure it is taken up again; as much further each time
 constexpr double kSamePoint = 10;            // [s]: failures that have the same reason, as far as one can tell
 
 /// What all processes see. Only one of them runs at a time: the others wait for it.
@@ -51,7 +51,7 @@ class SharedBlackboard {
   Blackboard* m_board;
 };
 
-/// An attempt. At each moment of choice it becomes two: one that goes on, and one that waits for what becomes of it.
+/// An attempt. At each moment of choice it becomes two: one that continues, and one that waits for what becomes of it.
 class Attempt {
  public:
   Attempt(const Lesson& lesson, const Patience& patience, const SharedBlackboard& board)
@@ -97,7 +97,7 @@ class Attempt {
     return m_board->seconds >= m_patience.seconds || m_board->failures >= kMostKept || interrupted();
   }
 
-  /// The process that returns goes on in that way; the one that called never comes back.
+  /// The process that returns continues in that way; the one that called never comes back.
   int perturbation(int choice) {
     for (int chosen = known_at(choice); !spent(); chosen = m_first + m_board->attempts++) {
       std::fflush(nullptr);
@@ -184,7 +184,8 @@ class Attempt {
 Rehearsal rehearse(const Lesson& lesson, const Patience& patience) {
   if (!lesson.exercise)
     throw core::BadInput({{{lesson.scene.string(), 0, 0}, "expected an exercise, got a scene without an exercise"}});
-  static_cast<void>(training::read_demonstration(*lesson.exercise, lesson.model, lesson.seed));  // faults are told here
+  static_cast<void>(
+      training::read_demonstration(*lesson.exercise, lesson.model, lesson.seed));  // faults are reported here
   const SharedBlackboard board;
   std::fflush(nullptr);
   const pid_t first = fork();

@@ -1,6 +1,6 @@
 // Rehearsing a demonstration: what its hands meet is decided by tenths of a millimetre, so where it goes wrong it is
-// taken up again a little earlier and done in another way (training/expert/perturbation.hpp), and from farther back
-// each time that it goes wrong at the same point, until all of it comes off. Nothing is simulated twice: at each moment
+// taken up again a little earlier and done in another way (training/expert/perturbation.hpp), and from further back
+// each time that it goes wrong at the same point, until all of it succeeds. Nothing is simulated twice: at each moment
 // of choice the process forks, and a copy that fails is forgotten. Steps are deterministic to the bit, so the choices
 // are all that has to be kept.
 #pragma once
@@ -20,7 +20,7 @@ struct Patience {
 
 struct Rehearsal {
   bool passed = false;
-  training::Choices choices;  ///< with which it came off, or came farthest
+  training::Choices choices;  ///< with which it succeeded, or came furthest
   double score = 0;           ///< of 100
   double lasted = 0;          ///< the demonstration, or until it failed [s]
   double seconds = 0;         ///< simulated in all [s]

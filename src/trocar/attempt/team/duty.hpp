@@ -19,7 +19,7 @@ struct Duty {
   bool overlaps(const Duty& other) const;
 };
 
-/// "camera"; "assistant": the hands but the first two; "left", "right": one of the first two, as who looks from the
+/// "camera"; "assistant": the hands but the first two; "left", "right": one of the first two, as seen from the
 /// endoscope sees them; a trocar's name: the hand there.
 /// @throws core::BadInput naming `where` when the scene has none such
 Duty duty_of(std::string_view role, const sim::Model& model, const std::string& where);

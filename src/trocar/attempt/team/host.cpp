@@ -116,7 +116,7 @@ struct TeamHost::Desk {
     }
   }
 
-  /// Is there still something that they have not been told?
+  /// Is there something that they have not received yet?
   bool flushing() {
     const std::lock_guard hold(lock);
     return Clock::now() < flush_until &&

@@ -1,6 +1,7 @@
 // Several people at one attempt, over a network: the host's program runs it, the others' programs get every tick's
 // inputs and make the same ticks themselves, to the bit, so that each has the whole picture; what they lead goes back
-// to the host. Who leaves makes time stand still, and is told all that was missed on coming back. Only with the token.
+// to the host. The simulation pauses while a participant is disconnected, who receives all that was missed on coming
+// back. Only with the token.
 //
 //   TeamHost team(lesson, {.roles = {"camera", "assistant"}});
 //   tell(team.port(), team.token());
@@ -59,7 +60,7 @@ class TeamHost {
   // Any thread.
   std::string waits_for() const;  ///< "the camera is not here yet"; empty: ready
   std::vector<TeamSeat> seats() const;
-  /// Tells all of them, waits until they know, for a second at most.
+  /// Informs all of them and waits for their answers, for a second at most.
   void end(const std::string& why);
 
  private:

@@ -36,7 +36,7 @@ class TeamMember : public InputSource {
   const Duty& duty() const;
   const std::string& role() const;
 
-  /// Where its part is wanted; of the rest of `input` nothing is told. Any thread.
+  /// Where its part is wanted; the rest of `input` is ignored. Any thread.
   void put(const sim::Input& input);
   /// This one leads its part from now on, by what it sees of the simulation.
   void follow(std::unique_ptr<InputSource> robot);

@@ -46,7 +46,7 @@ struct Ticks {
   std::vector<sim::Input> inputs;
   std::uint64_t number = 0, sent_us = 0;  ///< of the receiver's newest Share in them; 0: none
 };
-/// Time stands still: why, for people. Empty: it goes on.
+/// Paused: the reason, for people. Empty: it continues.
 struct Waits {
   std::string why;
 };

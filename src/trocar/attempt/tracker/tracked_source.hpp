@@ -1,4 +1,4 @@
-// Whoever leads, tools that a tracker sees lead some of the hands, or the camera, in their place.
+// Beside the other inputs, tools that a tracker sees lead some of the hands, or the camera, in their place.
 //
 //   TrackedSource source(hands, model, plan, tracker);        // all must outlive it
 #pragma once

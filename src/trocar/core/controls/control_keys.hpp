@@ -1,5 +1,5 @@
 // What the controls are called on each device: "K" on a keyboard, "both shoulders and B" on a gamepad. Hints of
-// exercises name a control as {key:declare}, and whoever shows the hint puts the label of the device in use there.
+// exercises name a control as {key:declare}, and anyone who shows the hint puts the label of the device in use there.
 //
 //   with_keys("Say it: {key:declare}", KeyDevice::keyboard)   -> "Say it: K"
 #pragma once

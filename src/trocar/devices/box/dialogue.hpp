@@ -1,5 +1,5 @@
 // Who asks the box: polls on time without waiting for the answer to the last one (a block takes nearly the whole period
-// at 38,400 Bd), knows which answers are missing, tells a box that was switched on anew which channels are wanted. No
+// at 38,400 Bd), knows which answers are missing, tells a box that was switched on again which channels are wanted. No
 // port and no clock: bytes and times come from outside.
 //
 //   BoxDialogue dialogue(settings);
@@ -36,7 +36,7 @@ struct BoxCounts {
   std::uint64_t asked = 0, blocks = 0, missed = 0;
   std::uint64_t bad = 0;      ///< frames with a wrong checksum; raw: torn or unlikely blocks
   std::uint64_t skipped = 0;  ///< bytes of no frame
-  std::uint64_t configs = 0;  ///< times that the box was told its channels
+  std::uint64_t configs = 0;  ///< times that the box received its channels
   BoxTime round_trip = 0;     ///< of the last block, from asking to its last byte
 
   double missed_share() const noexcept { return blocks + missed > 0 ? double(missed) / double(blocks + missed) : 0.0; }

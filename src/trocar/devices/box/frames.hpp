@@ -1,5 +1,5 @@
-// What goes over the line between a box and who asks it, and how it is found in a stream of bytes. Ours; multi-byte
-// numbers are little-endian.
+// What goes over the line between a box and who asks it, and how it is found in a stream of bytes. Our estimate;
+// multi-byte numbers are little-endian.
 //
 //   CONFIG  A5 C0 mask[6] crc16                        to the box: send these channels from now on
 //   POLL    A5 (0x10 | seq) crc8                       to the box: one block, please
@@ -7,9 +7,10 @@
 //   raw     76 bytes                                   the answer of a box without frames to any single byte
 //
 // The checksums are over all that comes before them. mask-id is the 8-bit checksum of the mask that the payload has, so
-// that an answer from before a CONFIG, or from a box that was switched on anew, is told from others. The parsers take
-// any bytes in any portions, keep no more than two of the longest frames, allocate nothing, and after nonsense find the
-// next sound frame: they look on from the byte behind a false beginning, not behind the frame that it claimed.
+// that an answer from before a CONFIG, or from a box that was switched on again, is distinguished from others. The
+// parsers take any bytes in any portions, keep no more than two of the longest frames, allocate nothing, and after
+// nonsense find the next sound frame: they look on from the byte behind a false beginning, not behind the frame that it
+// claimed.
 //
 //   FrameParser parser;
 //   parser.expect(mask);
@@ -82,7 +83,7 @@ class FrameParser {
     std::uint64_t strangers = 0;  ///< headers with a mask that is not known here
   };
 
-  /// Besides all channels, which a box sends before it was told otherwise. False: its mask-id is that of another known
+  /// Besides all channels, which a box sends before its configuration. False: its mask-id is that of another known
   /// mask, and nothing was changed.
   bool expect(ChannelMask mask) noexcept;
   ChannelMask expected() const noexcept { return m_mask; }

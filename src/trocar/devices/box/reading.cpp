@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kTwoPi = 6.283185307179586;
 constexpr double kSpeedCorner = 5;  // [Hz] of the filter's own idea of speed
-constexpr double kLongest = 0.25;   // [s] between blocks; beyond, a filter begins anew
+constexpr double kLongest = 0.25;   // [s] between blocks; beyond, a filter restarts
 constexpr std::array<double, kBoxAxes> kFastest = {12, 12, 20, 1.5, 20};  // [rad/s], [m/s], [1/s]: no hand is faster
 
 double gain(double corner, double dt) { return dt / (dt + 1 / (kTwoPi * corner)); }

@@ -81,7 +81,7 @@ class BoxReader {
 enum class BoxFreshness { measured, extrapolated, held, frozen };
 const char* name_of(BoxFreshness freshness);
 
-/// Missing blocks: for up to kExtrapolated every axis goes on as fast as it did, then it stands still, for up to
+/// Missing blocks: for up to kExtrapolated every axis continues as fast as it did, then it stands still, for up to
 /// kHeldBlocks blocks in all; then it is frozen: pedals and valves are let go, and somebody is to be warned.
 class BoxBridge {
  public:

@@ -29,7 +29,7 @@ const Baud* find_baud(int rate) {
   return nullptr;
 }
 
-/// USB adapters keep bytes back for 16 ms unless they are told not to. Where that cannot be told, so be it.
+/// USB adapters keep bytes back for 16 ms unless configured otherwise. Where that is impossible, they do.
 void ask_for_low_latency(int fd) {
   serial_struct settings{};
   if (ioctl(fd, TIOCGSERIAL, &settings) != 0) return;
@@ -118,7 +118,7 @@ long SerialPort::read(std::span<std::uint8_t> into) {
   const ssize_t count = ::read(m_fd.get(), into.data(), into.size());
   if (count > 0) return long(count);
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
-  // A terminal without a byte gives 0, too; who is gone is told by a hang-up.
+  // A terminal without a byte gives 0, too; a disconnection is a hang-up.
   pollfd one{m_fd.get(), POLLIN, 0};
   if (count == 0 && poll(&one, 1, 0) >= 0 && (one.revents & (POLLHUP | POLLERR | POLLNVAL)) == 0) return 0;
   return -1;

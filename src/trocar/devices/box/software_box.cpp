@@ -6,7 +6,7 @@
 namespace trocar::devices {
 namespace {
 
-constexpr std::size_t kMostWaiting = 15;       // blocks: seq tells no more apart; who asks for more is not listening
+constexpr std::size_t kMostWaiting = 15;       // blocks: seq distinguishes no more
 constexpr BoxTime kForgotten = 3'000'000'000;  // without a request: somebody else may ask next
 
 /// The sum of twelve even numbers has variance 1.

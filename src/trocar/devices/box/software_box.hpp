@@ -34,7 +34,7 @@ struct SoftwareBoxSettings {
 
 class SoftwareBox {
  public:
-  using Motion = std::function<BoxBlock(double seconds)>;  ///< since the first request of whoever asks
+  using Motion = std::function<BoxBlock(double seconds)>;  ///< since the first request
   SoftwareBox(const SoftwareBoxSettings& settings, Motion motion);
 
   void hear(std::span<const std::uint8_t> bytes, BoxTime now);
@@ -42,7 +42,7 @@ class SoftwareBox {
   std::size_t due(BoxTime now, std::span<std::uint8_t> out);
   /// When the block that is being sent will be over, or the next one begins by itself.
   BoxTime next_due() const;
-  /// Nobody is at the other end: what is not sent is forgotten, and the motion begins anew with the next request.
+  /// Nobody is at the other end: what is not sent is forgotten, and the motion restarts with the next request.
   void hang_up();
 
   std::uint64_t sent() const { return m_sent; }        ///< blocks

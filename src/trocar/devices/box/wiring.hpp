@@ -15,7 +15,7 @@
 namespace trocar::devices {
 
 /// Piecewise linear and monotone (unfit() says how steep and flat it may be); beyond its ends the first and the last
-/// piece go on.
+/// piece continue.
 struct AxisTable {
   std::vector<double> codes;   ///< rising, at least two
   std::vector<double> values;  ///< strictly rising or strictly falling: [rad], [m] or 0 .. 1
@@ -27,7 +27,8 @@ struct AxisTable {
 /// Empty, or what keeps `table` from being one.
 std::string unfit(const AxisTable& table);
 
-/// Who is led: two hands by side, as the picture shows their trocars, two more in the scene's order, and the endoscope.
+/// The controlled ones: two hands by side, as the picture shows their trocars, two more in the scene's order, and the
+/// endoscope.
 enum class BoxActor { left, right, third, fourth, scope };
 inline constexpr int kBoxActors = 5, kBoxHands = 4;
 /// The last one is a hand's handle (0 open .. 1 closed) and the endoscope's light post [rad].

@@ -15,7 +15,7 @@ constexpr auto kAskAgain = std::chrono::milliseconds(20);  // after an answer th
 constexpr int kMostAtOnce = 8;                             // messages looked at in one read()
 constexpr double kReach = 0.1, kSmallReach = 0.04;         // [m] the radii that the vendor's own examples keep within
 
-/// The vendor's pages state no figures; these are ours, and cautious.
+/// The vendor's pages state no figures; these are our estimates, and cautious.
 HapticCapabilities cautious() {
   HapticCapabilities c;
   c.name = "Haply Inverse3";

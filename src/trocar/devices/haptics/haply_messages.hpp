@@ -20,7 +20,7 @@ struct HaplyState {
 /// Nothing where it is no such message, names no Inverse3, or says something that no device does.
 std::optional<HaplyState> read_haply(std::string_view message);
 
-/// Its frame is ours: x to the right, y forward, z up. @param first  with the words that begin a session
+/// Its frame is the same: x to the right, y forward, z up. @param first  with the words that begin a session
 std::string haply_command(const std::string& device, Vec3d force, bool first);
 
 }  // namespace trocar::devices

@@ -1,5 +1,5 @@
 // The loop of a device: a thousand times a second, on a thread of its own, whatever the simulation and the pictures
-// take. It reads the device, renders the newest local model, writes the force, and tells where the device is.
+// take. It reads the device, renders the newest local model, writes the force, and reports the device's position.
 //
 //   HapticLoop loop(std::move(device));     // starts at once, with a force that fades in
 //   loop.put(model);                         // the simulation, every tick

@@ -19,7 +19,7 @@ namespace {
 constexpr int kMostDatagrams = 64;  // datagrams looked at in one read()
 constexpr auto kListenAgain = std::chrono::milliseconds(1);
 
-/// For whoever does not say what it can: soft, and not strong.
+/// For devices that do not state their abilities: soft and weak.
 HapticCapabilities modest() {
   HapticCapabilities c;
   c.name = "seam";

@@ -14,7 +14,7 @@ double rounded(double value, double step) { return step > 0 ? step * std::floor(
 SimulatedDevice::SimulatedDevice(const Settings& s) : m_settings(s) {
   m_capabilities.name = "simulated";
   m_capabilities.force_max = s.force_max;
-  m_capabilities.own_damping = s.own_damping + s.hand_damping;  // whoever holds it damps it, too
+  m_capabilities.own_damping = s.own_damping + s.hand_damping;  // the holding hand damps it, too
   m_capabilities.own_friction = s.own_friction;
   m_capabilities.damping_max = 0.25 * s.mass / s.period;
   m_capabilities.resolution = s.resolution;

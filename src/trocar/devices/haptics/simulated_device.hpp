@@ -1,5 +1,5 @@
 // A device that is not there, in a hand that is not there either: a mass on the spring and damper of a hand, with the
-// mechanism's own damping, friction and quantised position. For tests, and for whoever wants to try without one.
+// mechanism's own damping, friction and quantised position. For tests, and for trials without one.
 //
 //   SimulatedDevice device({.mass = 0.2});
 //   device.lead({0, 0, -0.01});                 // where the hand wants to be; from any one thread
@@ -19,7 +19,7 @@ class SimulatedDevice : public HapticDevice {
     double hand_damping = 8;      ///< [N s/m]
     double own_damping = 2;       ///< b of the mechanism [N s/m]
     double own_friction = 0;      ///< Coulomb's [N]
-    double resolution = 1e-5;     ///< of the position that it tells [m]; 0: exact
+    double resolution = 1e-5;     ///< of the reported position [m]; 0: exact
     double force_max = 10;        ///< [N]
     double period = 1e-3;         ///< between two reads [s]
     int inner_steps = 10;         ///< a period

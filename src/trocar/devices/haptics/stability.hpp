@@ -19,7 +19,7 @@ double stiffest_passive(const HapticCapabilities& device, double period, double 
 ///   E(n) < 0:  f(n) -= alpha v(n),  alpha = -E(n) / (T v(n)^2)
 ///
 /// The damper is limited, for a large one shakes by itself, and what was saved or owed long ago does not count: E stays
-/// within a window (both are ours; the paper has neither).
+/// within a window (both are our choice; the paper has neither).
 class PassivityControl {
  public:
   struct Limits {

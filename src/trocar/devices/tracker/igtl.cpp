@@ -11,7 +11,7 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t kElement = 70;  // of TDATA: name, kind, a spare byte, matrix
 constexpr double kMillimetre = 1e-3;
-constexpr double kFarthest = 100;  // [m] no tracker sees farther; the protocol's floats could say anything
+constexpr double kFarthest = 100;  // [m] no tracker sees further; the protocol's floats could say anything
 
 std::uint64_t big_endian(Bytes bytes) noexcept {
   std::uint64_t value = 0;

@@ -4,7 +4,7 @@
 // A message is a header of 58 bytes (version, type, device, time stamp, size, CRC-64, all big-endian) and a body.
 // TRANSFORM, POSITION (QTRANS), TDATA and SENSOR are read, of version 1 and, with extended headers, of 2 and 3; other
 // types are passed over without being stored. A stream cannot be found again once a header is unsound: then it has
-// ended, and who listens connects anew.
+// ended, and who listens connects again.
 //
 //   IgtlReader reader;
 //   const bool sound = reader.hear(bytes, [&](const TrackedPose& pose) {...}, [&](const SensorValues& values) {...});

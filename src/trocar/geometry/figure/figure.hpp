@@ -1,6 +1,7 @@
 // A person lying on the back, from few figures: what ports go through, arms must not touch and a picture shows. The
 // frame is the patient's: the umbilicus is the origin, x to the patient's left, y to the head, z to the front; with the
-// abdomen inflated as said. Outlines are plausible and ours; a person of 1.70 m is the pattern, others are scaled.
+// abdomen inflated as said. Outlines are plausible and our choice; a person of 1.70 m is the pattern, others are
+// scaled.
 //
 //   const Figure figure({.stature = 1.65, .breadth = 0.34});
 //   figure.front(0.08, 0.05);                    // z of the skin there

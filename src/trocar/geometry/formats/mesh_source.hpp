@@ -8,9 +8,9 @@
 //   if (in.real(x, 8, "an x coordinate")) ...    // false: told already
 //   in.finish();                                 // throws core::BadInput with all faults
 //
-// Faults are kept by byte position; lines and columns are counted once, when they are told. Among the machine's own
-// numbers lines end where a byte happens to be a line feed, so that the byte is told beside them. What is wrong with
-// the file as a whole is told at its beginning. Used by the readers only.
+// Faults are kept by byte position; lines and columns are counted once, when they are reported. Among the machine's own
+// numbers lines end where a byte happens to be a line feed, so that the byte is reported beside them. What is wrong
+// with the file as a whole is reported at its beginning. Used by the readers only.
 #pragma once
 
 #include <cstdint>
@@ -61,7 +61,7 @@ class MeshSource {
   std::size_t count(const char* things, std::size_t least, int width = 8);
   void skip_bytes(std::uint64_t bytes, const char* what);
 
-  void fault(std::size_t at, std::string message);              ///< goes on
+  void fault(std::size_t at, std::string message);              ///< continues
   [[noreturn]] void lose(std::size_t at, std::string message);  ///< the structure is lost: throws all
   void finish() const;                                          ///< throws if there was any
   std::size_t faults() const { return m_faults.size(); }

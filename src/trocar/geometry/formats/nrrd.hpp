@@ -6,7 +6,7 @@
 // A text header, an empty line, the data: raw, gzip or ascii. Read are three-dimensional files with the data attached,
 // of the types int8 to int32, uint8 to uint32, float and double. Source: Definition of the NRRD file format, teem 1.9.
 //
-// Files are taken as hostile: what they announce is believed as far as the bytes reach, never farther.
+// Files are taken as hostile: what they announce is believed as far as the bytes reach, never further.
 #pragma once
 
 #include <cstddef>

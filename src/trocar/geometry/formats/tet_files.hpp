@@ -9,7 +9,7 @@
 // as text, with so many digits that reading gives the same numbers back. Sources: Gmsh reference manual, "MSH file
 // format" and its legacy formats; VTK file formats, "Simple legacy formats".
 //
-// Files are taken as hostile: what they announce is believed as far as the bytes reach, never farther.
+// Files are taken as hostile: what they announce is believed as far as the bytes reach, never further.
 #pragma once
 
 #include <string>

@@ -48,7 +48,7 @@ struct VtkValues {
   void pass(std::uint64_t count, const VtkType& type);
 };
 
-/// The first lines, up to the one that says which data set it is: which format that is, as people are told it. A fault
+/// The first lines, up to the one that says which data set it is: which format that is, as people read it. A fault
 /// where it is another data set than `dataset`, which `who` (in the plural) need.
 std::string read_vtk_header(VtkValues& values, const char* dataset, const char* who);
 

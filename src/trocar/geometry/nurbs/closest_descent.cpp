@@ -157,7 +157,7 @@ class Descent {
     return false;
   }
 
-  // Beyond a border the surface may go on, and the distance fall: true if so, and then that is where we are.
+  // Beyond a border the surface may continue, and the distance fall: true if so, and then that is where we are.
   bool pass_edge() noexcept {
     for (int way = 0; way < 2; ++way) {
       const Region old = m_region[way];

@@ -3,7 +3,7 @@
 //   const Curve ring = circle({0, 0, 0}, {0, 0, 1}, 0.02);         // nurbs_shapes/curve_makers.hpp
 //   const CurveJet at = jet(ring, 0.25);                           // at.point, at.first, at.second
 //
-// A curve is plain data; whoever changes it by hand asks fault_in before it is used. What evaluates takes valid curves
+// A curve is plain data; after changes by hand ask fault_in before it is used. What evaluates takes valid curves
 // for granted, is noexcept and does not allocate, unless it returns a vector. Lengths in metres; derivatives are by the
 // parameter, which has no unit.
 #pragma once

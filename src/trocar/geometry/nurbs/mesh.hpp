@@ -1,4 +1,4 @@
-// Triangle meshes of NURBS surfaces, for drawing and for whoever wants triangles: watertight where the surface closes,
+// Triangle meshes of NURBS surfaces, for drawing and for other uses of triangles: watertight where the surface closes,
 // as seams are one row of vertices and poles one vertex with a fan around it.
 //
 //   SurfaceMesh mesh = tessellate(surface, Steps{4, 4});            // four steps to a span of knots

@@ -25,7 +25,7 @@ inline std::string fault_in_net(const std::vector<Vec3d>& points, const std::vec
   return {};
 }
 
-/// Weights that are all 1, but for rounding, need not be told.
+/// Weights that are all 1, but for rounding, need not be stored.
 inline void drop_plain_weights(std::vector<double>& weights) {
   for (double w : weights)
     if (std::fabs(w - 1.0) > 1e-14) return;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kSameKnot = 1e-12;  // of the domain's extent
 
-// Control point of function i; periodic rows go on for ever.
+// Control point of function i; periodic rows continue for ever.
 const Vec4d& point_at(const Row& row, int i) {
   if (!row.knots.periodic) return row.points[i];
   const int n = row.knots.points();

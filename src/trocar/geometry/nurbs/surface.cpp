@@ -26,7 +26,7 @@ Vec4d weighted_sum(const Surface& s, int first_u, const BasisRow& nu, int first_
   return sum;
 }
 
-// Which way from u the domain goes on.
+// Which way from u the domain continues.
 double inwards(const Knots& knots, double u) noexcept { return !knots.periodic && !(u < knots.end()) ? -1.0 : 1.0; }
 
 // du x dv in units of the domain, or, where that is nothing, how it begins to grow into the domain.

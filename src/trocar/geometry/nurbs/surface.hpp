@@ -44,7 +44,7 @@ SurfaceJet jet_in_spans(const Surface& surface, int span_u, int span_v, double u
 std::vector<std::vector<Vec3d>> derivatives(const Surface& surface, double u, double v, int order);
 
 /// Unit normal along du x dv. Where a derivative vanishes, as at a pole, or both are parallel: the limit from inside of
-/// the domain (ours); 0 only where there is none.
+/// the domain (our estimate); 0 only where there is none.
 Vec3d normal(const Surface& surface, double u, double v) noexcept;
 
 struct Curvatures {

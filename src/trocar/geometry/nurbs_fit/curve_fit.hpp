@@ -32,7 +32,7 @@ struct CurveFit {
 /// numbers, and for points that coincide with their neighbours or are not numbers
 CurveFit fit_curve(std::span<const Vec3d> points, int control_points, const CurveFitOptions& options = {});
 /// The same with the fewest control points, from the fewest on and with a knot more in each span that has a point
-/// farther away than `tolerance` [m], until none is or there are as many control points as points; greatest says which.
+/// further away than `tolerance` [m], until none is or there are as many control points as points; greatest says which.
 CurveFit fit_curve_within(std::span<const Vec3d> points, double tolerance, const CurveFitOptions& options = {});
 
 }  // namespace trocar::geometry::nurbs

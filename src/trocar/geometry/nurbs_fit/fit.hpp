@@ -62,7 +62,7 @@ Fit fit_patch(const TriMesh& mesh, const PatchFitOptions& options = {});
 /// The same over points that lie side by side seen from somewhere: over the rectangle of their principal plane.
 Fit fit_patch(std::span<const Vec3d> cloud, const PatchFitOptions& options = {});
 
-/// How a surface suits a mesh, whoever made it.
+/// How a surface suits a mesh, of any origin.
 FitReport compare(const Surface& surface, const TriMesh& mesh);
 
 }  // namespace trocar::geometry::nurbs

@@ -1,4 +1,4 @@
-// What fits of every kind are told by.
+// The report of every kind of fit.
 #pragma once
 
 #include <span>

@@ -15,7 +15,7 @@ struct Samples {
 };
 
 /// Of a mesh with (u, v) at its vertices: the vertices with a quarter of their triangles' areas, and points inside of
-/// triangles, as many as it takes that they are not farther apart than `spacing` [m], with the rest (Simpson's rule).
+/// triangles, as many as it takes that they are not further apart than `spacing` [m], with the rest (Simpson's rule).
 /// @param wraps u goes around, 1 is 0 again @param poles vertices at which u says nothing: their triangles take it from
 /// the other corners
 Samples samples_of(const TriMesh& mesh, const std::vector<std::array<double, 2>>& parameters, double spacing,

@@ -6,7 +6,7 @@
 // Latitude is the temperature of a shell that is cold at one pole and warm at the other, longitude the same around,
 // with a step of one turn at a date line; latitude is then rescaled to run in proportion to the mean way along the
 // body. [Brechbuehler, Gerig & Kuebler 1995, Parametrization of closed surfaces for 3-D shape description; the
-// rescaling is ours, and weights are cotangents, kept above 0, instead of ones]
+// rescaling is our choice, and weights are cotangents, kept above 0, instead of ones]
 #pragma once
 
 #include <array>

@@ -30,7 +30,7 @@ struct Unknowns {
 /// Every control point for itself.
 Unknowns free_unknowns(const Knots& u, const Knots& v);
 /// u periodic, v clamped with a pole at both ends: each pole is one point, and the row next to it an ellipse's affine
-/// image in a plane through it, so that the surface has a tangent plane there (ours).
+/// image in a plane through it, so that the surface has a tangent plane there (our estimate).
 Unknowns sphere_unknowns(const Knots& u, const Knots& v);
 
 class SurfaceSystem {

@@ -2,7 +2,7 @@
 //
 //   PatchWork patch(mesh, faces);             // faces of the EditableMesh that are the patch
 //   patch.refine();
-//   patch.fair(PatchShape::continued);        // as the surface around it goes on
+//   patch.fair(PatchShape::continued);        // as the surface around it continues
 //
 // Only the patch changes; the vertices of its border stay where they are.
 #pragma once

@@ -13,10 +13,10 @@ namespace trocar::geometry {
 /// Without triangles that have a corner whose place is no number, and without such vertices.
 Repaired without_broken(const TriMesh& mesh);
 
-/// Vertices within `distance` [m] of an earlier one become that. What stays is farther apart: a chain of near vertices
+/// Vertices within `distance` [m] of an earlier one become that. What stays is further apart: a chain of near vertices
 /// does not become one. Triangles that have lost an edge by that are left out.
 Repaired welded(const TriMesh& mesh, double distance);
-/// The same for vertices on borders only, and no farther than a fifth of their shortest border edge: closes cracks.
+/// The same for vertices on borders only, and no further than a fifth of their shortest border edge: closes cracks.
 Repaired with_borders_welded(const TriMesh& mesh, double distance);
 
 /// Of triangles with the same three corners one that faces as most of them do; none where as many face either way, as

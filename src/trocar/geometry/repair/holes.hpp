@@ -1,5 +1,5 @@
 // Holes are closed: rims of walls by a ring between them (rim_bridge.hpp), others by a patch (rim_patch.hpp) that is as
-// fine as what is around it. Small ones go on as the surface does; where a tube ends, or a lid is large, it is
+// fine as what is around it. Small ones continue as the surface does; where a tube ends, or a lid is large, it is
 // stretched like a soap film (remesh/patch_work.hpp).
 //
 //   const Repaired closed = with_holes_closed(mesh);
@@ -14,7 +14,7 @@ namespace trocar::geometry {
 
 struct HoleOptions {
   bool rings = true;    ///< between rims of a wall; otherwise lids on both
-  bool smooth = true;   ///< small patches go on as the surface does; otherwise all are stretched
+  bool smooth = true;   ///< small patches continue as the surface does; otherwise all are stretched
   bool refine = true;   ///< patches are as fine as what is around; otherwise they have no vertices of their own
   bool sheets = false;  ///< close those, too
 };

@@ -82,7 +82,7 @@ class MeshMending {
     append(m_out.mesh, sheets);
   }
 
-  /// Takes shells with holes, and such as are not of one mind, out of the mesh.
+  /// Takes shells with holes, and such as are not consistent, out of the mesh.
   TriMesh set_aside_open() {
     const EdgeTable edges(m_out.mesh);
     const Shells shells = shells_of(m_out.mesh, edges, {});

@@ -1,6 +1,6 @@
 // Whatever a mesh lacks to be a body is mended, in an order in which one repair does not undo another: what is broken
 // goes, vertices are welded, what is there twice goes, surfaces that only touch come apart, triangles without area go,
-// all face the same way, holes are closed, what crosses is eased, cut out or made anew.
+// all face the same way, holes are closed, what crosses is eased, cut out or made again.
 //
 //   const MendedMesh organ = mend(file_mesh);
 //   if (!organ.after.is_body()) say(organ.left);       // "a sheet of 12 cm2 is left open: it encloses nothing"
@@ -24,7 +24,7 @@ struct MendOptions {
   double crack = 1e-3;           ///< the same for borders, where no edge there is short
   double smallest_shell = 1e-3;  ///< open shells of less than this share of the largest one's area are left out
   HoleOptions holes;
-  bool refill = true;  ///< make anew what crosses, where nothing else helps
+  bool refill = true;  ///< make again what crosses, where nothing else helps
   RefillOptions refilling;
 };
 

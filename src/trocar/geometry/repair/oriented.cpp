@@ -55,7 +55,7 @@ class Flood {
   }
 };
 
-/// Which shells, now of one mind, shall be turned as a whole.
+/// Which shells, now consistent, shall be turned as a whole.
 std::vector<bool> shells_to_turn(const TriMesh& before, const std::vector<bool>& flooded, const TriMesh& mesh) {
   const EdgeTable edges(mesh);
   const Shells shells = shells_of(mesh, edges, rims_of(mesh, edges));

@@ -2,8 +2,8 @@
 //
 //   const Repaired good = oriented(mesh);
 //
-// Closed shells that were of one mind before and face inwards inside of another one are walls of cavities, and stay so.
-// Open ones that were of one mind stay as they are: which side is which is seen once they are closed. Others are judged
+// Closed shells that were consistent before and face inwards inside of another one are walls of cavities, and stay so.
+// Open ones that were consistent stay as they are: which side is which is seen once they are closed. Others are judged
 // as if their holes were closed by fans; sheets, which enclose next to nothing, face as most of their area did.
 #pragma once
 

@@ -1,4 +1,4 @@
-// A surface that passes through itself is made anew from what it encloses: the field of distances (volumes/field.hpp)
+// A surface that passes through itself is made again from what it encloses: the field of distances (volumes/field.hpp)
 // is filled with cells (tets/stuffing.hpp), and their skin is the new surface. Also a sheet gets a thickness that way.
 //
 //   const Refilled body = refilled(mesh);                     // as fine as the mesh is, as far as that is bounded

@@ -187,7 +187,7 @@ std::optional<TriMesh> resolved_at_once(const TriMesh& mesh, double& work_left) 
   return std::nullopt;
 }
 
-/// One shell after the other: where three surfaces meet in a point all at once do not come off. Cavities come last.
+/// One shell after the other: where three surfaces meet in a point a cut of all at once fails. Cavities come last.
 std::optional<TriMesh> resolved_by_shells(const TriMesh& mesh, double& work_left) {
   constexpr std::size_t most = 64;
   const EdgeTable edges(mesh);

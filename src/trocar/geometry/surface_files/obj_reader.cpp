@@ -1,4 +1,4 @@
-// Wavefront OBJ, the part of it that carries surfaces: v, f, o, g. Lines that end in a backslash go on.
+// Wavefront OBJ, the part of it that carries surfaces: v, f, o, g. Lines that end in a backslash continue.
 // [Wavefront: Advanced Visualizer manual, appendix B1, "Object files"]
 #include <algorithm>
 
@@ -55,7 +55,7 @@ class ObjSurface {
     pass_line();
   }
 
-  /// To the end of the line, and of those that it goes on in.
+  /// To the end of the line, and of those that it continues in.
   void pass_line() {
     for (std::string_view rest = m_in.line(); !rest.empty() && rest.back() == '\\' && m_in.left() > 0;)
       rest = m_in.line();

@@ -1,4 +1,4 @@
-// STL as text or binary. Binary files are told by their size, as many of them begin with "solid", too.
+// STL as text or binary. Binary files are recognised by their size, as many of them begin with "solid", too.
 //
 //   solid NAME / facet normal x y z / outer loop / vertex x y z, three times / endloop / endfacet / endsolid
 //   80 bytes, uint32 n, n times: float normal[3], float corner[3][3], uint16                      little-endian

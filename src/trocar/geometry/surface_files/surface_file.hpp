@@ -10,7 +10,7 @@
 // triangles, strips and fans; nodes' transforms; sparse accessors), VTK (POLYDATA as text or binary, polygons and
 // strips). Coordinates are those of the file: nothing is scaled. Written: surface_writer.hpp.
 //
-// Files are taken as hostile: what they announce is believed as far as the bytes reach, never farther.
+// Files are taken as hostile: what they announce is believed as far as the bytes reach, never further.
 #pragma once
 
 #include <filesystem>

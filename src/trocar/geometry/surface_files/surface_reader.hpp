@@ -29,7 +29,7 @@ void bound_items(MeshSource& in, std::size_t count, const char* things);
 
 /// Polygons with many corners, of vertices that may be defined after them.
 struct PolygonList {
-  static constexpr int kTold = -1;  ///< a corner that is none, which has been told
+  static constexpr int kTold = -1;  ///< a corner that is none, which has been reported
   std::vector<int> corners, start{0};
   std::vector<std::uint32_t> at;  ///< of each in the file
 
@@ -40,7 +40,7 @@ struct PolygonList {
     at.push_back(static_cast<std::uint32_t>(place));
   }
 };
-/// The triangles of polygons first to last; a vertex that is not there is told at the polygon's place.
+/// The triangles of polygons first to last; a vertex that is not there is reported at the polygon's place.
 /// @param from  the number of the first vertex as the file counts: 1 or 0
 std::vector<std::array<int, 3>> cut_polygons(MeshSource& in, const std::vector<Vec3d>& positions,
                                              const PolygonList& polygons, int first, int last, int from,

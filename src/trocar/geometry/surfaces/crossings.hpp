@@ -17,7 +17,7 @@
 
 namespace trocar::geometry {
 
-inline constexpr int kMostCrossings = 20'000;  ///< pairs that are told
+inline constexpr int kMostCrossings = 20'000;  ///< pairs that are reported
 /// Pairs that are looked at: so many, or as many times the number of triangles if that is more.
 inline constexpr long long kMostCrossingTests = 10'000'000, kMostCrossingTestsEach = 60;
 

@@ -3,7 +3,7 @@
 // allocation, + - * / sqrt only.
 //   const auto hit = closest_segment_triangle(shaft_tip, shaft_end, a, b, c);
 //   if (hit.distance2 < radius * radius) push(hit.on_triangle - hit.on_segment);
-// [Ericson 2005, Real-Time Collision Detection, chapter 5] for the cases to tell apart; the arithmetic is ours.
+// [Ericson 2005, Real-Time Collision Detection, chapter 5] for the cases to tell apart; the arithmetic is our choice.
 #pragma once
 
 #include <algorithm>

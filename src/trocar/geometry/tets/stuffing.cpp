@@ -153,7 +153,7 @@ class Stuffing {
     for (int p = 0; p < n; ++p) m_side[p] = m_value[p] > 0 ? 1 : (m_value[p] == 0 ? 0 : -1);
   }
 
-  /// The values of the points between two places, these included. Where the surface is farther from the middle than the
+  /// The values of the points between two places, these included. Where the surface is further from the middle than the
   /// farthest of them and an edge more, they are all on the middle's side, and no edge from them is cut: then one value
   /// does for all.
   void look_at(const LatticePoint& low, const LatticePoint& high) {

@@ -47,7 +47,7 @@ struct StuffingReport {
   double nodes_off = 0;    ///< farthest of the surface's nodes from the field's surface [m]
   double surface_off = 0;  ///< the same of its edges' and triangles' middles
 };
-/// Distances are the field's values: exact for meshes; the fields of labels are level farther than about a voxel from
+/// Distances are the field's values: exact for meshes; the fields of labels are level further than about a voxel from
 /// their surface, and those of thresholds have the voxels' unit.
 StuffingReport compare(const TetMesh& body, const Field& field);
 /// The same for the volumes, and how far the shape's vertices are from the body's surface.

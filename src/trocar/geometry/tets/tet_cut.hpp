@@ -9,7 +9,7 @@
 //
 // cut() takes no memory and throws nothing; the same body, blade and positions give the same bits.
 // Source: snapping and splitting as in [Nienhuys & van der Stappen 2001]; which cells part and how fans of cells keep
-// or share a node is ours.
+// or share a node is our choice.
 #pragma once
 
 #include <array>

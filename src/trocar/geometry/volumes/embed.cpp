@@ -39,7 +39,7 @@ void look_at(const Lattice& lattice, Vec3d q, std::array<int, 3> place, OfLoop l
   }
 }
 
-// Shells of places around the one that is nearest to q, until no farther shell can be nearer.
+// Shells of places around the one that is nearest to q, until no further shell can be nearer.
 Nearest nearest_cell(const Lattice& lattice, Vec3d q, OfLoop loop) {
   std::array<int, 3> centre;
   for (int k = 0; k < 3; ++k) centre[k] = static_cast<int>(std::floor(std::clamp(q[k], 0.0, lattice.dims[k] - 0.5)));

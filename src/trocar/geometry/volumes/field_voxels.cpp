@@ -81,7 +81,7 @@ void for_each_voxel_of(const Crop& crop, const Voxels& v, F&& f) {
       v.values);
 }
 
-/// The weights 1 2 1 along one axis; beyond the crop's ends its values go on.
+/// The weights 1 2 1 along one axis; beyond the crop's ends its values continue.
 void smooth_along(Crop& crop, int axis) {
   const std::size_t strides[3] = {1, std::size_t(crop.size[0]), std::size_t(crop.size[0]) * crop.size[1]};
   const std::size_t stride = strides[axis];

@@ -1,8 +1,8 @@
 // A cubic lattice that fills a closed surface: the mechanical nodes of a VOLUME body. Cells that are mostly outside
 // are left away; the surface is carried by the cells around it (embed.hpp).
 //
-// A long body that lies in loops comes near itself, nearer than a cell. Whoever says how far along the body each vertex
-// of the mesh is gets cells and nodes of their own for each loop, in the same place where two loops share it.
+// A long body that lies in loops comes near itself, nearer than a cell. Anyone who says how far along the body each
+// vertex of the mesh is gets cells and nodes of their own for each loop, in the same place where two loops share it.
 //
 //   const Lattice lattice = make_lattice(mesh, 0.004);
 //   for (std::size_t c = 0; c < lattice.cells.size(); ++c) mass += density * lattice.cell_fill[c] * cell_volume;
@@ -31,7 +31,7 @@ struct Lattice {
   /// Of a body in loops that come near each other, where the mesh says how far along each vertex is; else empty.
   std::vector<double> cell_along;  ///< how far along the body each cell is [m]
   std::vector<int> other_at;       ///< the next cell at the same place, of another loop, or -1
-  double apart = kNoMatterHowFar;  ///< what is farther apart along the body does not hang together [m]
+  double apart = kNoMatterHowFar;  ///< what is further apart along the body does not hang together [m]
   static constexpr double kNoMatterHowFar = std::numeric_limits<double>::infinity();
 
   /// The cell at a place, the first of them where loops share it; -1 where there is none or the place is outside.

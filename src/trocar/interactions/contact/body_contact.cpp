@@ -9,7 +9,7 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kJoined = 0.030;  // [m] drawn no farther apart than this, strands are joined by a fold
+constexpr double kJoined = 0.030;  // [m] drawn no further apart than this, strands are joined by a fold
 
 bool touches(const Surface& surface, int vertex, Vec3d p, double depth) noexcept {
   return depth > 0 && depth <= kDeepestContact && length(p - surface.position(vertex)) <= kFarthestContact;

@@ -11,7 +11,7 @@ inline constexpr double kBodyStiffness = 150;      ///< [N/m] per sample of orga
 inline constexpr double kBodyDamping = 0.05;       ///< [N s/m]
 inline constexpr double kQuickestApart = 0.0006;   ///< [m] a tick that two of them are moved apart
 inline constexpr double kDeepestContact = 0.010;   ///< [m] deeper is not contact but another side of the body
-inline constexpr double kFarthestContact = 0.012;  ///< [m] farther from the nearest vertex, its plane says nothing
+inline constexpr double kFarthestContact = 0.012;  ///< [m] further from the nearest vertex, its plane says nothing
 
 /// Pushes a skin vertex along n.
 /// @param by  what is still lacking [m]

@@ -8,7 +8,7 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kPieceReach = 0.008;  // [m] about a cell and a half: the nearest vertex is not farther
+constexpr double kPieceReach = 0.008;  // [m] about a cell and a half: the nearest vertex is not further
 
 /// The nearest vertex of another piece within reach, or -1.
 int nearest_of_others(const Surface& surface, std::span<const std::int32_t> part, int vertex) noexcept {

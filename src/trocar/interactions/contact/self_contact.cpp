@@ -98,7 +98,7 @@ int keep_apart(const SelfPair& pair, const Surface& surface, std::size_t i, int 
   return u;
 }
 
-/// Ways along the edges of the drawn skin from one vertex, up to `most` [m]; what is farther has more.
+/// Ways along the edges of the drawn skin from one vertex, up to `most` [m]; what is further has more.
 std::vector<double> ways_from(const tissue::Skin& skin, int vertex, double most) {
   using Step = std::pair<double, int>;
   std::vector<double> way(std::size_t(skin.size()), 1e30);

@@ -98,7 +98,7 @@ Clearance clearance_at(const Surface& surface, int vertex, Vec3d p) noexcept {
 
 Clearance facing_clearance(const Surface& surface, int vertex, Vec3d p, Vec3d facing) noexcept {
   constexpr double kOpposed = -0.25;  // of the two normals' product
-  constexpr double kBesides = 0.002;  // [m] what lies farther beside a triangle is not above it
+  constexpr double kBesides = 0.002;  // [m] what lies further beside a triangle is not above it
   const tissue::Skin& skin = *surface.skin;
   Clearance c{1e30, {0, 0, 1}};
   double least = 1e30;

@@ -29,7 +29,7 @@ struct Surface {
   }
 };
 
-/// Of a lattice: a vertex is torn off where one of its carriers is farther away than five times the cells' diagonal.
+/// Of a lattice: a vertex is torn off where one of its carriers is further away than five times the cells' diagonal.
 float torn_beyond(double cell) noexcept;
 
 /// Does the segment come nearer to the box than `margin`? Never false where it does; the box is grown by its faces, so

@@ -138,7 +138,7 @@ Capsule both_jaws(const ToolShape& shape, double half_thickness) noexcept {
   return {shape.pivot, shape.frame.tip + (a.radius - radius) * axis, one ? radius : 0};
 }
 
-/// Does the rod reach through the fold, much farther than a contact lets it? It may then leave as it likes.
+/// Does the rod reach through the fold, much further than a contact lets it? It may then leave as it likes.
 bool impales(const Capsule& rod, const SheetView& sheet) noexcept {
   const Surface& surface = sheet.surface;
   const double size = length(rod.b - rod.a);

@@ -1,7 +1,7 @@
 // An instrument touches a thin sheet, from either side. Shaft and jaws are rods against the sheet's triangles; for
 // every rod and triangle State remembers from which side they last were near each other, and the contact pushes the
 // sheet back to there, as far in a tick as the rod has moved and some more. So nothing passes through it: a rod is
-// remembered from 2 mm before it touches, and where it or the sheet moves farther than that in a tick it is looked at
+// remembered from 2 mm before it touches, and where it or the sheet moves further than that in a tick it is looked at
 // in between. What lies between the jaws, a little of the fold or all of it, has a jaw on either side.
 //
 // A fold that a shaft has got through all the same (as where it is held) lets it go: nothing of the instrument touches

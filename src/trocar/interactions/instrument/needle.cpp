@@ -360,7 +360,7 @@ int carry_along(const Needles& needles, const Carried& body, double gap, double 
     if (!meets_box(body.before.bounds, n.end0, n.end0 - n.length * n.dir0, way + moved)) continue;
     if (extent.side < 0) extent.side = side_of(body);
     zone[std::size_t(i)].emplace(n, body, i > needles.links, way + moved, extent.side, tick);
-    // What one part of the instrument has impaled comes off over the others.
+    // What one part of the instrument has impaled slides off over the others.
     if (zone[std::size_t(i)]->impales()) return 0;
   }
   int sum = 0;

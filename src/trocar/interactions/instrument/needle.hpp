@@ -38,7 +38,7 @@ struct Needle {
 
 /// An instrument's axes: of the shaft and what bends before it, and of closed jaws in one line or of each jaw that is
 /// hardly open, or of a hook's wire. Jaws that are wide open have none, nor has a hook's foot: what they hook could
-/// never come off.
+/// never slide off.
 struct Needles {
   static constexpr int kMost = 3 + kinematics::kMaxLinks;
   Needle needle[kMost];

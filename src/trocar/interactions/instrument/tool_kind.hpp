@@ -1,4 +1,4 @@
-// The kinds of instruments: what files call them, and what each can do. Whoever deals with instruments asks what one
+// The kinds of instruments: what files call them, and what each can do. Code that handles instruments asks what one
 // can do and not which kind it is:
 //
 //   if (tool.can().set_clips) ...

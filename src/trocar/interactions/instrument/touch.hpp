@@ -99,7 +99,7 @@ class Touching {
  public:
   /// @param friction  Coulomb's coefficient
   /// @param before    where it was in the last tick
-  /// @param last      of the last tick; @param next  scratch, filled anew
+  /// @param last      of the last tick; @param next  scratch, filled again
   Touching(double friction, const ToolShape& before, const ToolShape& shape, int tool, const TouchBook& last,
            TouchBook& next) noexcept;
 

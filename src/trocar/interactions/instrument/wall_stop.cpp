@@ -10,13 +10,13 @@ namespace {
 
 constexpr double kFromTrocar = 0.040;    // [m] of the shaft that no wall stops
 constexpr double kShaftSpacing = 0.020;  // [m] of the points along the shaft that are tested
-constexpr double kWallReach = 0.012;     // [m] farther than this from its nearest vertex no wall touches a point
+constexpr double kWallReach = 0.012;     // [m] further than this from its nearest vertex no wall touches a point
 constexpr double kBehindWall = 0.005;    // [m]
 constexpr double kBesideFoot = 0.0015;   // [m] off the foot of the normal: past the wall's rim
 constexpr double kPress = 500;           // [N/m]
 constexpr double kMostStop = 15;         // [N]
 constexpr double kQuickestTip = 0.0006;  // [m] that the tip moves in a tick: what hands do, no jumps
-constexpr double kWithdraws = 0.0005;    // [m] farther out than it is: the hand draws back, and nothing holds it
+constexpr double kWithdraws = 0.0005;    // [m] further out than it is: the hand draws back, and nothing holds it
 constexpr int kRounds = 4;
 
 /// A ball of an instrument that a wall may stop.
@@ -140,7 +140,7 @@ Deepest deepest_of(const ToolModel& model, Vec3d port, std::span<const Surface> 
   return deepest;
 }
 
-/// No farther from `before` than the tip may go in a tick: a little that the shaft moves near the trocar is a lot
+/// No further from `before` than the tip may go in a tick: a little that the shaft moves near the trocar is a lot
 /// there.
 void slow_down(Vec3d port, const kinematics::FulcrumPose& before, ToolState& tool) noexcept {
   const double far = length(kinematics::forward(port, tool.pose()).tip - kinematics::forward(port, before).tip);

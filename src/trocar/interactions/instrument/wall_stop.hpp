@@ -21,7 +21,7 @@ struct WallStop {
 };
 
 /// Moves the instrument back to the walls' inner side. Walls within 40 mm of the trocar do not count: it goes through
-/// them. Nor do those whose surface is farther away than 5 mm: the instrument is behind them since it was put there.
+/// them. Nor do those whose surface is further away than 5 mm: the instrument is behind them since it was put there.
 /// @param wanted  where the hand wants the instrument
 /// @param before  where it was in the last tick: no wall moves it faster than a hand would
 /// @param joints  as they are; walls do not bend an instrument

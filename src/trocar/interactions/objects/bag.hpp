@@ -29,7 +29,7 @@
 
 namespace trocar::interactions {
 
-/// Two nodes that are no farther apart than this; of a bend: no nearer, softly.
+/// Two nodes that are no further apart than this; of a bend: no nearer, softly.
 struct BagThread {
   std::int32_t a = 0, b = 0;
   double length = 0;  ///< [m]
@@ -59,7 +59,7 @@ struct BagModel {
   std::int32_t around = 0, rows = 0;  ///< nodes in a row; rows, the first on the hoop; the bottom is one node more
   std::vector<Vec3d> drawn;  ///< nodes of the open bag: hoop's middle at 0, z out of the mouth, x along the axis
   std::vector<BagThread> threads, bends;
-  std::vector<BagThread> reins;  ///< from the hoop to each node: no farther than the cloth in between is long
+  std::vector<BagThread> reins;  ///< from the hoop to each node: no further than the cloth in between is long
   std::vector<std::array<std::int32_t, 3>> triangles;    ///< counter-clockwise seen from outside
   std::vector<std::int32_t> face_first, face;            ///< CSR: triangles at a node
   std::vector<std::int32_t> neighbour_first, neighbour;  ///< CSR: nodes that share a triangle

@@ -38,7 +38,7 @@ AtMouth at_mouth(const BagModel& m, const BagState& s, Vec3d p) noexcept {
 /// How far from the bag's axis its inside reaches, `below` the mouth: a sack of the cloth's girth that hangs from the
 /// hoop, wide open or drawn shut [m]. Below 0: there is no more of it.
 double reach_inside(const BagModel& m, const BagState& s, double below) noexcept {
-  constexpr double kWidest = 0.35;  // of its depth: ours
+  constexpr double kWidest = 0.35;  // of its depth: our estimate
   const double widest = kWidest * m.deep;
   if (below < widest) return m.hoop * (s.hoop + (1 - s.hoop) * std::max(0.0, below) / widest);
   const double f = (below - widest) / (m.deep - widest);
@@ -183,7 +183,7 @@ namespace {
 
 /// What has come in over the rim with the rest of a pouch, and not through the mouth's plane: it lies in the sack.
 void take_along(const BagModel& m, const BagPouch& p, Vec3d down, BagState& s, const BagWork& w) noexcept {
-  constexpr double kRest = 0.33;  // share of it that has to be inside: ours
+  constexpr double kRest = 0.33;  // share of it that has to be inside: our estimate
   const auto first = s.points.begin() + p.first, last = first + p.count;
   const auto inside = [](const BagPoint& q) { return q.where == BagPoint::inside; };
   if (double(std::count_if(first, last, inside)) < kRest * p.count || s.shut()) return;

@@ -4,7 +4,7 @@
 //   roots   tie lobules to strands and organs: a set of bonds (couplings/bonds.hpp), with the fat in the wall's place
 //   ties    tie lobules to nodes of pouches' walls, by the same law
 //   touch   a lobule is a ball; parts of instruments push it, with friction. Where jaws close on lobules they hold them
-// Lobules do not touch each other, nor the bodies that they have come off: what is torn off falls out of sight.
+// Lobules do not touch each other, nor the bodies that they have detached from: what is torn off falls out of sight.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ namespace trocar::interactions {
 struct FatTie {
   std::int32_t lobule = -1;
   std::int32_t membrane = -1, node = -1;
-  Vec3d offset{0, 0, 0};  ///< from the node to the lobule, as drawn [m]
+  Vec3d offset{0, 0, 0};  ///< from the node to the lobule, in the rest shape [m]
   double area = 0;        ///< [m^2]
 
   template <class S, class V>

@@ -8,7 +8,7 @@ namespace trocar::interactions {
 namespace {
 
 constexpr double kTieDamping = 2e-4;  // [s] times stiffness, as of bonds
-constexpr double kWarms = 1.2;        // spacings: lobules so near to where current enters share its heat.  Ours
+constexpr double kWarms = 1.2;        // spacings: lobules so near to where current enters share its heat.  Our estimate
 
 bool coagulated(const FatBodyState& s, int lobule) noexcept { return s.fat.lobules[size_t(lobule)].coagulated(); }
 

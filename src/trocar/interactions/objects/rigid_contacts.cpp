@@ -47,7 +47,7 @@ class Finder {
     }
   }
 
-  /// Tissue is a spring where it lies, and goes on as fast as it goes now.
+  /// Tissue is a spring where it lies, and continues as fast as it goes now.
   void at_beds() noexcept {
     for (const RigidBed& bed : m_work.beds) {
       const size_t i = size_t(bed.body);

@@ -21,7 +21,7 @@ void gather_thread(const SutureModel& m, const SutureState& s, const ToolModel& 
 bool clip_thread(const SutureModels& models, const ToolModel& tool, const ToolShape& shape, std::int32_t number,
                  Suture::States& states, Clip& clip) noexcept;
 
-/// A clip of the book as it sits on its thread; null: on none, or it has come off.
+/// A clip of the book as it sits on its thread; null: on none, or it has detached.
 const suture::ThreadClip* thread_clip(const Suture::States& states, const Clip& clip, std::int32_t number) noexcept;
 
 }  // namespace trocar::interactions

@@ -10,16 +10,16 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kSkinReach = 0.006;      // [m] farther from a skin's vertices, it is not looked at
+constexpr double kSkinReach = 0.006;      // [m] further from a skin's vertices, it is not looked at
 constexpr double kSkinAhead = 0.0004;     // [m] contacts are there before they touch
 constexpr double kDeepestRest = 0.0025;   // [m] deeper is another side of the body
 constexpr double kSureOfSide = 0.00005;   // [m] below a skin from which on a node's side is made sure of
-constexpr std::uint64_t kLooksAnew = 16;  // ticks in which each bead and node looks for its skin anew
+constexpr std::uint64_t kLooksAnew = 16;  // ticks in which each bead and node looks for its skin again
 constexpr double kCalms = 0.5;            // of what tissue resists, as damping beside a needle
-constexpr double kTurnsTo = 0.02;         // of the way a tick: skin under a tip is as it was for some 50 ms. Ours
-constexpr double kSameSide = 0.3;         // cosine between normals of one and the same patch of skin
-constexpr double kBeforeSwage = 0.85;     // of the needle's length: up to there its own thread meets it
-constexpr double kHardStiffness = 2000;   // [N/m] of walls and instruments at a bead
+constexpr double kTurnsTo = 0.02;      // of the way a tick: skin under a tip is as it was for some 50 ms. Our estimate
+constexpr double kSameSide = 0.3;      // cosine between normals of one and the same patch of skin
+constexpr double kBeforeSwage = 0.85;  // of the needle's length: up to there its own thread meets it
+constexpr double kHardStiffness = 2000;  // [N/m] of walls and instruments at a bead
 constexpr double kSteelFriction = 0.15, kWallFriction = 0.3, kTissueFriction = 0.1;  // of needles
 
 int heaviest_corner(const SkinPoint& on) noexcept {
@@ -233,7 +233,7 @@ class Resting {
       keep_in_cavity(n, p, c);
     }
   }
-  /// Below a patch of skin, but not in the organ: another side of it is nearer, whose vertices are farther away.
+  /// Below a patch of skin, but not in the organ: another side of it is nearer, whose vertices are further away.
   bool is_beside(const NearSkin& on, Vec3d p) const noexcept {
     return on.body.is(BodyKind::organ) && on.distance < -kSureOfSide && !encloses(skin_of(m_bodies, on.body), p);
   }

@@ -14,7 +14,7 @@ constexpr double kRunsAtMost = 0.6;    // [m/s] thread is pulled out of the tube
 constexpr double kAtMouth = 0.0025;    // [m] a knot is at the mouth
 constexpr double kStowsBelow = 0.020;  // [m] of the instrument in the body, where an opened one is packed again
 constexpr double kStandsBelow = 0.3;   // [N] of tension up to which the tube's end leads the thread's direction
-constexpr double kCalmer = 0.3;        // of a tension that is new: the rest is what was told before
+constexpr double kCalmer = 0.3;        // of a tension that is new: the rest is the earlier value
 constexpr double kJustBelow = 1e-6;    // of an element: a place in it that is a node
 constexpr int kTieSlot = 0;
 
@@ -32,7 +32,7 @@ double way_for(const SutureModel& m, double off, double length, double fastest, 
   return std::min({way, kSpeedGain * off * dt, fastest * dt});
 }
 
-/// An element that comes out of the tube goes on from the one before it without twist.
+/// An element that comes out of the tube continues from the one before it without twist.
 void wake(int e, suture::ThreadState& t) noexcept {
   const size_t i = size_t(e);
   t.alive[i] = 1;

@@ -11,14 +11,14 @@ namespace trocar::interactions {
 namespace {
 
 constexpr double kTrackApart = 0.001;  // [m] of holes along a path
-constexpr double kCutsWith = 0.3;      // of the puncture force: what the tip meets inside.            Ours
-constexpr double kComesOutWith = 0.6;  // of the puncture force: skin that is stretched over a tip.     Ours
-constexpr double kTipRubs = 1.5;       // friction of a point on skin, which catches. Ours
+constexpr double kCutsWith = 0.3;      // of the puncture force: what the tip meets inside.            Our estimate
+constexpr double kComesOutWith = 0.6;  // of the puncture force: skin that is stretched over a tip.     Our estimate
+constexpr double kTipRubs = 1.5;       // friction of a point on skin, which catches. Our estimate
 constexpr double kSlips = 0.0002;      // [m] that a tip slips until it presses on another point
 constexpr double kDrawnBack = 0.0004;  // [m] that a tip is drawn out of its entry until it is out
 constexpr double kOffPath = 0.0015;    // [m] beside its old path the tip makes a new one
 constexpr double kFirm = 0.004;        // [m] of thread that is through a hole when it is as stiff as holes are
-constexpr double kThreadDrag = 0.01;   // [N] of a hole on the thread in it.                           Ours
+constexpr double kThreadDrag = 0.01;   // [N] of a hole on the thread in it.                           Our estimate
 constexpr double kKept = 0.003;        // [m] of a bite's way the thread's holes are apart
 constexpr double kCutsThrough = 3;     // times the force that harms
 constexpr double kSkinNear = 0.010;    // [m] from a hole, skin is looked for
@@ -26,9 +26,10 @@ constexpr double kOffEdge = 0.0003;    // [m] beside a fold it is out of it
 constexpr double kNeedleTorque =
     0.003;                         // [N m] that fully pinched jaws bear of a needle's turning between their faces. [d]
 constexpr double kFullPinch = 25;  // [N] of a needle holder
-constexpr int kPartsAfter = 20;    // ticks beyond what a thread bears until it parts.            Ours
-constexpr double kCrushes = 2;     // breaking forces on an element: no pull of its own presses it harder on steel. Ours
-constexpr int kCrushedAfter = 3;   // ticks of that until it parts.                               Ours
+constexpr int kPartsAfter = 20;    // ticks beyond what a thread bears until it parts.            Our estimate
+constexpr double kCrushes =
+    2;  // breaking forces on an element: no pull of its own presses it harder on steel. Our estimate
+constexpr int kCrushedAfter = 3;      // ticks of that until it parts.                               Our estimate
 constexpr double kBendsWith = 0.05;   // [N] of a thread that leaves its swage aslant
 constexpr int kAtSwage = 4;           // elements
 constexpr double kTightens = 0.1;     // [N] a tick: a thread that is drawn at 50 mm/s tightens by a third of that
@@ -248,7 +249,7 @@ class Sewing {
     m_state.cut = 0;
   }
 
-  /// The tip is in tissue: it goes on, or back.
+  /// The tip is in tissue: it continues, or back.
   void follow_path() noexcept {
     SutureHole* front = newest();
     if (!front) {

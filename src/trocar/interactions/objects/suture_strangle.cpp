@@ -219,8 +219,8 @@ class Strangling {
     return free_end(body, s, at.place).away > kOffWithin;
   }
 
-  /// The surface is a fan about the loop's middle. Over an end that grows out of something the strand is taken to go on
-  /// in there: what swells up into a loop that lies around its beginning does not let that off.
+  /// The surface is a fan about the loop's middle. Over an end that grows out of something the strand is taken to
+  /// continue in there: what swells up into a loop that lies around its beginning does not let that off.
   bool passes(size_t strand, SlingAround& found) const noexcept {
     const StrandBody& body = m_bodies.strands[strand];
     const tissue::StrandState& s = m_bodies.strand_states[strand];

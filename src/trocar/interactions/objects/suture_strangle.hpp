@@ -6,7 +6,7 @@
 //
 // which a loop of the radius r takes with the tension f r: a soft wall gives until it lies on itself (e_m), and then
 // bears. Near a free end the surface that it is drawn into is steeper towards that end, by the angle whose tangent is
-// (depth / R) exp(-2 d / R) at the distance d: what friction does not hold there slips off. All ours.
+// (depth / R) exp(-2 d / R) at the distance d: what friction does not hold there slips off. All our estimates.
 // docs/guides/endoloop.md.
 //
 //   strangle(...)           after rest_on_tissue(): bodies have not advanced

@@ -82,7 +82,7 @@ struct Fit {
 /// In tissue that is crushed the nodes about a place lie all but in a plane, and what they do across it would count a
 /// hundredfold: it counts the less, then, the more that is.
 void affine_weights(const tissue::NodeView& nodes, const NearNodes& near, Vec3d p, TissuePoint& out) noexcept {
-  constexpr double kMostWeights = 8;  // sum |w|. Ours: 1 inside of the nodes, up to 6 seen beside them
+  constexpr double kMostWeights = 8;  // sum |w|. Our choice: 1 inside of the nodes, up to 6 seen beside them
   const Fit fit(nodes, near, p);
   out.count = near.count;
   double ridge = 1e-6;

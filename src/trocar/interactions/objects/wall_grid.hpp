@@ -26,7 +26,7 @@ struct WallGrid {
   };
   std::vector<Triangle> triangles;
   double cell = 0;   ///< [m]
-  double reach = 0;  ///< of a point: triangles farther away are not found [m]
+  double reach = 0;  ///< of a point: triangles further away are not found [m]
   Vec3d origin;
   std::array<std::int32_t, 3> size{0, 0, 0};
   std::vector<std::int32_t> first;    ///< (cells + 1)

@@ -177,7 +177,7 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
   if (tool.holds > 0) drop_parted(view, tool);
   if (tool.holds > 0) {
     const double stop = aperture_at(model, held_thickness(view, tool.hold[0]), tool.hold[0].local[2]);
-    // Loose jaws are opened by the hand, or the tissue has slid towards their tips, where they stand farther apart. An
+    // Loose jaws are opened by the hand, or the tissue has slid towards their tips, where they stand further apart. An
     // open hand lets go of whatever keeps the jaws wide open.
     const double release = std::min(stop + kLoose, kOpen);
     if (wanted <= std::min(stop, kOpen))

@@ -104,7 +104,7 @@ class Scene {
   }
 
   Beside beside(int body, Vec3d from, Vec3d p) const noexcept { return beside({body, 0, 0}, from, p, kWetReach); }
-  /// @param flies  to or from p: looks farther
+  /// @param flies  to or from p: looks further
   Beside beside(const Candidate& c, Vec3d from, Vec3d p, bool flies) const noexcept {
     return beside(c, from, p, !m_crowd ? kWetReach : flies ? kCrowdFlies : kCrowdRuns);
   }
@@ -206,7 +206,7 @@ class Scene {
     const int v = nearest_vertex(c, on, p, reach);
     return v < 0 ? Beside{} : beside_vertex(c.body, v, p);
   }
-  /// @param from  where it came from: tells the side
+  /// @param from  where it came from: gives the side
   Beside beside_sheet(const Candidate& c, Vec3d from, Vec3d p, double reach) const noexcept {
     const int body = c.body;
     Beside found = beside_surface(c, p, reach);

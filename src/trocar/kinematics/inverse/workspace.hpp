@@ -4,8 +4,8 @@
 //   const Workspace w = workspace(m, m.frames[tip]);
 //   w.volume;              // [m^3] of the cells that were met
 //
-// A mechanism with drives is led by them, from 0 to 1; where there is one only, by all of its way in steps, and the
-// frame's way is a line. One without drives is led by all of its coordinates.
+// A mechanism with drives is controlled by them, from 0 to 1; where there is one only, by all of its way in steps, and
+// the frame's way is a line. One without drives is controlled by all of its coordinates.
 #pragma once
 
 #include <string>

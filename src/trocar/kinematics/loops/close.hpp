@@ -54,7 +54,7 @@ void hold_drives(const Mechanism& m, LoopWork& work) noexcept;
 
 enum class LoopStatus : unsigned char {
   closed,
-  singular,      ///< closed, and at a dead point: what is held does not say how the rest goes on
+  singular,      ///< closed, and at a dead point: what is held does not say how the rest continues
   out_of_reach,  ///< no pose nearby closes it
 };
 

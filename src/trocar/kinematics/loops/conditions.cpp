@@ -22,7 +22,7 @@ void residuals(std::span<const Closure> closures, const Pose& pose, double* r) n
 
 namespace {
 
-/// A condition changes by f . (speed of b's origin as if fixed to whoever moves) + g . (turning speed), with + where
+/// A condition changes by f . (speed of b's origin as if fixed to the moving link) + g . (turning speed), with + where
 /// b's side moves and - where a's does.
 struct Gradient {
   Vec3d f, g;

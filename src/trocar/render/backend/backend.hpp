@@ -58,7 +58,7 @@ class Backend {
   virtual void draw(const DrawItem& item) = 0;
   virtual void end_frame() = 0;
 
-  /// Keeps what a target shows, whoever drew it, as one eye's picture.
+  /// Keeps what a target shows, from any source, as one eye's picture.
   virtual void keep_eye(Eye eye, const Target& from) = 0;
   /// Puts the pictures of both eyes together. Both, and of one size, must have been kept since the last time. Quad
   /// buffers need a window with them.

@@ -21,7 +21,7 @@ struct Layers {
   std::vector<std::array<float, 3>> normal;  ///< (width height) unit; x right, y down, z away from the camera
   std::vector<std::uint16_t> part;           ///< (width height) DrawItem::part, Liquid::part
   /// (width height) [px] right and down from here to where the same point of the same thing was in the remembered
-  /// frame's picture, seen or not; not a number where nothing is known of it: new things, liquids, a mesh made anew.
+  /// frame's picture, seen or not; not a number where nothing is known of it: new things, liquids, a mesh made again.
   std::vector<std::array<float, 2>> flow;
 
   static Layers nothing(int width, int height);

@@ -1,5 +1,5 @@
 // One picture to draw: where the camera is, what lights the scene, what is in it, and what the optics do to it.
-// Plain data, made anew each frame by view.
+// Plain data, made again each frame by view.
 //
 //   Frame frame;
 //   frame.camera = look_at(scope_tip, target, up);

@@ -1,5 +1,5 @@
 // Liquids as the renderer sees them: splats that merge into one surface (drops in flight, drops that run, films), and a
-// sheet that has gathered. Plain data, made anew each frame by view.
+// sheet that has gathered. Plain data, made again each frame by view.
 //
 // Splats are drawn into three small pictures (field, thickness, film) and added up; where the field passes a threshold
 // there is liquid, its thickness and normal follow from the field, and its colour from the law of Beer and Lambert:

@@ -50,7 +50,7 @@ EGLContext core_context(EGLDisplay display) {
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (!eglChooseConfig(display, config_wish, &config, 1, &count) || count == 0) return EGL_NO_CONTEXT;
-  // One that tells of a reset, where the driver knows how.
+  // One that reports a reset, where the driver knows how.
   EGLint wish[] = {EGL_CONTEXT_MAJOR_VERSION,
                    3,
                    EGL_CONTEXT_MINOR_VERSION,

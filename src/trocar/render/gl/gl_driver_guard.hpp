@@ -6,7 +6,7 @@
 // the read is the same in later releases). With 0.2 ms of delay before that broadcast every start dies.
 //
 // The fence's mutex is destroyed before its memory is freed. So pthread_mutex_destroy is defined here too, in front of
-// the C library's, and first waits until whoever holds the mutex has left. Nobody may destroy a locked mutex, so for
+// the C library's, and first waits until the holder of the mutex has left. Nobody may destroy a locked mutex, so for
 // all others nothing changes.
 #pragma once
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kShadowSpread = 6.0f;   // as in shade.glsl
 constexpr float kRodReach = 0.0035f;    // [m] beside a rod, as far as it shades or pales ...
-constexpr float kShadowReach = 0.018f;  // [m] ... and how much farther away from the lamp
+constexpr float kShadowReach = 0.018f;  // [m] ... and how much further away from the lamp
 constexpr float kFoldReach = 0.015f;    // [m] from a fold's box, as far as a rod may be to shade it
 
 }  // namespace

@@ -12,7 +12,7 @@ struct GlPicture {
   GlRenderbuffer depth;
   GlFramebuffer framebuffer;
 
-  /// Makes it anew unless it has this size already. @param format e.g. GL_RGBA16F
+  /// Makes it again unless it has this size already. @param format e.g. GL_RGBA16F
   void resize(int w, int h, GLenum format, bool with_depth, GLint filter);
   void bind() const;
 };
@@ -24,7 +24,7 @@ struct GlSampledPicture {
   GlRenderbuffer colour, depth;
   GlFramebuffer framebuffer;
 
-  /// RGBA16F with depth and stencil. Makes it anew unless it is like that already.
+  /// RGBA16F with depth and stencil. Makes it again unless it is like that already.
   void resize(int w, int h, int samples);
   void bind() const;
   /// Colour (averaged), depth and stencil into a picture of this size.

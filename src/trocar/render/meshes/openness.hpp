@@ -21,7 +21,7 @@ struct Occluder {
 
 class OpennessBaker {
  public:
-  /// @param cell [m] grid cell; what is smaller does not shade. @param reach [m] what is farther does not shade
+  /// @param cell [m] grid cell; what is smaller does not shade. @param reach [m] what is further does not shade
   explicit OpennessBaker(std::span<const Occluder> occluders, float cell = 0.0015f, float reach = 0.02f);
   /// @param normals (n) unit; paint (n): openness is set, the rest kept
   void bake(std::span<const Vec3f> positions, std::span<const Vec3f> normals, std::span<Paint> paint) const;

@@ -1,4 +1,4 @@
-// Does a scene hang still when nobody touches it? Drawn shapes are equilibria, but one that its springs do not hold
+// Is a scene in equilibrium when nobody touches it? Drawn shapes are equilibria, but one that its springs do not hold
 // falls over all the same: organs sink while the hands are still on their way.
 //
 //   const EquilibriumCheck equilibrium = check_equilibrium(model, 1000, [] { return in_time(); });
@@ -37,8 +37,8 @@ struct EquilibriumCheck {
 /// @param go_on    asked before every tick; false ends it early
 EquilibriumCheck check_equilibrium(const sim::Model& model, std::uint64_t ticks, const std::function<bool()>& go_on);
 
-/// "uterus does not hang still: 32.5 mm off at (0.0, -150.0, -60.0) mm after 1.0 s at rest (a stiffer or lighter
-/// tissue, larger cells or more anchors may hold it)"
+/// "uterus is not in equilibrium: it sagged 32.5 mm at (0.0, -150.0, -60.0) mm after 1.0 s at rest (a stiffer or
+/// lighter tissue, larger cells or more anchors may hold it)"
 std::string in_words(const EquilibriumCheck& equilibrium, const EquilibriumCheck::Organ& organ);
 
 /// Looks at half a second, for a second of wall time at most, and warns on stderr of what sinks: a trainee would take

@@ -162,7 +162,7 @@ void compile_strand(const Strand& strand, const Tissue& tissue, Vec3d gravity, s
   model.strand_bodies.push_back(std::move(body));
 }
 
-/// The place on a strand nearest to p (as drawn).
+/// The place on a strand nearest to p (in the rest shape).
 interactions::StrandPlace nearest_place(const interactions::StrandBody& body, Vec3d p) {
   interactions::StrandPlace best;
   double least = 1e30;
@@ -227,7 +227,7 @@ void note_detail(const Description& d, sim::Model& model) {
   }
 }
 
-/// Which variant it is, for who tells results.
+/// Which variant it is, for results.
 void note_anatomy(const Description& d, sim::Model& model) {
   model.anatomy = d.anatomy;
   if (!d.variation) return;

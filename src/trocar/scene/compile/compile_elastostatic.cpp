@@ -16,7 +16,7 @@ namespace trocar::scene {
 namespace {
 
 constexpr double kMostBytes = 3e9;     // that making a compliance may take
-constexpr double kWorthTelling = 5e8;  // [B] from here on it is told before it is taken
+constexpr double kWorthTelling = 5e8;  // [B] from here on it is reported before it is allocated
 
 /// An organ as both kinds of body have it.
 struct OrganAsDrawn {

@@ -29,7 +29,7 @@ bool covers_any(const std::vector<float>& floor) {
   return std::any_of(floor.begin(), floor.end(), [](float h) { return h > kNothing; });
 }
 
-/// Cells that nothing covers go on from their neighbours, rising: what lies beyond the walls holds no fluid.
+/// Cells that nothing covers continue from their neighbours, rising: what lies beyond the walls holds no fluid.
 void fill_gaps(const fluids::PoolModel& pool, std::vector<float>& floor) {
   const bool any = covers_any(floor);
   if (!any) std::fill(floor.begin(), floor.end(), 0.0f);
@@ -50,7 +50,8 @@ void fill_gaps(const fluids::PoolModel& pool, std::vector<float>& floor) {
   }
 }
 
-/// Walls, and which organs lie on them. Where there are no walls, nothing is below the organs: as drawn they stay.
+/// Walls, and which organs lie on them. Where there are no walls, nothing is below the organs: in the rest shape they
+/// stay.
 void lay_floor(const FluidsSetting& f, sim::Model& model) {
   const fluids::PoolModel& pool = model.wet.model.pool;
   std::vector<float>& floor = model.wet.floor;

@@ -16,7 +16,7 @@ using interactions::SutureModel;
 using interactions::SutureModels;
 
 constexpr int kCornersCut = 5;         // times over
-constexpr double kLeaves = 0.006;      // [m] that a thread goes on as the wire ends
+constexpr double kLeaves = 0.006;      // [m] that a thread continues as the wire ends
 constexpr double kNoneDoes = 1e9;      // [N] that no needle presses with
 constexpr double kWallReach = 0.0025;  // [m] from which on needles and threads know of walls
 

@@ -63,7 +63,7 @@ std::int32_t nearest_corner(const interactions::VesselHold& hold) {
   return hold.vertex[size_t(std::max_element(hold.share.begin(), hold.share.begin() + 3) - hold.share.begin())];
 }
 
-/// Where a vessel opens by itself: the place of its host that is next to it. Nothing can be told where it has none.
+/// Where a vessel opens by itself: the place of its host that is next to it. Nothing can be reported where it has none.
 void add_bleeder(sim::Model& model) {
   const sim::Bleeder& b = model.vessels.bleeder;
   if (b.vessel < 0) return;

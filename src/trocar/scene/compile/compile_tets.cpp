@@ -18,7 +18,7 @@ constexpr double kSplineEdge = 0.7;  // of a cell: triangles of a loft or anothe
 constexpr double kSpareShare = 0.5;  // of a body's nodes, for cuts to double
 constexpr int kLeastSpare = 512;
 
-/// What is thinner than a cell and a half is lost: some of it is told, and much of it refused.
+/// What is thinner than a cell and a half is lost: some of it is reported, and much of it refused.
 void tell_loss(const Solid& solid, double kept, CompileReport* report) {
   constexpr double kTold = 0.95, kRefused = 0.6;  // of the shape's volume
   const std::string words = fmt::format("cells of {:.3g} mm keep {:.0f} % of its volume", 1e3 * solid.cell, 100 * kept);

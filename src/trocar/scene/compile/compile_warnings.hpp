@@ -1,5 +1,5 @@
 // What a scene can be built with and hardly means: meshes that had to be mended, instruments that begin inside an
-// organ. `trocar check` says so, and so does whoever begins an attempt.
+// organ. `trocar check` says so, and so does every attempt's beginning.
 #pragma once
 
 #include <vector>

@@ -23,7 +23,7 @@ constexpr std::uint32_t kFormat = 1;  // of the file, and of the arithmetic that
 constexpr std::array<char, 8> kMagic{'T', 'R', 'O', 'C', 'A', 'R', 'C', 'O'};
 constexpr const char* kEnding = ".compliance";
 
-/// At the beginning of a file; numbers as this machine has them, which `order` tells.
+/// At the beginning of a file; numbers as this machine has them, given by `order`.
 struct Header {
   std::array<char, 8> magic = kMagic;
   std::uint32_t format = kFormat;

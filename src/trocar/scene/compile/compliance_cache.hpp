@@ -1,5 +1,5 @@
 // Compliances of organs that were made before, in files named by the content that they follow from: stiffness, held
-// nodes, nodes that are kept, loads, and the arithmetic's version. Whoever has the same organ has the same file, so
+// nodes, nodes that are kept, loads, and the arithmetic's version. The same organ has the same file, so
 // that a folder of them can be shared or copied. All that is in one is hashed; what is damaged or foreign counts as not
 // there. Two programs may write the same one at a time: files come into being whole.
 //

@@ -1,4 +1,4 @@
-// What a mesh of tetrahedra costs as a body, and what it would cost filled anew. A flat cell, a sliver, has a stiff
+// What a mesh of tetrahedra costs as a body, and what it would cost filled again. A flat cell, a sliver, has a stiff
 // short way through it: one in a thousand cells sets the time step of all. Isosurface stuffing leaves none, so that a
 // body of as many nodes takes a tenth of the sub-steps or less.
 //
@@ -16,7 +16,7 @@ namespace trocar::scene {
 
 /// Cells with a smaller angle between two faces are slivers [degrees]: stuffing leaves none (stuffing.hpp).
 inline constexpr double kSliver = 9;
-/// From so many sub-steps a tick on, it is asked whether slivers are why (ours).
+/// From so many sub-steps a tick on, it is asked whether slivers are why (our estimate).
 inline constexpr int kManySubsteps = 20;
 
 struct MeshCost {

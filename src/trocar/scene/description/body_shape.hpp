@@ -1,5 +1,5 @@
 // What the surface of a body can be beside a loft through sections: closed triangles from a file, a closed NURBS
-// surface, a tube along a line, a profile turned about an axis. Whoever fills a body, or makes a wall of it, asks for
+// surface, a tube along a line, a profile turned about an axis. Code that fills a body, or makes a wall of it, asks for
 // the one surface that they all are (compile/body_surface.hpp). Lengths in metres.
 //
 //   if (solid.shape.any()) ...                              // else its sections, or its tetrahedra

@@ -80,7 +80,7 @@ struct Anchor {
 struct TetSource {
   std::string file;                   ///< as named, relative to the file that names it
   double unit = 1e-3;                 ///< of a mesh's coordinates [m]
-  double refill = 0;                  ///< cubes with whose tetrahedra a mesh's surface is filled anew [m]; 0: as it is
+  double refill = 0;                  ///< cubes with whose tetrahedra a mesh's surface is filled again [m]; 0: as it is
   int label = 0;                      ///< of voxels; 0: a mesh
   int smoothing = 1;                  ///< of the label's steps, in passes
   Vec3d place;                        ///< where the file's origin goes [m]
@@ -226,7 +226,7 @@ struct BondSetting {
 /// What a pouch is filled with.
 struct Contents {
   enum Kind { nothing, constant, liquid, gas } kind = nothing;
-  double pressure = 0;  ///< over the surroundings, as drawn [Pa]
+  double pressure = 0;  ///< over the surroundings, in the rest shape [Pa]
   double bulk = 2e5;    ///< of a liquid [Pa]
   double density = 0;   ///< [kg/m^3]
 };

@@ -161,7 +161,7 @@ double chords(const std::vector<Vec3d>& points) {
   return sum;
 }
 
-/// Its blood has farther to go where its path is longer; calibre and wall stay.
+/// Its blood has further to go where its path is longer; calibre and wall stay.
 void bend(Vessel& vessel, vessels::VesselSegment& segment, const Warp& warp) {
   const double before = chords(vessel.path);
   for (Vec3d& p : vessel.path) p = warp(p);

@@ -3,7 +3,7 @@
 // everything that a scene draws is bent with it; so what hung together still does, and what lay apart still does.
 //
 //   scene::Description d = scene::read_scene(path);
-//   scene::vary(d, 7);                    // seed 0 leaves everything as drawn
+//   scene::vary(d, 7);                    // seed 0 leaves everything as in the file
 //   const sim::Model model = scene::compile(d);
 #pragma once
 

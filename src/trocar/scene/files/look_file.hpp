@@ -1,4 +1,4 @@
-// Looks: what a surface looks like and what anatomy is drawn around it, one a file, called as the file is
+// Materials: the appearance of a surface and the anatomy drawn around it, one a file, named like the file
 // (scenes/looks/liver.json is the look "liver"). A look may inherit another one of its folder and says what differs.
 //
 //   std::vector<core::Fault> faults;

@@ -77,7 +77,7 @@ const Table<Level>& level() {
   return table;
 }
 
-/// From one level to the next things are farther away, and not finer.
+/// From one level to the next things are further away, and not finer.
 void check_level(const JsonObject& o, DetailSetting& d, Context&) {
   if (d.levels.size() < 2) return;
   const Level &now = d.levels.back(), &before = d.levels[d.levels.size() - 2];

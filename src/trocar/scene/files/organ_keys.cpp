@@ -161,7 +161,7 @@ void check_masses(const JsonObject& o, const Solid& s) {
                                   kMostCarriers, s.shape.nurbs->degree[0], s.shape.nurbs->degree[1]));
 }
 
-constexpr double kUsualCell = 0.005;  // [m] to go on with where the file says none
+constexpr double kUsualCell = 0.005;  // [m] to continue with where the file says none
 
 /// What is written nowhere: of a mesh none, of control points as wide as their net.
 double cell_where_none_is_said(const Solid& s) {

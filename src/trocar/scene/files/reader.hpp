@@ -27,7 +27,7 @@ Description read_scene(const std::filesystem::path& path, const MemoryFiles* mem
 std::vector<Tissue> read_tissues(const std::filesystem::path& path);
 
 enum class FileKind { scene, organ, instrument, tissue, vessels, exercise, look };
-/// A file's kind: a look in a folder `looks`, else by the keys that only this kind has; a scene where nothing tells.
+/// A file's kind: a look in a folder `looks`, else by the keys that only this kind has; a scene where nothing decides.
 FileKind kind_of_file(const std::filesystem::path& path, const MemoryFiles* memory = nullptr);
 
 /// Checks one file by its kind. What is not a scene is checked on its own: names that only a scene could resolve (a

@@ -1,4 +1,4 @@
-// What can be told only when all files are read: names that nobody has or that two have, reaches across things.
+// Faults that can be found only when all files are read: names that nobody has or that two have, reaches across things.
 #include <algorithm>
 #include <map>
 

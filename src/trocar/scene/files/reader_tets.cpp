@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The mesh's surface filled anew: what was said of its cells is said of none that are left. Throws
+/// The mesh's surface filled again: what was said of its cells is said of none that are left. Throws
 /// std::invalid_argument where the surface is open, or finer than the cubes.
 void refill(TetSource& source) {
   constexpr double kKept = 0.95;  // of its volume; what is thinner than a cube and a half is lost

@@ -27,7 +27,7 @@ const Table<SurfaceSource>& surface_source() {
   return table;
 }
 
-/// What is not closed is told at `key`.
+/// What is not closed is reported at `key`.
 template <class Shaped>
 void check_closed(const JsonObject& o, const char* key, const Shaped& shape) {
   try {

@@ -1,8 +1,8 @@
 // JSON with comments, read into a tree in which every value and every key knows its line and column.
 //
 // People write the files of scenes/ by hand, so a fault must say where it stands, and all faults of a file must come in
-// one pass. Event interfaces of JSON libraries stop at the first bad number; this reader goes on after every fault that
-// leaves the structure readable (a number that is not finite, a bad word, a key given twice, a comma too many) and
+// one pass. Event interfaces of JSON libraries stop at the first bad number; this reader continues after every fault
+// that leaves the structure readable (a number that is not finite, a bad word, a key given twice, a comma too many) and
 // stops only where the structure itself is lost. Grammar: RFC 8259, and comments as in C++. Limits: 16 MiB, 64 levels
 // of nesting, a million values, 256 keys in one object.
 //
@@ -26,7 +26,7 @@ namespace trocar::scene {
 struct JsonMember;
 
 struct JsonValue {
-  /// `broken`: a fault has been told about this value already; readers say no more about it.
+  /// `broken`: a fault has been reported about this value already; readers say no more about it.
   enum class Kind : unsigned char { null, boolean, number, string, array, object, broken };
 
   Kind kind = Kind::null;
@@ -59,7 +59,7 @@ inline constexpr int kMaxJsonValues = 1'000'000;
 inline constexpr std::size_t kMaxJsonKeys = 256;  ///< in one object
 inline constexpr std::size_t kMaxFaults = 1000;   ///< told of one reading
 
-/// Appends a fault; where there are kMaxFaults already, only that not all are told.
+/// Appends a fault; where there are kMaxFaults already, only that not all are reported.
 void tell(std::vector<core::Fault>& faults, core::Fault fault);
 
 /// Reads `text`; what is wrong with it is appended to `faults`. Never throws on bad text.

@@ -6,7 +6,7 @@
 //   text = json_insert(text, "/solids/0/sections", 1, std::move(section));  // before the second one
 //   text = json_remove(text, "/solids/0/anchors/2");
 //
-// A path is a JSON pointer [RFC 6901]. Whoever edits a text that has faults gets std::invalid_argument: nothing is
+// A path is a JSON pointer [RFC 6901]. An edit of a text that has faults throws std::invalid_argument: nothing is
 // guessed about a structure that cannot be read.
 #pragma once
 

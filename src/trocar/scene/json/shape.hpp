@@ -2,8 +2,8 @@
 //
 // A Shape is one table: it drives the reader (types, ranges, unknown and missing keys, "did you mean"), and the
 // published JSON Schema is written from it (schema.hpp), so the two cannot drift apart. A reader makes a JsonObject of
-// a value and a Shape; what is wrong is appended to the faults at once, and access goes on with fallbacks, so that one
-// pass tells everything.
+// a value and a Shape; what is wrong is appended to the faults at once, and access continues with fallbacks, so that
+// one pass reports everything.
 //
 //   const Shape& ring() {
 //     static const Shape shape{"ring", "A ring on a peg.", {

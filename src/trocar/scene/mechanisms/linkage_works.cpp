@@ -66,7 +66,7 @@ class Works {
   }
   Vec3d drawn(Vec3d p) const { return forwards(p) - Vec3d{0, 0, m_hinge}; }
 
-  /// The shaft is what does not move and goes on behind.
+  /// The shaft is what does not move and continues behind.
   void note_shaft(int body) {
     for (const kinematics::BodyShape& s : m_m.shapes) {
       if (s.body != body || s.kind == kinematics::ShapeKind::box) continue;

@@ -1,4 +1,4 @@
-// Files of mechanisms: scenes/mechanisms/*.json. Every fault of a file is told with its place, in one pass.
+// Files of mechanisms: scenes/mechanisms/*.json. Every fault of a file is reported with its place, in one pass.
 //
 //   const kinematics::MechanismDescription d = read_mechanism("scenes/mechanisms/four_bar.json");   // or *.urdf
 //   const kinematics::Mechanism m = kinematics::build(d);

@@ -1,6 +1,6 @@
 // Robots as URDF describes them: links and joints, inertias, cylinders, spheres and boxes; joints that mimic others
 // become couplings. Meshes are left out (they are files beside it), and so is what says nothing of kinematics
-// (materials, transmissions, extensions). Joints of type "floating" and "planar" are told as faults.
+// (materials, transmissions, extensions). Joints of type "floating" and "planar" are reported as faults.
 //
 //   std::vector<core::Fault> faults;
 //   const kinematics::MechanismDescription d = read_urdf(text, "arm.urdf", faults);

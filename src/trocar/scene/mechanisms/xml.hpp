@@ -1,7 +1,7 @@
 // XML as other people's robots are written in: elements and attributes, each with its line and column. What is not
 // needed is left out (text between tags) or refused (document types, and with them entities that are not built in). Our
-// own, as faults must be told with line and column and input is hostile; libraries that are packaged keep no columns.
-// Limits: 4 MiB, 32 levels, 100,000 elements, 64 attributes each.
+// own, as faults must be reported with line and column and input is hostile; libraries that are packaged keep no
+// columns. Limits: 4 MiB, 32 levels, 100,000 elements, 64 attributes each.
 #pragma once
 
 #include <string>

@@ -23,7 +23,7 @@ double winding(Vec3d a, Vec3d b, Vec3d c) {
   return portable::atan2(det, div) / (2 * portable::pi);
 }
 
-/// A closed surface as drawn.
+/// A closed surface in the rest shape.
 struct Closed {
   std::vector<Vec3d> points;
   std::vector<std::array<int, 3>> triangles;
@@ -62,7 +62,7 @@ class Others {
       c.bound();
     }
   }
-  /// @param margin  farther than that from the surfaces of strands is outside [m]
+  /// @param margin  further than that from the surfaces of strands is outside [m]
   bool hold(Vec3d p, double margin) const {
     for (const interactions::StrandBody& body : m_model.strand_bodies)
       for (int e = 0; e + 1 < body.nodes(); ++e) {

@@ -1,5 +1,5 @@
 // Files of operating rooms (scenes/rooms/*.json) and of programmes for their arms. Every fault of a file, and of the
-// mechanisms and the scene that a room names, is told with its place in one pass.
+// mechanisms and the scene that a room names, is reported with its place in one pass.
 //
 //   const Room room = read_room("scenes/rooms/telemanipulated.json");
 //   const Programme programme = read_programme("scenes/rooms/programmes/triangle.json", room);

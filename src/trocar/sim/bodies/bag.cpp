@@ -16,7 +16,7 @@ using interactions::BagState;
 using interactions::BagWork;
 using interactions::Rigid;
 
-constexpr double kNearBag = 0.020;       // [m] of the cloth: farther away nothing is looked at
+constexpr double kNearBag = 0.020;       // [m] of the cloth: further away nothing is looked at
 constexpr double kTurnsOn = 0.98;        // share of a stone's turning that cloth leaves it in a tick
 constexpr double kWallOfPouch = 0.0005;  // [m] beyond half its thickness, as its triangles bulge between nodes
 

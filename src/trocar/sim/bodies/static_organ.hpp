@@ -2,9 +2,9 @@
 // network's, and the handing over.
 //
 // It is handed over when blades or current part it, when heat scars it, when it is stretched beyond what it bears, and
-// where its file says so when it has turned too far. Its network then goes on from where the nodes are. Its forces are
-// not in balance there, by as much as both solvers differ; so that nothing jumps, a tick of the network moves nodes by
-// a share of the way only, which grows from nothing to all of it in 100 ms.
+// where its file says so when it has turned too far. Its network then continues from where the nodes are. Its forces
+// are not in balance there, by as much as both solvers differ; so that nothing jumps, a tick of the network moves nodes
+// by a share of the way only, which grows from nothing to all of it in 100 ms.
 #pragma once
 
 #include <trocar/sim/model/bodies.hpp>

@@ -16,7 +16,7 @@ interactions::TissueBodies bodies_of(const StepContext& c) noexcept {
   return {c.model.strand_bodies, c.state.strands, {c.work.surfaces.data(), size_t(c.model.organs())}, c.work.sheets};
 }
 
-/// The body's numbers of nodes may have grown by cuts: surfaces are seen anew.
+/// The body's numbers of nodes may have grown by cuts: surfaces are seen again.
 void see_again(StepContext& c) noexcept {
   for (int i = 0; i < c.model.organs(); ++i) c.work.surfaces[size_t(i)].nodes = nodes_of(c.model, c.state, i);
   for (size_t i = 0; i < c.model.membranes.size(); ++i)

@@ -1,5 +1,5 @@
 // All bodies of a Model by kind: the one place that knows which kinds there are and how they are numbered. Functions of
-// a kind take its reference and are overloads of one name (sim/bodies, a file a kind), so that whoever deals with a
+// a kind take its reference and are overloads of one name (sim/bodies, a file a kind), so that code that handles a
 // body says what is to be done and not what it is:
 //
 //   visit_bodies(model, [&](auto body) { hang(context, body); });            // each in turn

@@ -1,4 +1,5 @@
-// What of a Model's bodies is near a place, as drawn: for those who hang something on it when a scene is compiled.
+// What of a Model's bodies is near a place, in the rest shape: for those who hang something on it when a scene is
+// compiled.
 #pragma once
 
 #include <string>

@@ -3,7 +3,7 @@
 //   injected = in the tissue + taken up by vessels + leaked + injected into vessels + spilled           [injection
 //   account]
 //
-// to the picolitre, at every tick. What leaks and spills goes on into the fluids' account, where a scene has fluids.
+// to the picolitre, at every tick. What leaks and spills passes into the fluids' account, where a scene has fluids.
 #pragma once
 
 #include <cstdint>

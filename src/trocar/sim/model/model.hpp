@@ -161,7 +161,7 @@ struct MembraneBody {
   tissue::MembraneModel sheet;
   tissue::Skin skin;                            ///< the sheet's own nodes and triangles, one skin vertex per node
   double pinch_reach = 0;                       ///< of a pouch (interactions::SheetView) [m]
-  std::vector<float> depth;                     ///< (nodes) way from the strand's surface, as drawn [m]
+  std::vector<float> depth;                     ///< (nodes) way from the strand's surface, in the rest shape [m]
   std::vector<interactions::BorderHold> holds;  ///< (held nodes)
   double failure_strain = 0;                    ///< 0: it never tears
   std::int32_t duct = -1;                       ///< of a pouch: the strand whose lumen opens into it; -1: none
@@ -388,7 +388,7 @@ struct Model {
   int surfaces() const { return organs() + int(walls.size()); }  ///< organs first
   const std::string& organ_name(int organ) const;
   const std::string& organ_look(int organ) const;
-  const tissue::Skin& skin(int organ) const;              ///< as drawn
+  const tissue::Skin& skin(int organ) const;              ///< in the rest shape
   int organ_index(const std::string& organ) const;        ///< -1 if there is none
   int strand_index(const std::string& strand) const;      ///< -1 if there is none
   int membrane_index(const std::string& membrane) const;  ///< -1 if there is none

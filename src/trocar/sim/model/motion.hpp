@@ -4,8 +4,8 @@
 // Breathing displaces whatever holds bodies in space: springs to space, rigidly held nodes, fixed ends and foundations
 // of strands, borders of folds. The displacement is the known curve of a breath [Lujan et al. 1999],
 //   u(t) = a sin^4(pi t / T),
-// end-expiration as drawn, at which bodies rest longest, inspiration half a breath later. A scene begins at rest: at
-// t = 0 the displacement and its first three derivatives are zero.
+// end-expiration in the rest shape, at which bodies rest longest, inspiration half a breath later. A scene begins at
+// rest: at t = 0 the displacement and its first three derivatives are zero.
 #pragma once
 
 #include <cstdint>

@@ -139,7 +139,7 @@ struct State {
 };
 
 State initial_state(const Model& model);
-/// Bodies as drawn and nothing else: for compile, before the Model is complete.
+/// Bodies in the rest shape and nothing else: for compile, before the Model is complete.
 State drawn_bodies(const Model& model);
 
 /// How a hand's instrument is bent now; straight where none bends.

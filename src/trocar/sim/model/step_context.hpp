@@ -1,4 +1,4 @@
-// What every stage of a step is given, and how it tells what happened.
+// What every stage of a step is given, and how it reports what happened.
 #pragma once
 
 #include <trocar/sim/model/step_report.hpp>
@@ -20,7 +20,7 @@ inline void emit_event(StepContext& c, Event::Kind kind, int tool, int index) no
 inline void emit_event(StepContext& c, Event::Kind kind, int tool, BodyId body) noexcept {
   emit_event(c, kind, tool, body.code());
 }
-/// A grip has ended: tells whether it slipped, or the hand let go.
+/// A grip has ended: reports whether it slipped, or the hand let go.
 inline void emit_grip_end(StepContext& c, size_t hand, int slips_before) noexcept {
   emit_event(c, c.state.tools[hand].slipped > slips_before ? Event::slipped : Event::released, int(hand), -1);
 }

@@ -90,7 +90,7 @@ struct StepReport {
     kTooManyLoads = 1u << 16,  ///< contacts did not fit the reserved capacity: some were left out this tick
     kBadInput =
         1u << 17,  ///< an input was not finite (that hand stayed), or its instrument not in the rack (not exchanged)
-    kRecordsFull = 1u << 18,  ///< the book of clips or cuts, or what an organ keeps for cuts, is full: clips are lost,
+    kRecordsFull = 1u << 18,  ///< the buffer of clips or cuts, or an organ's own for cuts, is full: clips are lost,
                               ///< blades no longer cut, tears open no further
     kBloodFlow = 1u << 19,    ///< blood flow found no solution and was not advanced; restore a State
     kHeatFull = 1u << 22,     ///< no room for more heated tissue: raise "bricks" or "awake" of the scene's energy

@@ -1,4 +1,5 @@
-// Scratch of the step: reserved once, filled anew in every tick. Overwriting it with NaN between ticks changes nothing.
+// Scratch of the step: reserved once, filled again in every tick. Overwriting it with NaN between ticks changes
+// nothing.
 #pragma once
 
 #include <memory>
@@ -80,7 +81,7 @@ struct Work {
   std::vector<vessels::WallReading> walls;  ///< (vessels) in their middles
   std::vector<std::uint8_t> busy;           ///< (vessels) scratch of that
   std::vector<std::int32_t> impact_at;      ///< (places of film) the impact that sums up all there
-  std::vector<Bleed> bleeds;                ///< (2 kMaxOpenings) for whoever takes up the blood, after the flow's stage
+  std::vector<Bleed> bleeds;                ///< (2 kMaxOpenings) for the receiver of the blood, after the flow's stage
   int bleed_count = 0;
   tissue::HeatWork heat;
   std::array<tissue::HeatSource, 2 * kMaxTools> heat_sources;
@@ -94,7 +95,7 @@ struct Work {
   std::vector<fluids::Outlet> wounds;  ///< (2 kMaxOpenings) sides of openings
   std::array<fluids::Capsule, kMaxTools * interactions::kToolParts> wet_tools;
   std::array<fluids::SuctionIrrigator, kMaxTools> valves;  ///< (hands) closed where there is none
-  std::vector<tissue::NodeView> nodes;                     ///< (organs) of the State; anew in every tick
+  std::vector<tissue::NodeView> nodes;                     ///< (organs) of the State; again in every tick
   std::vector<tissue::CuttableSkin> cuttable_skins;
   std::vector<const tissue::Skin*> skins;                      ///< (organs) of the Model, or the above
   std::vector<int> organ_order, strand_order, membrane_order;  ///< by how much there is to do, for the threads

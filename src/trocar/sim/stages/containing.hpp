@@ -8,7 +8,7 @@
 
 namespace trocar::sim {
 
-/// Around all bodies, walls and ports as drawn, and 3 cm more (our choice).
+/// Around all bodies, walls and ports in the rest shape, and 3 cm more (our choice).
 tissue::Box cavity_around(const Model& model);
 
 /// Stage: what has left Model::cavity is turned back. Only speeds change: outward ones end, and inwards nothing gets

@@ -232,7 +232,7 @@ void work_plunger(StepContext& c, size_t hand) noexcept {
     n.vessel = -1;
   else if (c.model.vessels.there() && (c.state.tick % kShareTicks == 0 || n.vessel >= 0))
     n.vessel = vessel_around(c, n.at);
-  if (n.vessel >= 0 && n.vessel != was) n.pushing = 0;  // to be told anew
+  if (n.vessel >= 0 && n.vessel != was) n.pushing = 0;  // to be reported again
   if (!pushes) n.rate = 0, n.pushing = 0;
   if (pushes) push(c, hand, tool.needle, n);
   if (draws) draw(c, tool.needle, n);

@@ -171,8 +171,8 @@ void keep_impacts(StepContext& c) noexcept {
   std::copy(all.begin(), all.end(), c.state.impacts.begin());
 }
 
-/// A drop pushes what it hits and goes on with it, as in an inelastic collision: with the force alone a few milligrams
-/// of fold would be thrown ahead of the drop.
+/// A drop pushes what it hits and continues with it, as in an inelastic collision: with the force alone a few
+/// milligrams of fold would be thrown ahead of the drop.
 ///   f dt = P + m (v - v')      P the drop's momentum relative to the surface, m its mass, v before, v' after
 struct Push {
   Vec3d impulse, dir;

@@ -1,4 +1,4 @@
-// What a verb leaves, one record after another: a State has room for so many.
+// Records that a verb leaves, one after another, in a State's buffer of fixed size.
 #pragma once
 
 #include <cstdint>

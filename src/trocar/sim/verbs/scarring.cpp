@@ -100,8 +100,8 @@ void scar(StepContext& c, const ElectrodeTouch& touch, MembraneRef membrane) noe
   scar_springs(c, model_of(c.model, membrane).sheet.network, membrane.id(), middle_of(touch));
 }
 
-/// At the cell's middle and half way from there to its corners, as drawn: heat does not move with what snaps to a
-/// blade.
+/// At the cell's middle and half way from there to its corners, in the rest shape: heat does not move with what snaps
+/// to a blade.
 void scar(StepContext& c, const ElectrodeTouch& touch, CuttableRef organ) noexcept {
   const BodyId body = organ.id();
   const Vec3d electrode = middle_of(touch);

@@ -162,7 +162,7 @@ class Going {
     }
   }
 
-  /// A fault that goes on is one; the worst of it is told.
+  /// A fault that continues is one; the worst of it is reported.
   void fault(MotionFaultKind kind, int arm, const std::string& with, double worst, Vec3d where, std::string words) {
     for (MotionFault& f : r.faults) {
       if (f.kind != kind || f.arm != arm || f.with != with || f.to < m_at - std::max(1.5 * o.step, kSame)) continue;

@@ -19,7 +19,7 @@ constexpr double kScopeOut = 0.15;
 constexpr double kArmsEnough = 0.02;  // clearance of arms [m]
 constexpr double kBlockedCosts = 0.9;
 constexpr double kSetUpTurns[] = {20 * kDeg, -20 * kDeg, 40 * kDeg, -40 * kDeg};
-constexpr int kLookedAt = 4;  // times as many sets are tried with arms as are told
+constexpr int kLookedAt = 4;  // times as many sets are tried with arms as are reported
 
 Vec3d unit_of(Vec3d v) { return v / length(v); }
 double bell(double off, double width) { return portable::exp(-(off / width) * (off / width)); }

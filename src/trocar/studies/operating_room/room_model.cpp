@@ -15,13 +15,13 @@ using namespace kinematics;
 
 namespace {
 
-constexpr int kAttempts = 12;  // of inverse kinematics: a motion goes on from where it stood
+constexpr int kAttempts = 12;  // of inverse kinematics: a motion continues from where it stood
 constexpr int kGoalRows = 6;
 constexpr double kBesidePort = 0.08;              // of a shaft: nearer to its port it is by the skin anyway [m]
 constexpr double kColumn = 0.045, kBeam = 0.040;  // radii of stands [m]
 constexpr double kGravity = 9.81;
 constexpr double kStraight = 1e-9;        // jaws along the shaft [rad]
-constexpr double kNearlyStraight = 1e-3;  // a wrist that goes on to be so [rad]
+constexpr double kNearlyStraight = 1e-3;  // a wrist that continues to be so [rad]
 
 Vec3d unit(Vec3d v) { return v / length(v); }
 
@@ -504,7 +504,7 @@ std::vector<Near> RoomModel::nearest(const RoomPose& pose, int arm, const std::v
       s.b = end;
     }
     const PlacedShape thick = as_rod(s);
-    if (!(p.stand && a.described->on_table))  // clamped beside the patient by whoever sets up
+    if (!(p.stand && a.described->on_table))  // clamped beside the patient during set-up
       note(p, kPatient, -1, m_figure.distance(thick.a, thick.b, thick.radius), thick, {});
     for (const RoomPart& o : others) {
       if (o.arm == arm || o.link < -1) continue;

@@ -102,7 +102,7 @@ class RoomModel {
   RoomPose start() const;
   /// Sets frames of what u says.
   void place(RoomPose& pose) const;
-  /// How much farther an arm's base is from its column than its set-up joints carry it; 0 or less: it is not [m].
+  /// How much further an arm's base is from its column than its set-up joints carry it; 0 or less: it is not [m].
   double beyond_set_up(int arm) const noexcept;
   /// An arm's fixed frame in the patient's.
   Frame base(int arm, const scene::RoomTilt& tilt) const noexcept;

@@ -13,7 +13,7 @@ namespace {
 constexpr int kViews = 64;                     // directions from which a picture is made
 constexpr std::size_t kThrow = 3, kHitch = 2;  // crossings, at least
 constexpr double kStraight = 1.25;             // arc over chord of a side that does not turn: a post
-constexpr double kUnlikely = 1e-6;             // that a picture is right which tells of another knot
+constexpr double kUnlikely = 1e-6;             // that a picture is right which shows another knot
 constexpr double kSure = 0.25;                 // share of pictures that need not be compared with earlier ones
 constexpr double kTrusted = 0.15;              // of a knot upon which the next throw is laid
 constexpr double kFew = 0.03;                  // of a knot that has another throw, or one less: two pictures of 64

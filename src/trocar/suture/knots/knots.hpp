@@ -44,7 +44,7 @@ struct KnotReading {
 struct KnotQuestion {
   double spacing = 0;  ///< of the points along the thread [m]; 0: as they lie
   double split = -1;   ///< arc length in the tissue [m]; below 0: in the middle of the widest loop
-  double apart = 0;    ///< farther apart than this, elements are not tied to each other [m]; 0: whatever the distance
+  double apart = 0;    ///< further apart than this, elements are not tied to each other [m]; 0: whatever the distance
 };
 /// @param points  of the thread's middle line
 KnotReading read_knot(std::span<const Vec3d> points, const KnotQuestion& question = {});

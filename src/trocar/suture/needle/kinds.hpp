@@ -6,7 +6,7 @@
 
 namespace trocar::suture {
 
-/// Arc length and bend are what needles are sold by; the wire's diameters are ours, as makers do not print them.
+/// Arc length and bend are what needles are sold by; the wire's diameters are our choice, as makers do not print them.
 struct NeedleKind {
   const char* name;
   double length;  ///< of the wire's middle line, tip to swage [m]

@@ -29,7 +29,7 @@ struct NeedleModel {
 
   bool straight() const noexcept { return radius <= 0; }
   /// Of the middle line, own frame [m].
-  /// @param s  from the tip [m]; outside 0 .. length the circle goes on
+  /// @param s  from the tip [m]; outside 0 .. length the circle continues
   Vec3d place(double s) const noexcept;
   /// Unit, towards the tip: the way it is driven.
   Vec3d along(double s) const noexcept;

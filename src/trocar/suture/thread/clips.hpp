@@ -21,7 +21,7 @@ inline constexpr double kHolderHalfWidth = 0.0015;  ///< of jaws that hold the t
 /// No padding.
 struct ThreadClip {
   std::int32_t count = 0;                ///< stretches between its legs
-  std::int32_t number = -1;              ///< by which whoever set it knows it
+  std::int32_t number = -1;              ///< by which its setter knows it
   std::array<double, kMostClipped> s{};  ///< where it has them, in their order along its legs [m]
   std::array<double, kMostClipped - 1> apart{},
       reached{};          ///< of a stretch and the next [m]; strain of the bar as in Rub

@@ -45,7 +45,7 @@ const ElementRub* find_rub(const ElementRub* first, const ElementRub* last, int 
   return at != last && at->a == a && at->b == b ? at : nullptr;
 }
 
-/// A contact that slides along goes on as its neighbour's: with its strain.
+/// A contact that slides along continues as its neighbour's: with its strain.
 void inherit(const ElementRub* first, const ElementRub* last, bool both, Touch& touch) {
   const ElementRub* best = find_rub(first, last, touch.a, touch.b);
   if (!best) {

@@ -229,7 +229,7 @@ struct ThreadReport {
     kFull = 2,         ///< more pairs touch than are remembered: build with more `contacts`
     kIndefinite = 4,   ///< the system could not be solved: the tick was left out
     kNonFinite = 8,    ///< something that came in is not a number: the tick was left out
-    kOverloaded = 16,  ///< pulled beyond what it bears: whoever calls may part it at `weakest`
+    kOverloaded = 16,  ///< pulled beyond what it bears: the caller may part it at `weakest`
   };
   std::uint32_t flags = 0;
   int solves = 0;
@@ -264,7 +264,7 @@ void untie(ThreadState& state, int slot) noexcept;
 /// @return false where there is no thread, or no room for another clip
 bool set_clip(const ThreadModel& model, ThreadState& state, std::int32_t number, std::span<const double> places,
               Vec3d axis, Vec3d open) noexcept;
-/// Null: it has come off.
+/// Null: it has detached.
 const ThreadClip* clip_of(const ThreadState& state, std::int32_t number) noexcept;
 /// Parts the thread at s: in the middle of the element there.
 void cut(const ThreadModel& model, ThreadState& state, double s) noexcept;

@@ -110,7 +110,7 @@ double way_to_clip(const ThreadState& s, double from, double way, double half) n
 double clip_stops(const ThreadState& s, double from, double way, double half) noexcept;
 /// What goes `way` takes the clips along that it comes to.
 void push_clips(ThreadState& s, double from, double way, double half) noexcept;
-/// After a solve: thread has slipped through clips, and some have come off its ends.
+/// After a solve: thread has slipped through clips, and some have slid off its ends.
 void settle_clips(Tick& t) noexcept;
 void pose_clips(const ThreadModel& m, ThreadState& s) noexcept;
 

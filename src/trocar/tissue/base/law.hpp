@@ -5,7 +5,7 @@
 //
 // with eps = e/l, e = r - l the elongation [KCM99 eq.2] and k the small-strain stiffness [N/m], so that k l plays the
 // part of E times area. Deviations: (5) is printed for compression; here it holds for tension and compression alike
-// (odd in eps), and the linear continuation is ours: a bounded tangent is what makes the time step bound hold.
+// (odd in eps), and the linear continuation is our choice: a bounded tangent is what makes the time step bound hold.
 //
 //   const SpringLaw law{2.0, 100.0, 0.35};
 //   double force = k * l * law.shape(r / l - 1);
@@ -19,7 +19,7 @@ template <class Real>
 struct SpringLawT {
   Real p1 = 0;         ///< linear shape factor P1 [-]
   Real p2 = 0;         ///< quadratic shape factor P2 [-]
-  Real cap = Real(1);  ///< strain beyond which the law goes on linearly [-], > 0
+  Real cap = Real(1);  ///< strain beyond which the law continues linearly [-], > 0
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>

@@ -71,7 +71,7 @@ void mirror(std::size_t n, std::vector<double>& c) {
         for (std::size_t i = std::max(i0, j + 1); i < std::min(i0 + kSquare, n); ++i) c[i * n + j] = c[j * n + i];
 }
 
-/// Tells how far it is, in shares of the work.
+/// Reports the progress, in shares of the work.
 struct Progress {
   const std::function<void(double)>& said;
   double all = 0, done = 0;

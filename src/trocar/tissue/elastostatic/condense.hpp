@@ -35,7 +35,7 @@ struct Condensed {
 
 /// @param kept   nodes, ascending, each once
 /// @param loads  (loads x 3 nodes) forces on all nodes [N]; may be empty
-/// @param said   is told the share that is done, 0 to 1, from this thread; may be empty
+/// @param said   receives the share that is done, 0 to 1, from this thread; may be empty
 /// @throws NotHeld where K is not positive definite: nothing holds a part of the body, its springs have no stiffness,
 /// it
 ///         buckles under what presses it, or K is no number; std::invalid_argument of nodes or loads that are unsound

@@ -59,7 +59,7 @@ int eliminate(PackedRows x, int rows, int pivots, const double* original, LowerM
 
 /// The first n unknowns of `a` become -A^-1, the rows below them A_21 A^-1, by symmetric sweeps of whole blocks.
 /// @param rows  n and those below, multiples of eight
-/// @param said  is told how many of the n are done
+/// @param said  receives how many of the n are done
 /// @return the first pivot that is not positive, or -1
 int invert_in_place(LowerMatrix a, int n, int rows, const double* original, core::ThreadPool* pool,
                     const std::function<void(int)>& said);

@@ -5,12 +5,13 @@
 //   forces at the points that something holds, pushes or rubs: load_case.hpp               [KCM99 eq.7]
 //   only surface nodes have columns and rows                                               [KCM99 eq.8]
 //
-// Two things are ours. *Time*: a step from rest to the answer is a jump, which neither tissue nor what hangs on it
-// makes, so a tick brings a share s of the way, u' = (1 - s) u + s C f, as if the tissue had a viscosity in proportion
-// to its stiffness. s is 1/6 (five milliseconds), and less where the surface would go back faster than 0.2 mm a tick;
-// at rest nothing of it is left, and what is prescribed is met exactly in every tick. *Turning*: (6) holds for small
-// angles. An organ that only springs hold in space turns and shifts as a frame, in which u is small; springs to space
-// and gravity, as seen from the frame, are twelve and three fields of displacement that are computed beforehand.
+// Two things are our choice. *Time*: a step from rest to the answer is a jump, which neither tissue nor what hangs on
+// it makes, so a tick brings a share s of the way, u' = (1 - s) u + s C f, as if the tissue had a viscosity in
+// proportion to its stiffness. s is 1/6 (five milliseconds), and less where the surface would go back faster than 0.2
+// mm a tick; at rest nothing of it is left, and what is prescribed is met exactly in every tick. *Turning*: (6) holds
+// for small angles. An organ that only springs hold in space turns and shifts as a frame, in which u is small; springs
+// to space and gravity, as seen from the frame, are twelve and three fields of displacement that are computed
+// beforehand.
 //
 //   advance(model, loads, point_of_load, reactions, frame_carried_by, state, rows, work);      // 1 ms
 #pragma once
@@ -36,7 +37,7 @@ inline constexpr double kAsDrawn = 1e-9;           ///< [m] nothing is left of a
 inline constexpr int kInnerTurns = 16;             ///< ticks in which all nodes that are not kept are placed
 
 /// A node that is not kept: displaced as the kept ones around it are. Only for what looks inside, and as a start for
-/// whoever moves the organ next; the solution needs none of it.
+/// the next mover of the organ; the solution needs none of it.
 struct InnerNode {
   std::int32_t node = -1, row = -1;
   std::array<std::int32_t, 8> slot{};
@@ -94,7 +95,7 @@ struct ElastostaticState {
   std::vector<float> u;  ///< (stride) displacements in the frame [m]
   OrganFrame frame;
   /// How far the answer is from a small one: turn of the organ as a whole beside its frame's, or the largest
-  /// displacement beside that over ElastostaticModel::spread, whichever is more. Anew every kInnerTurns ticks [rad].
+  /// displacement beside that over ElastostaticModel::spread, whichever is more. Again every kInnerTurns ticks [rad].
   double turn = 0;
   std::uint32_t turns = 0;  ///< whose turn it is of the inner nodes
   std::int32_t still = 0;   ///< 1: it lies as it was drawn, and its rows say so
@@ -152,7 +153,7 @@ struct CarriedBy {
 
 /// One tick. Loads as for a network but in any order; those that are shares of one point of the skin follow each other
 /// with the same number in `point`. Loads on inner nodes are left out (kBadLoad). Writes the rows of kept nodes, and of
-/// a part of the others. An organ that is held rigidly, lies as drawn and has no loads costs nothing.
+/// a part of the others. An organ that is held rigidly, lies in the rest shape and has no loads costs nothing.
 /// @param point       (loads) of which point a load is a share
 /// @param reactions   (loads) force that each exerted on its node [N]
 /// @return kBadLoad in flags also where points were left without force

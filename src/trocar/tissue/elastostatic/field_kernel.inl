@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kTogether = 6;  // columns that are read at once: streams that a core can look ahead in
 
-/// Each element's sum goes on where it stood, a column at a time: how many are taken at once changes no bit.
+/// Each element's sum continues where it stood, a column at a time: how many are taken at once changes no bit.
 template <int N>
 void add_some(int rows, const float* const* column, const float* factor, float* __restrict sum) {
   const float* c[N];

@@ -5,7 +5,7 @@
 //             choice]
 //   damage    0 .. 1: by how much the slope from the origin has fallen. It only grows, so that what has been opened and
 //             is pressed together again holds no more than it did. The opening that it stands for grows by `pace` at
-//             most (ours): a sudden pull stretches tissue for a moment and does not burst a whole seam at once
+//             most (our estimate): a sudden pull stretches tissue for a moment and does not burst a whole seam at once
 //
 //   law = CohesiveLaw::of(50, 0.005);                        // 50 J/m^2, gone at 5 mm
 //   damage = damage_after(law, damage, opening, dt);
@@ -22,8 +22,8 @@ struct CohesiveLaw {
   double opens = 0;   ///< opening at which nothing holds [m]
   double pace = 0;    ///< at most that fast [m/s]
 
-  static constexpr double kYieldsAt = 0.2;  ///< of `opens`; ours
-  static constexpr double kQuickest = 0.2;  ///< until nothing holds, however it is pulled [s]; ours
+  static constexpr double kYieldsAt = 0.2;  ///< of `opens`; our estimate
+  static constexpr double kQuickest = 0.2;  ///< until nothing holds, however it is pulled [s]; our estimate
 
   /// @param toughness [J/m^2]  @param opens [m]
   static CohesiveLaw of(double toughness, double opens) noexcept {

@@ -1,5 +1,5 @@
 // Where tissue tears: at a node two of whose springs have been stretched beyond the failure strain for 0.05 s. One
-// spring alone, or a jerk, tears nothing. (The rule is ours; failure strains are the tissue table's.)
+// spring alone, or a jerk, tears nothing. (The rule is our choice; failure strains are the tissue table's.)
 //
 //   const Overstretch tear = find_overstretch(springs, failure_strain, tick, counters);
 //   if (tear.found) part the body by tear.blade();
@@ -45,7 +45,7 @@ struct Overstretch {
 
 /// Looks, when it is time, and counts. @param failure  strain [-], > 0
 /// @param counters  (rows) State  @param scratch  (rows or more)
-/// @return at the first row whose time is over; it starts counting anew
+/// @return at the first row whose time is over; it starts counting again
 Overstretch find_overstretch(const PackedSprings& springs, double failure, std::uint64_t tick,
                              std::span<std::uint8_t> counters, std::span<std::uint8_t> scratch) noexcept;
 

@@ -8,7 +8,7 @@ namespace trocar::tissue::heat {
 /// HeatState::marks.
 enum Mark : std::uint8_t {
   kWarmFace = 1,  ///< << 0 .. 5: a cell at that face is warm enough to wake the neighbour
-  kDried = 64,    ///< water boiled in this step: conduction is to be made anew
+  kDried = 64,    ///< water boiled in this step: conduction is to be made again
   kFed = 128,     ///< heat was given since the last step's end: not to fall asleep
 };
 
@@ -22,7 +22,7 @@ inline constexpr std::int32_t kNobody = -1;
 /// The brick there; kNobody if it is not known, kEmpty - n if it is the n-th without tissue.
 std::int32_t find(const HeatModel& model, const HeatState& state, const BrickKey& key) noexcept;
 
-/// Makes the table by which bricks are found anew.
+/// Makes the table by which bricks are found again.
 void index_bricks(const HeatModel& model, HeatState& state) noexcept;
 
 /// The slot of the brick there, woken or made if need be; -1 if it holds no tissue or there is no room (flagged).

@@ -50,7 +50,7 @@ void put(std::vector<std::uint8_t>& out, const T& value) {
   out.insert(out.end(), bytes, bytes + sizeof value);
 }
 
-/// Value and length of run less one, until all cells are told.
+/// Value and length of run less one, until all cells are covered.
 void put_brick(const HeatState& s, std::size_t brick, std::vector<std::uint8_t>& out) {
   const std::size_t first = brick * kBrickCells;
   for (std::size_t c = 0; c < kBrickCells;) {

@@ -1,4 +1,4 @@
-// What heat has left in tissue, in few bytes: enough to draw it (heat_look.hpp), not to go on with it. Six shades of
+// What heat has left in tissue, in few bytes: enough to draw it (heat_look.hpp), not to continue with it. Six shades of
 // coagulation, three of water, eight of the highest temperature; runs of equal cells once.
 #pragma once
 

@@ -14,7 +14,7 @@
 // V this is one equation for one number, a rank-one stiffness inverted as in [Sherman & Morrison 50]; no bulk modulus,
 // however large, asks for a shorter step, and at rest p is that of the law.
 //
-// Once its wall is cut or torn open, what is inside runs out by the hole's size (leak.hpp): the law goes on with what
+// Once its wall is cut or torn open, what is inside runs out by the hole's size (leak.hpp): the law continues with what
 // is left. The inertia of what ran out stays on the wall.
 #pragma once
 
@@ -32,7 +32,7 @@ inline constexpr double kAtmosphere = 101325;  ///< [Pa]
 
 struct Enclosure {
   enum Kind : std::int32_t { none, constant, liquid, gas } kind = none;
-  double pressure = 0;  ///< p0 as drawn, at the centre of the volume, over the surroundings [Pa]
+  double pressure = 0;  ///< p0 in the rest shape, at the centre of the volume, over the surroundings [Pa]
   double bulk = 0;      ///< K of a liquid [Pa]
   double density = 0;   ///< of what is inside [kg/m^3]
   double volume = 0;    ///< V0 [m^3]; build() sets it

@@ -4,9 +4,9 @@
 //
 // p is the pressure at the hole: that of what is enclosed, and more below its centre. A, of the hole, is what the torn
 // triangles have grown beyond their drawn areas: lips that part open it, lips that are pressed together nearly close
-// it. What has run out is no longer in the enclosure's law, so the wall slackens. Where it encloses more than is left,
+// it. Spilled contents are no longer in the enclosure's law, so the wall slackens. Where it encloses more than is left,
 // gas has come in from outside: there is no pressure but that of the height of the liquid over the hole, as in a vessel
-// with upright walls, and the rest drips, or is pressed out by whoever squeezes.
+// with upright walls, and the rest drips, or is pressed out by a squeeze.
 #pragma once
 
 #include <cstdint>

@@ -474,7 +474,7 @@ double swell_of_a_step(const MembraneModel& m) {
 constexpr int kSettleTicks = 3000;
 
 /// Lets the sheet swing and stops it whenever it slows down by itself (dynamic relaxation with kinetic damping
-/// [Cundall 76]), until it hangs still.
+/// [Cundall 76]), until it is in equilibrium.
 void settle(double tick, NetworkDescription& net, MembraneModel& m) {
   const Enclosure::Kind kind = m.enclosure.kind;
   if (kind != Enclosure::none) m.enclosure.kind = Enclosure::constant;  // the volume is what it will be

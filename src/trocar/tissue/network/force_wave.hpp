@@ -1,5 +1,5 @@
-// Peristalsis: directed force waves [KCM99, "morpho-dynamics"; the formula is ours]. Rings of contraction run along the
-// centre line of a hollow organ and draw its wall together:
+// Peristalsis: directed force waves [KCM99, "morpho-dynamics"; the formula is our choice]. Rings of contraction run
+// along the centre line of a hollow organ and draw its wall together:
 //
 //   f = A n sum_k g(s - v (t - k T)),   g(d) = exp(-d^2 / 2 sigma^2)
 //
@@ -73,7 +73,7 @@ struct ForceWaveModel {
 };
 
 /// Compiles a wave for an organ.
-/// @param rest, volume  (nodes) as drawn [m], [m^3]
+/// @param rest, volume  (nodes) in the rest shape [m], [m^3]
 /// Throws std::invalid_argument where no part of it lies around the line.
 ForceWaveModel build(const ForceWaveDescription& description, std::span<const Vec3d> rest,
                      std::span<const double> volume);

@@ -44,7 +44,7 @@ void put_corners(std::span<const TetRest> cells, VolumeCells& v) noexcept {
   }
 }
 
-/// What needs what, for whoever takes it in turns.
+/// What needs what, for taking it in turns.
 void find_last(std::span<const TetRest> cells, VolumeCells& v) noexcept {
   std::fill(v.last_pack.begin(), v.last_pack.end(), 0);
   std::fill(v.last_slice.begin(), v.last_slice.end(), 0);

@@ -12,7 +12,7 @@
 // 0.2 of all goes to where springs are stiff and short, as at the poles, which would set the time step alone. They are
 // tilted so that their sum is density times the body's volume and their centre is the body's: m (a + b.(x - c)), the
 // change that is least in sum of squares over m. Cells that lie in each other, as where rings are concave, have springs
-// as the others do, but nothing guards them against being turned over. (Ours.)
+// as the others do, but nothing guards them against being turned over. (Our choice.)
 #pragma once
 
 #include <array>

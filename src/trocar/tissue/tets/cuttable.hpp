@@ -1,7 +1,7 @@
 // A body of tetrahedra that can be cut while it lives: springs along the edges of its cells and across their faces
 // (tet_springs.hpp), cut by parting cells along faces (geometry/tets/tet_cut.hpp). What a cut changes is State: where
 // nodes are drawn, which corners and neighbours cells have, how many nodes there are. The arrays that the kernel reads
-// follow from that alone; they are Work, made anew after every cut.
+// follow from that alone; they are Work, made again after every cut.
 //
 // What every cell brings to its springs is known from the start, so nothing is fitted while running: a spring along an
 // edge has the sum of what the cells around that edge bring, on either side of a cut its own; one across a face is gone

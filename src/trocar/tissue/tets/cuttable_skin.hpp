@@ -1,5 +1,5 @@
 // The skin of a body that can be cut: the faces that no other cell lies behind, as they are now. Its vertices are the
-// body's nodes, under their numbers, so that whoever holds a vertex holds the same one after a cut; nodes inside the
+// body's nodes, under their numbers, so that a hold on a vertex is a hold on the same one after a cut; nodes inside the
 // body are vertices without triangles until a cut lays them bare.
 //
 //   CuttableSkin skin = make_skin(model);             // room for all that cuts can add

@@ -6,8 +6,8 @@
 // (spring_medium), which is nothing inside the body and the stress's force on its surface. On a general mesh edges
 // alone cannot do that [Van Gelder 98]: cut into six tetrahedra a cube, a block of them has a Poisson's ratio of 0.03.
 // With the springs across faces there are nearly as many stiffnesses as conditions, and a least-squares fit from k = E
-// sum V / l^2 [Van Gelder 98] leaves a small misfit, which is reported. (The springs across faces and the fit are ours;
-// tests measure E and nu of blocks.)
+// sum V / l^2 [Van Gelder 98] leaves a small misfit, which is reported. (The springs across faces and the fit are our
+// choice; tests measure E and nu of blocks.)
 //
 //   const TetNetwork t = tet_network(mesh.points, mesh.cells, {.youngs_modulus = 5.4e3, .density = 1060});
 #pragma once

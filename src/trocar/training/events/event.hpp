@@ -15,7 +15,7 @@ namespace trocar::training {
 /// What would happen if a hand did now what it is about to do.
 struct Foreseen {
   EventInstance instance;
-  interactions::Clip clip;  ///< that the happening points at
+  interactions::Clip clip;  ///< that the instance points at
 };
 
 /// Those of one kind in a tick; what does not fit is not told.
@@ -27,7 +27,7 @@ struct EventInstances {
   }
 };
 
-/// Notices one kind of event with its arguments, in one attempt.
+/// Detects one kind of event with its arguments, in one attempt.
 class EventDetector {
  public:
   virtual ~EventDetector() = default;
@@ -36,7 +36,7 @@ class EventDetector {
   virtual void sample(const Snapshot&, double, EventInstances&) {}
 };
 
-/// A number or a truth of one happening.
+/// A number or a truth value of one event.
 struct Attribute {
   std::string_view name;
   std::string_view meaning;

@@ -1,4 +1,4 @@
-// What watches have noticed, as happenings.
+// Incidents of the watches, as event instances.
 #pragma once
 
 #include <trocar/training/events/event.hpp>
@@ -6,7 +6,7 @@
 
 namespace trocar::training {
 
-/// Those of one kind. @param number  that tells them from others of the event
+/// Those of one kind. @param number  that distinguishes them from others of the event
 inline void pass(const Incidents& incidents, Incident::Kind kind, EventInstances& out, std::int32_t number = -1) {
   for (int i = 0; i < incidents.count; ++i) {
     const Incident& m = incidents.list[size_t(i)];

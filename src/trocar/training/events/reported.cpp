@@ -26,7 +26,7 @@ class Reported final : public EventDetector {
   }
 };
 
-/// Once a body for as long as it goes on tearing.
+/// Once a body for as long as it continues tearing.
 class Torn final : public EventDetector {
  public:
   Torn(const sim::Model&, const Arguments&) {}

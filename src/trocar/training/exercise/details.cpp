@@ -10,7 +10,7 @@ namespace {
 
 using scene::JsonValue;
 
-constexpr std::size_t kMostDone = 128;  // of acts that are told; a State's books hold fewer clips and cuts
+constexpr std::size_t kMostDone = 128;  // of acts that are reported; a State's buffers hold fewer clips and cuts
 
 Json number(double si, std::string_view name, bool is_truth) {
   if (is_truth) return si != 0;

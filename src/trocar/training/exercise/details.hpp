@@ -1,5 +1,5 @@
-// What a result tells beside steps and errors: facts that the file asks for, of each element of their set, and what was
-// clipped and cut.
+// Contents of a result beside steps and errors: facts that the file asks for, of each element of their set, and what
+// was clipped and cut.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ class Details {
  public:
   /// One entry of an exercise's `details`, for every element of its set.
   void read(const Part& part, const RuleReading& reading);
-  /// Acts are told of these kinds of event.
+  /// Events of these kinds are reported.
   void watch(const EventWatches& events) { m_events = &events; }
 
   void sample(const Snapshot& snapshot);

@@ -62,17 +62,17 @@ struct LaterError {
   std::string code, name, needs;
 };
 
-/// At a moment of choice of the demonstration, counted from 0, it went on in this way (expert/perturbation.hpp).
+/// The perturbation that a demonstration uses from one of its decision points on, counted from 0.
 struct Choice {
   int at = 0, perturbation = 0;
 };
 using Choices = std::vector<Choice>;
 inline constexpr int kMostChoice = 99999, kMostPerturbation = 99999;
 
-/// Choices with which it came off when it was rehearsed.
+/// Choices with which it succeeded in a rehearsal.
 struct RecordedChoices {
   std::uint64_t seed = 0;  ///< of the anatomy
-  Choices choices;         ///< but for those to go on as it is written
+  Choices choices;         ///< but for those to continue as it is written
 };
 
 struct Exercise {
@@ -89,7 +89,7 @@ struct Exercise {
   std::vector<StepText> steps;
   std::vector<Penalty> penalties;  ///< of common rules first
   std::vector<Part> details;       ///< facts that the result tells
-  Part demonstration;              ///< null where nobody demonstrates it
+  Part demonstration;              ///< null without a demonstration
   std::vector<RecordedChoices> recorded_choices;
   std::vector<LaterError> later;
   std::string group;  ///< one of kGroups; empty: none

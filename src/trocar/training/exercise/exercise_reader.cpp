@@ -69,7 +69,7 @@ class ExerciseReader {
     fs::path path;
   };
 
-  /// @return false where there is nothing to go on with
+  /// @return false where there is nothing to continue with
   bool open(const fs::path& path) {
     m_files.push_back(scene::load_json(path, m_faults, m_memory));
     const scene::JsonDocument& document = m_files.back();
@@ -227,7 +227,7 @@ class ExerciseReader {
       said("sets").o.fault("sets", fmt::format("expected at most {} sets, got {}", kMaxSets, m_exercise.sets.size()));
   }
 
-  /// Limits go into what people are told of errors; steps are told with their elements, later.
+  /// Limits go into the texts of errors; steps are reported with their elements, later.
   void words() {
     const Names names(m_exercise.limits, {});
     for (Penalty& p : m_exercise.penalties)

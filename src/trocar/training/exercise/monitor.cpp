@@ -63,7 +63,7 @@ void Monitor::measure(const sim::Model& model, const sim::State& state) {
     m_tools[h].path += moved;
     m_tip[h] = now;
   }
-  if (m_tools.empty()) {  // nothing is led but the endoscope
+  if (m_tools.empty()) {  // nothing is controlled but the endoscope
     const Vec3d now = sim::scope_of(model, state).eye;
     moving = length(now - m_lens) > kMoving * kSample;
     m_lens = now;

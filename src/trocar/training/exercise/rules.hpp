@@ -59,7 +59,8 @@ struct ErrorRule {
 class Rules {
  public:
   /// Adds the exercise's steps to the board. @param exercise, board  outlive the rules  @param model  null: only checks
-  /// what can be told without a scene  @param faults  gets all that is wrong; with any of them the rules are of no use
+  /// what can be reported without a scene  @param faults  gets all that is wrong; with any of them the rules are of no
+  /// use
   Rules(const Exercise& exercise, const sim::Model* model, std::uint64_t seed, Scoreboard& board, Faults& faults);
   Rules(const Rules&) = delete;
   Rules& operator=(const Rules&) = delete;

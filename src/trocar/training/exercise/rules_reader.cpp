@@ -55,7 +55,7 @@ class RulesReader {
     return set ? m_rules.m_names.at(*set, *element) : m_rules.m_names;
   }
 
-  /// Null: a fault has been told, or it is there once.
+  /// Null: a fault has been reported, or it is there once.
   const Set* set_of(const std::string& name, const Part& part) {
     if (name.empty()) return nullptr;
     const Set* set = m_rules.m_names.set(name);

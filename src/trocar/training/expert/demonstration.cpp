@@ -57,7 +57,7 @@ void check_demonstration(const Exercise& exercise, const sim::Model* model, Faul
     } catch (const core::BadInput&) {
       return;  // the rules' own faults come first
     }
-  Faults of_names;  // told already by whoever read the exercise
+  Faults of_names;  // reported already when the exercise was read
   Source source(exercise, model, seed, of_names);
   source.reading.faults = &faults;
   source.reading.facts = model ? &watches : nullptr;

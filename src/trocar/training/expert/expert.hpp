@@ -1,4 +1,4 @@
-// Whoever demonstrates an exercise: reads the State as an eye would and writes only Input, as hands do.
+// The demonstrator of an exercise: reads the State as an eye would and writes only Input, as hands do.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ namespace trocar::training {
 /// How an expert works.
 struct Manner {
   Tremor tremor;
-  /// Asked at each moment of choice, by its number: the way in which it goes on (ways.hpp). Null: as the exercise's
+  /// Asked at each moment of choice, by its number: the way in which it continues (ways.hpp). Null: as the exercise's
   /// file says.
   std::function<int(int choice)> perturbation = {};
 };
@@ -35,7 +35,7 @@ class Expert {
   virtual const char* doing() const = 0;
   /// The goal that it works on, for people; empty: none.
   virtual std::string goal() const { return {}; }
-  /// What did not come off at first, when and why; the first hundred.
+  /// Failed first tries, when and why; the first hundred.
   virtual const std::vector<std::string>& difficulties() const = 0;
 };
 

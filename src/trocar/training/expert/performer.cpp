@@ -9,7 +9,7 @@
 namespace trocar::training {
 namespace {
 
-constexpr size_t kMostDifficulties = 100;  // that are told
+constexpr size_t kMostDifficulties = 100;  // that are reported
 
 }  // namespace
 

@@ -15,7 +15,7 @@ struct Play {
   double share, least;
 };
 
-// Ours: about what two surgeons differ by. Lengths [m], forces [N].
+// Our choice: about what two surgeons differ by. Lengths [m], forces [N].
 constexpr std::array<Play, 9> kPlays{{{"by_mm", 0.3, 0.001},
                                       {"deep_mm", 0.2, 0},
                                       {"back_mm", 0.3, 0},
@@ -25,7 +25,7 @@ constexpr std::array<Play, 9> kPlays{{{"by_mm", 0.3, 0.001},
                                       {"x_mm", 0, 0.005},
                                       {"y_mm", 0, 0.005},
                                       {"z_mm", 0, 0.005}}};
-constexpr double kTremor = 0.0001;  // [m] rms; ours: of a steady hand
+constexpr double kTremor = 0.0001;  // [m] rms; our estimate: of a steady hand
 
 const Play* play_of(const Parameter& parameter) {
   for (const Play& play : kPlays)

@@ -1,6 +1,6 @@
-// Whether a hand's work comes off lies in tenths of a millimetre that no plan foresees. So a demonstration has moments
+// The success of a hand's work depends on tenths of a millimetre that no plan foresees. So a demonstration has moments
 // of choice, where a skill begins and every ten seconds while it lasts: from there on it can be done as it is written,
-// or by a hand that trembles otherwise, draws somewhat farther, holds deeper, carries to beside. It is rehearsed
+// or by a hand that trembles otherwise, draws somewhat further, holds deeper, carries to beside. It is rehearsed
 // (attempt/rehearsal/rehearsal.hpp), and its exercise's file keeps the choices that went well, as numbers.
 #pragma once
 

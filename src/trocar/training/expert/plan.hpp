@@ -25,7 +25,7 @@ struct PlanTask {
   double at_most = 0;               ///< [s]
   bool goes_on = false;             ///< a skill that took longer has not failed
   Condition until;                  ///< it ends when this is so
-  std::vector<PlanTask> meanwhile;  ///< go on beside it, whatever becomes of them
+  std::vector<PlanTask> meanwhile;  ///< continue beside it, whatever becomes of them
   core::Location at;                ///< in the file
   /// Who does it instead, made of who would; null: who would.
   std::function<std::unique_ptr<Skill>(std::unique_ptr<Skill>)> wrap;

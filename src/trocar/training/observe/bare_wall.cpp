@@ -42,7 +42,7 @@ int crowd_about(const sim::Model& model, const sim::State& state, Vec3d a, Vec3d
 int wall_to_take(const sim::Model& model, const sim::State& state, int membrane, const Approach& approach,
                  std::span<const int> missed) {
   constexpr double kReach = 0.018, kApart = 0.003, kBefore = 0.006;  // [m]
-  constexpr double kEach = 0.003;  // [m] so much farther off it is as good without one thing more about it
+  constexpr double kEach = 0.003;  // [m] so much further off it is as good without one thing more about it
   constexpr double kFaces = 0.3;   // of the way in, along the normal: more would come from behind
   const tissue::MembraneModel& sheet = model.membranes[std::size_t(membrane)].sheet;
   std::vector<Vec3d> x(sheet.network.rest.size());

@@ -12,7 +12,7 @@ namespace trocar::training {
 struct Approach {
   Vec3d place;      ///< near which it shall be [m]
   Vec3d from;       ///< the trocar [m]
-  double deep = 0;  ///< how far they go on beyond the node [m]
+  double deep = 0;  ///< how far they continue beyond the node [m]
 };
 
 /// The node of a membrane that is best taken, none within 3 mm of those that were missed; -1: there is none within

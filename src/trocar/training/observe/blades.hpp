@@ -1,5 +1,5 @@
-// What a hand's scissors would go through if they closed as they are, or as they could be led: every body of the scene
-// is asked what the verb itself asks (interactions/verbs/between_blades.hpp).
+// What a hand's scissors would go through if they closed as they are, or as they could be moved: every body of the
+// scene is asked what the verb itself asks (interactions/verbs/between_blades.hpp).
 #pragma once
 
 #include <trocar/sim/model/state.hpp>

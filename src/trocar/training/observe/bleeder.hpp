@@ -22,7 +22,7 @@ inline bool bleeder_clipped(const sim::Model& model, const sim::State& state, bo
   });
 }
 
-/// Has heat closed this vessel for good, no farther along it than `s`?
+/// Has heat closed this vessel for good, no further along it than `s`?
 inline bool vessel_sealed(const sim::State& state, std::int32_t vessel, double s = 1) {
   const auto seals = std::span(state.seals).first(size_t(state.seal_count));
   return std::any_of(seals.begin(), seals.end(), [&](const interactions::VesselSeal& seal) {

@@ -1,5 +1,5 @@
 // What current does where it should not: a pedal that is pressed beside nothing, current through tissue that was not to
-// be treated or never may be, a tip still hot that touches such tissue, heat that has killed farther from the electrode
+// be treated or never may be, a tip still hot that touches such tissue, heat that has killed further from the electrode
 // than it may. Reads State only. Silent in scenes without energy.
 #pragma once
 
@@ -33,7 +33,7 @@ class EnergyWatch {
     bool told_idle = false, told_place = false;
   };
   /// A tip that is hot: for how long it has touched, and since when it has not [s]. What current has just gone through
-  /// is judged by that: not until the tip has left it is it touched anew.
+  /// is judged by that: not until the tip has left it is it touched again.
   struct HotTip {
     double touches_for = 0, away_for = 0;
     bool told = false;

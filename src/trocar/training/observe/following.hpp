@@ -1,7 +1,7 @@
 // Following a strand from one of its landmarks back to its beginning, with the eye or with an instrument's tip: how a
-// tube is told from the ligaments beside it, from its fimbriae to the uterus. The followed place moves along the strand
-// no faster than an eye can, over what is in view or near a tip; a short covered stretch is skipped; lost for too long,
-// it starts over at the landmark.
+// tube is distinguished from the ligaments beside it, from its fimbriae to the uterus. The followed place moves along
+// the strand no faster than an eye can, over what is in view or near a tip; a short covered stretch is skipped; lost
+// for too long, it starts over at the landmark.
 #pragma once
 
 #include <span>

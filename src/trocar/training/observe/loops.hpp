@@ -1,4 +1,4 @@
-// Loops of slings, as who judges them sees them.
+// Loops of slings, as judged.
 #pragma once
 
 #include <array>

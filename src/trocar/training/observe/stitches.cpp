@@ -12,7 +12,7 @@ namespace {
 using interactions::SutureBite;
 using interactions::SutureHole;
 
-constexpr double kTogether = 5;      // diameters: farther apart, elements are not tied to each other
+constexpr double kTogether = 5;      // diameters: further apart, elements are not tied to each other
 constexpr double kShaftSeen = 0.03;  // [m] of the shaft behind the jaws on which thread is looked for
 
 Vec3d drawn_mark(const sim::Model& model, const sim::MarkModel& m) {

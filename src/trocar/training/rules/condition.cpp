@@ -187,7 +187,7 @@ Condition read_condition(const JsonValue& value, const RuleReading& reading) {
 
 namespace {
 
-/// "identify($side)" -> "identify", "left". @return false: a fault has been told
+/// "identify($side)" -> "identify", "left". @return false: a fault has been reported
 bool split(const JsonValue& value, const RuleReading& r, std::string& step, std::string& element) {
   const std::size_t open = value.text.find('(');
   step = value.text.substr(0, open);

@@ -70,7 +70,7 @@ class Condition {
 /// What the value says; with faults a condition that may only be thrown away.
 Condition read_condition(const scene::JsonValue& value, const RuleReading& reading);
 
-/// A fact with its arguments. `watch`: its number; -1: a fault has been told, or there is no scene yet.
+/// A fact with its arguments. `watch`: its number; -1: a fault has been reported, or there is no scene yet.
 struct FactAt {
   const Fact* fact = nullptr;
   int watch = -1;
@@ -78,8 +78,8 @@ struct FactAt {
 /// @param keys  that the object may have beside "fact" and the arguments
 FactAt read_fact(const scene::JsonValue& object, std::vector<std::string> keys, const RuleReading& reading);
 
-/// The number of a step that a file names: "stop", "identify($side)", "see(niche_3)"; -1: a fault has been told, or the
-/// step's set waits for its scene.
+/// The number of a step that a file names: "stop", "identify($side)", "see(niche_3)"; -1: a fault has been reported, or
+/// the step's set waits for its scene.
 int read_step(const scene::JsonValue& value, const RuleReading& reading);
 /// The same where a name stands for the step of all elements: "first_clip".
 std::vector<int> read_steps(const scene::JsonValue& value, const RuleReading& reading);

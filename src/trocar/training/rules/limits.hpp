@@ -1,5 +1,5 @@
 // The numbers that decide in an exercise: each with a name that ends in its unit, a value or a range, and where it
-// comes from. They are told in results.
+// comes from. They are reported in results.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct Limit {
   std::string name;          ///< "first_clip_mm"
   double low = 0, high = 0;  ///< as the file writes them; of a single number both are it
   bool is_range = false;
-  bool broken = false;  ///< a fault has been told; nothing more is said of it
+  bool broken = false;  ///< a fault has been reported; nothing more is said of it
   std::string source;
   Stricter stricter = Stricter::either;
   core::Location at;

@@ -35,7 +35,7 @@ std::vector<std::string> members_of(const Element& e) {
   return known;
 }
 
-/// Nothing: a fault has been told.
+/// Nothing: a fault has been reported.
 std::optional<Meaning> meaning(const JsonValue& v, const RuleReading& r) {
   if (v.kind == Kind::broken) return std::nullopt;
   if (!is_reference(v)) return Meaning{&v, r.file, nullptr, nullptr, {}};

@@ -1,5 +1,5 @@
 // What "$..." means at a place of an exercise file: a limit, a set, within `for_each` an element of the set or one of
-// its members. Whoever reads a part of the file (conditions, steps, demonstrations) is given a RuleReading: what is
+// its members. Anyone who reads a part of the file (conditions, steps, demonstrations) is given a RuleReading: what is
 // named there, the scene, and where faults go.
 //
 //   "$first_clip_mm"   a limit
@@ -92,14 +92,14 @@ struct RuleReading {
   void check_keys(const scene::JsonValue& object, const std::string& what, const std::vector<std::string>& known) const;
 
   /// What the value says: a number or [from, to], written there in `unit`, or a limit of that unit, or a number of an
-  /// element. Nothing: a fault has been told.
+  /// element. Nothing: a fault has been reported.
   std::optional<Interval> interval(const scene::JsonValue& value, const Unit& unit) const;
   std::optional<double> number(const scene::JsonValue& value, const Unit& unit) const;
   /// The same within [low, high], in the unit.
   std::optional<double> number(const scene::JsonValue& value, const Unit& unit, double low, double high) const;
   /// Names: one, a list, "$element", "$element.member", "$set".
   std::vector<NameAt> names(const scene::JsonValue& value) const;
-  /// Exactly one. Nothing: a fault has been told, or the set that it is of waits for its scene.
+  /// Exactly one. Nothing: a fault has been reported, or the set that it is of waits for its scene.
   std::optional<NameAt> name(const scene::JsonValue& value) const;
 };
 

@@ -18,7 +18,7 @@ bool empty(const Test& t, double least, double most) {
          (t.beyond_low && t.low >= most) || t.high < least || (t.beyond_high && t.high <= least);
 }
 
-/// The test, if something that the number can be passes it. Nothing: a fault has been told.
+/// The test, if something that the number can be passes it. Nothing: a fault has been reported.
 std::optional<Test> possible(const Test& test, const JsonValue& at, const Tested& tested, const RuleReading& r) {
   constexpr double kAnything = std::numeric_limits<double>::infinity();
   const Unit& unit = unit_of(tested.name);

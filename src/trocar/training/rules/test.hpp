@@ -37,8 +37,8 @@ struct Tested {
 /// The keys of a test: min, max, above, below, in, min_abs, max_abs, is.
 const std::vector<std::string>& test_keys();
 
-/// The test that an object's keys say. Nothing: a fault has been told, also where they say none or one that nothing can
-/// pass.
+/// The test that an object's keys say. Nothing: a fault has been reported, also where they say none or one that nothing
+/// can pass.
 std::optional<Test> read_test(const scene::JsonValue& object, const Tested& tested, const RuleReading& reading);
 /// Of an attribute: such an object, or in short a truth, a range, or a number that is counted.
 std::optional<Test> read_short_test(const scene::JsonValue& value, const Tested& tested, const RuleReading& reading);

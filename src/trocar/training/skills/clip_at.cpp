@@ -9,8 +9,8 @@
 namespace trocar::training {
 namespace {
 
-/// A clip on a strand: the legs go around it, are looked at half closed, and close slowly. Whoever does not see what he
-/// has to see, or has not all of it between the legs, draws back and tries elsewhere.
+/// A clip on a strand: the legs go around it, are looked at half closed, and close slowly. Anyone who does not see what
+/// he has to see, or has not all of it between the legs, draws back and tries elsewhere.
 class ClipAt final : public Skill {
  public:
   ClipAt(const sim::Model& model, const SkillArgs& args) : m_hand(args.hand()), m_strand(args("of").index) {
@@ -164,7 +164,7 @@ class ClipAt final : public Skill {
     return true;
   }
 
-  /// Where the clip belongs: given, or in the middle of its range; a little nearer or farther after each failure, where
+  /// Where the clip belongs: given, or in the middle of its range; a little nearer or further after each failure, where
   /// the lower leg may be seen behind the strand. With a sound clip on the strand already, as far from it as they
   /// should be apart.
   double place(Surgeon& op, int tries) const {

@@ -8,8 +8,8 @@
 namespace trocar::training {
 namespace {
 
-/// A clip on the artery that bleeds, beside the place: around the strand that carries it, or around itself. Whoever
-/// does not get there, or sees no tip, draws back; what slid along a leg's end is met a little farther on that side
+/// A clip on the artery that bleeds, beside the place: around the strand that carries it, or around itself. Anyone who
+/// does not get there, or sees no tip, draws back; what slid along a leg's end is met a little further on that side
 /// next time.
 class ClipVessel final : public Skill {
  public:
@@ -128,7 +128,7 @@ class ClipVessel final : public Skill {
   static interactions::VesselSpot spot(Surgeon& op, double s) { return op.vessel_spot(bleeder(op).vessel, s); }
   static Vec3d bleeding(Surgeon& op) { return spot(op, bleeder(op).s).place; }
 
-  /// Arteries are written from the heart on. A little nearer or farther off after each failure.
+  /// Arteries are written from the heart on. A little nearer or further off after each failure.
   double place(Surgeon& op) const {
     constexpr double kElsewhere[] = {0, -0.001, 0.001};  // [m]
     const double off = (m_beside + kElsewhere[m_tries % 3]) / path(op).length;

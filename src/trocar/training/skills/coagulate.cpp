@@ -15,7 +15,7 @@ class Coagulate final : public Skill {
   enum Phase { kReach, kPress, kLeave };
 
   Progress work(Surgeon& op) override {
-    constexpr double kFar = 8, kTouch = 0.5;  // [s] farther away is nothing here; a touch without current
+    constexpr double kFar = 8, kTouch = 0.5;  // [s] further away is nothing here; a touch without current
     constexpr double kDeeper = 0.002;         // [m] tissue that is pushed gives way
     Arms::Arm& arm = op.arm(m_hand);
     const Vec3d at = m_place.point(op, m_hand), goal = at + kDeeper * normalised(at - arm.port);

@@ -114,7 +114,7 @@ class CoagulateVessel final : public Skill {
     go(kOpen);
   }
 
-  /// To where the carrier lay before the jaws touched it, and as much farther along it as they dragged it last time.
+  /// To where the carrier lay before the jaws touched it, and as much further along it as they dragged it last time.
   bool aim(Surgeon& op, double back, double speed) {
     constexpr double kDeeper = 0.0015;  // [m] each time that they took nothing
     const double inside = m_share * op.tool(m_hand).jaw_length - kDeeper * double(m_missed % 4);

@@ -31,7 +31,7 @@ class CutAt final : public Skill {
   enum Phase { kReach, kEnter, kClose, kOpen, kLeave };
   static constexpr double kGivesWay = 1.6;  // [s] after which what the blades push is not followed any more
 
-  /// How else the blades may be led around it, where something lies behind it or beside it.
+  /// How else the blades may be controlled around it, where something lies behind it or beside it.
   struct Pose {
     double turned;  ///< about the shaft, from square across [rad]
     double nearer;  ///< to the blades' tips than it was wanted [of their length]

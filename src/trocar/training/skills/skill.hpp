@@ -24,7 +24,7 @@ enum class Progress { working, done, failed };
 
 struct SkillKind;
 
-/// A skill's parameters by their names.
+/// A skill's arguments by the names of its parameters.
 class SkillArgs {
  public:
   SkillArgs(const SkillKind& kind, const Arguments& arguments) : m_kind(&kind), m_arguments(&arguments) {}

@@ -34,7 +34,7 @@ struct Attempt {
   std::string uuid;
   std::string trainee, exercise, title;
   AttemptMode mode = AttemptMode::assessed;
-  std::uint64_t seed = 0;      ///< of the anatomy; 0: as drawn
+  std::uint64_t seed = 0;      ///< of the anatomy; 0: the standard patient
   std::string input;           ///< what led the instruments: "mouse", "gamepad", "demo", ...
   std::string started, ended;  ///< UTC, "2026-03-01T14:05:09Z"; for people, never compared
   AttemptState state = AttemptState::running;

@@ -5,7 +5,7 @@
 namespace trocar::training {
 namespace {
 
-constexpr int kLargestValue = 128 * 1000000;  // [B] of a text or blob, whoever wrote it
+constexpr int kLargestValue = 128 * 1000000;  // [B] of a text or blob, from any writer
 
 /// A path as SQLite's URI wants it: with what has a meaning there written as %XX.
 std::string uri_of(const std::filesystem::path& path, const char* query) {

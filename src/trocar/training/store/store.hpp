@@ -1,7 +1,7 @@
 // The session store: every attempt that was ever begun, in one SQLite file beside the recordings. It is built to lose
 // nothing: a result that the database does not take (full disk, read-only folder, locked or damaged file) goes into a
 // small file and is taken in when the store is opened next; an attempt whose program died is found by the lock that
-// died with it, and told with as much as its recording holds; a damaged database is set aside and built anew from what
+// died with it, and told with as much as its recording holds; a damaged database is set aside and built again from what
 // is still readable and from the recordings. Any number of programs may use one store at a time.
 //
 //   Store store(folder);                                     // never throws: what is wrong stands in notices()
@@ -75,8 +75,8 @@ class Store {
   explicit Store(std::filesystem::path folder, int patience = 5000);
   ~Store();
 
-  /// A new row, state running; sets number, and uuid where it is empty. Without a database the attempt goes on all the
-  /// same and number stays 0.
+  /// A new row, state running; sets number, and uuid where it is empty. Without a database the attempt continues all
+  /// the same and number stays 0.
   AttemptLock begin(Attempt& attempt);
   /// The row as it stands, if the database takes it; otherwise nothing.
   void update(Attempt& attempt);
@@ -104,7 +104,7 @@ class Store {
   };
   Forgotten forget(const std::string& trainee);
 
-  /// What people should be told: repairs, faults, what was taken in. Grows with every call that has something to say.
+  /// What people should know: repairs, faults, what was taken in. Grows with every call that has something to say.
   const std::vector<std::string>& notices() const { return m_notices; }
   bool writable() const { return m_writable; }
   const std::filesystem::path& folder() const { return m_folder; }

@@ -1,4 +1,4 @@
-// A damaged database is set aside and built anew from what is still readable and from the recordings.
+// A damaged database is set aside and built again from what is still readable and from the recordings.
 #include <fmt/format.h>
 
 #include <trocar/training/store/store_parts.hpp>

@@ -55,7 +55,7 @@ double mean_distance(Vec3d from, std::span<const Vec3d> points) {
 template <class PoseFrom>
 auto pose_of_all(std::span<const Vec3d> points, Vec3d middle, Vec3d port, double cone, double distance,
                  PoseFrom&& pose_from) {
-  constexpr int kRounds = 3;  // the farther the lens, the less its direction changes
+  constexpr int kRounds = 3;  // the further the lens, the less its direction changes
   double off = distance;
   auto pose = pose_from(off);
   for (int i = 0; i < kRounds; ++i) {

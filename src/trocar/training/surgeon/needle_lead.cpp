@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kRollPace = 2.5;  // [rad/s] a wrist that drives a needle
 constexpr double kRolled = 0.02;   // [rad]
-constexpr int kRefine = 12;        // times that the shaft's direction is looked at anew
+constexpr int kRefine = 12;        // times that the shaft's direction is looked at again
 constexpr int kNearer = 4;         // times that a tip is looked at which leads another place
 
 Vec3d beside_axis(Vec3d v, Vec3d axis) { return v - dot(v, axis) * axis; }

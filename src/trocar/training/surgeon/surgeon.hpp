@@ -1,6 +1,6 @@
-// Whoever works in a scene without a window: arms, a hand at the camera, and eyes that read the State as a surgeon
-// would (where does the strand lie, how hard do I pull, do I see my jaws). Skills share one and write only its hands;
-// it makes an Input of them.
+// The automatic surgeon of a scene without a window: arms, a hand at the camera, and eyes that read the State as a
+// surgeon would (where does the strand lie, how hard do I pull, do I see my jaws). Skills share one and write only its
+// hands; it makes an Input of them.
 //
 //   op.begin_tick(model, state);
 //   skill.tick(op);
@@ -86,7 +86,7 @@ class Surgeon {
   /// All that hold nothing do, but for this one.
   void make_room(int but_hand);
 
-  /// Where a hand was sent to last, for skills that go on there.
+  /// Where a hand was sent to last, for skills that continue there.
   struct Target {
     int strand = -1;
     double s = 0, inside = 0;  ///< [m]
@@ -102,7 +102,7 @@ class Surgeon {
   int who_presents(int strand) const;
   /// One tick of keeping all that is held up as it should lie for work at `s`.
   void keep_postures(int strand, double s);
-  /// Is it still held by whoever presents it? True where nobody does.
+  /// Is it still held by its presenter? True without one.
   bool still_presented(int strand) const;
 
  private:

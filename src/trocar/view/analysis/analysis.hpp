@@ -14,7 +14,7 @@
 // instrument with friction; forces between organs are Work and cannot be shown.
 //
 //   ViewOptions options;  options.analysis.strain = options.analysis.forces = true;
-//   const Legend legend = legend_of(options.analysis);     // whoever shows the picture draws it beside
+//   const Legend legend = legend_of(options.analysis);     // the window draws it beside
 #pragma once
 
 #include <string>

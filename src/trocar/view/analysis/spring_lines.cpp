@@ -5,7 +5,7 @@
 namespace trocar::view {
 namespace {
 
-/// Lines one after the other, begun anew each time.
+/// Lines one after the other, restarted each time.
 class Lines {
  public:
   Lines(const AnalysisOptions& options, FalseColourMesh& to)

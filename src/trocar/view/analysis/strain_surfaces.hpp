@@ -8,7 +8,7 @@
 
 namespace trocar::view {
 
-/// Makes, moves or makes anew a mesh, as its triangles (or lines) ask for.
+/// Makes, moves or makes again a mesh, as its triangles (or lines) ask for.
 class FalseColourMesh {
  public:
   MeshBuffer buffer;

@@ -1,7 +1,7 @@
 // How much a surface is stretched, from where its triangles were drawn and where they are.
 //
 //   stretches l1 >= l2 of a triangle: roots of the eigenvalues of C = F^T F, F the map of its plane
-//   its strain is l1 - 1 or l2 - 1, whichever is farther from 0: pulled > 0, squeezed < 0
+//   its strain is l1 - 1 or l2 - 1, whichever is further from 0: pulled > 0, squeezed < 0
 #pragma once
 
 #include <array>

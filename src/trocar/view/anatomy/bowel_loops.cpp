@@ -127,7 +127,7 @@ GutEnd end_at(const tissue::Skin& skin, Vec3d tip) {
   return end;
 }
 
-/// Goes on from the large bowel's end over the border and is lost under the peritoneum there.
+/// Continues from the large bowel's end over the border and is lost under the peritoneum there.
 GutLine large_bowel(const GutEnd& end, const Floor& floor) {
   const Vec3d up = floor.up_at(0.3);
   const Vec3d away = normalised(end.onward - 0.25 * up);
@@ -145,7 +145,7 @@ GutLine large_bowel(const GutEnd& end, const Floor& floor) {
   return line;
 }
 
-/// At its other end the rectum goes on behind the womb and down below the floor of the pouch.
+/// At its other end the rectum continues behind the womb and down below the floor of the pouch.
 GutLine rectum(const GutEnd& end, Vec3d up) {
   const Vec3d away = normalised(end.onward - dot(end.onward, up) * up, end.onward);
   const Vec3d knots[] = {end.middle - kLoopBack * end.onward,    end.middle,

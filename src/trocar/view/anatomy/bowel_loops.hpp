@@ -1,5 +1,5 @@
 // Bowel that is not simulated: below the border of a wall that is a floor there would be an empty bowl. The large bowel
-// goes on out of view at both ends, loops of small bowel lie on the other side of it, the omentum's border hangs over
+// continues out of view at both ends, loops of small bowel lie on the other side of it, the omentum's border hangs over
 // both. Drawing only; they do not move, instruments pass through them.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace trocar::view {
 
 struct BowelLoops {
   MeshBuffer small;
-  MeshBuffer large;    ///< what goes on from its end at the border, then from its other end
+  MeshBuffer large;    ///< what continues from its end at the border, then from its other end
   MeshBuffer omentum;  ///< hangs over them
 };
 

@@ -10,7 +10,7 @@ namespace trocar::view {
 namespace {
 
 constexpr double kDomeWhole = 0.004, kNothing = 0.045;  // [m] from the body: goes all its way, none of it
-constexpr float kTornOff = 0.02f;  // [m] what has moved much farther has come off and is not followed
+constexpr float kTornOff = 0.02f;  // [m] what has moved much further has detached and is not followed
 
 constexpr float kDomeCell = 0.006f;                 // [m] of the grid in which those places are found
 constexpr float kCoarse = 0.004f, kRecess = 0.07f;  // [m] what shades the recess above it, and from how far

@@ -1,6 +1,6 @@
-// The rest of a liver. What is simulated is its lower edge; above it the organ goes on below the diaphragm's dome, and
-// to both sides until the wall. Drawing only: a surface that leaves the simulated one without a crease, sunk into it
-// where they overlap, and that goes along where that moves. With it the falciform ligament, a sheet from the dome to
+// The rest of a liver. What is simulated is its lower edge; above it the organ continues below the diaphragm's dome,
+// and to both sides until the wall. Drawing only: a surface that leaves the simulated one without a crease, sunk into
+// it where they overlap, and that goes along where that moves. With it the falciform ligament, a sheet from the dome to
 // the wall.
 //
 //   LiverDome dome(model, organ, LiverShape(points, triangles), wall_surface, backend);

@@ -17,7 +17,7 @@ constexpr double kLiverStep = 0.003;  // [m] between columns and rows
 constexpr int kLiverRows = 56;        // from the edge towards the head
 constexpr double kBeside = 0.06;      // [m] beyond the body to either side
 constexpr double kInset = 0.009;      // [m] of the body's ends, which are round: there the dome goes straight on
-constexpr double kLiverTip = 0.002;   // [m] of them: nothing is to be told there
+constexpr double kLiverTip = 0.002;   // [m] of them: nothing is to be seen there
 constexpr double kDroops = 0.012;     // [m] beyond the body's ends its margin begins to sink
 constexpr double kFalls = -0.27;      // slope of the body's upper side from which on the dome takes over
 constexpr int kEvenJoin = 30;         // passes over the line where it does
@@ -75,7 +75,7 @@ LiverShape::LiverShape(std::span<const Vec3f> points, std::span<const std::uint3
 
 double LiverShape::y_of(std::size_t column, int row) const { return m_columns[column].low + offset_of(row); }
 
-/// Upper side of the body, and its edge, which goes on beyond its ends.
+/// Upper side of the body, and its edge, which continues beyond its ends.
 void LiverShape::scan(std::span<const Vec3f> points, std::span<const std::uint32_t> triangles) {
   double from = 1e9, to = -1e9;
   for (const std::uint32_t v : triangles) {
@@ -206,7 +206,7 @@ void LiverShape::fair() {
         continue;
       }
       if (c.join > 0) continue;
-      // Beside the body its margin goes on as it is at its end.
+      // Beside the body its margin continues as it is at its end.
       const std::size_t end = i < m_first ? m_first : m_last;
       const std::size_t inner = i < m_first ? m_first + 2 : m_last - 2;
       const double d = std::fabs(c.x - m_columns[end].x);

@@ -17,7 +17,7 @@ class LiverShape {
   /// It ends where a wall is.
   MeshBuffer dome(const WallSurface& wall) const;
   /// The falciform ligament from the dome to the wall; its free border is a round cord, which
-  /// goes on along the liver and sinks into it. Paint::tint: fat.
+  /// continues along the liver and sinks into it. Paint::tint: fat.
   MeshBuffer falciform(const WallSurface& wall) const;
   double height(double x, double y) const;  ///< of the upper side [m]
 

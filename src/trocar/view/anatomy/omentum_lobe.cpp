@@ -10,7 +10,7 @@ namespace trocar::view {
 namespace {
 
 constexpr std::size_t kLobeRows = 32;   // from the border to the root
-constexpr double kLobeNear = 0.009;     // [m] aside: farther points carry nothing
+constexpr double kLobeNear = 0.009;     // [m] aside: further points carry nothing
 constexpr double kCapRadius = 0.01;     // [m] each point carries it like a ball of that radius: no steps
 constexpr double kHighest = 0.06;       // [m] what is so far above is beside or over it, not below
 constexpr int kLobeSlack = 14;          // passes: the more, the tauter it spans from one loop to the next

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kPortaCell = 0.0008f;                    // [m] of the grid that its surface is taken from
 constexpr float kPortaGrid = 0.006f;                     // [m] in which places of skins are found
-constexpr double kBesideWall = 0.02;                     // [m] an entry farther from the wall is not its affair
+constexpr double kBesideWall = 0.02;                     // [m] an entry further from the wall is not its affair
 constexpr double kStride = 0.0005;                       // [m] along a strand, looking for where it goes in
 constexpr double kSample = 0.0015;                       // [m] between lobules
 constexpr double kPortaLobule = 0.0040;                  // [m] reach of a lobule's bell ...

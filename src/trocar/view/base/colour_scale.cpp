@@ -8,7 +8,7 @@
 namespace trocar::view {
 namespace {
 
-// [Okabe & Ito 2008]: sky blue, blue, orange, vermilion; what is between and around them is ours.
+// [Okabe & Ito 2008]: sky blue, blue, orange, vermilion; what is between and around them is our choice.
 constexpr Colour kDiverging[] = {{0.00f, 0.30f, 0.55f}, {0.00f, 0.45f, 0.70f}, {0.34f, 0.71f, 0.91f},
                                  {0.95f, 0.95f, 0.93f}, {0.95f, 0.68f, 0.18f}, {0.84f, 0.37f, 0.00f},
                                  {0.62f, 0.22f, 0.00f}};

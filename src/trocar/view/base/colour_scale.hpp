@@ -22,7 +22,7 @@ enum class Scale {
   diverging,   ///< -1 .. 1, 0 in its middle
   sequential,  ///< 0 .. 1
 };
-/// Beyond its ends a scale goes on with their colours; what is not a number gets the first one.
+/// Beyond its ends a scale continues with their colours; what is not a number gets the first one.
 Colour colour_on(Scale scale, double value);
 
 /// CIE lightness, 0 black .. 100 white.

@@ -1,4 +1,4 @@
-// The smoothest values on a net of points that pass where they are told to: how a drawn surface goes on beyond the one
+// The smoothest values on a net of points that pass at given points: how a drawn surface continues beyond the one
 // that is there, without a crease.
 //   const std::vector<double> z = fairest(neighbours, wished, weight);
 #pragma once

@@ -1,4 +1,4 @@
-// How a thin fold between a tube and its root is patterned, for whoever draws one from a mesh: the renderer samples
+// How a thin fold between a tube and its root is patterned, for drawing one from a mesh: the renderer samples
 // vessels and noise in rest coordinates, and a fold's are its own, (along the tube, from the tube to the root).
 //
 //   rest[i] = fold_rest(s, v);    paint[i] = fold_paint(s, v);          // look "mesosalpinx"

@@ -1,5 +1,5 @@
 // What heat has left on a surface that is drawn: how burnt its vertices are (render::Paint::burn), from the heat at
-// their material places. Worked out anew only where heat is or was.
+// their material places. Worked out again only where heat is or was.
 #pragma once
 
 #include <span>

@@ -30,7 +30,7 @@ struct Look {
 /// The model's look of that name, as long as a Model with the same book lives. One that is not there gives a neutral
 /// tissue and is reported once.
 const Look& look(const sim::Model& model, const std::string& name);
-/// Of all that goes on from the model's walls.
+/// Of all that continues from the model's walls.
 const Look& wall_look(const sim::Model& model);
 /// Living tissue lets light through a thin rim; a box's silicone and board do not.
 bool is_alive(const Look& look);

@@ -1,4 +1,4 @@
-// Has a body moved since it was drawn, by so much that it can be seen? What has not is not drawn anew, nor what only
+// Has a body moved since it was drawn, by so much that it can be seen? What has not is not drawn again, nor what only
 // follows it.
 //
 //   Moved moved;
@@ -19,7 +19,7 @@ inline constexpr double kSeenToMove = 1e-5;
 /// Remembers where nodes were when they were drawn.
 class Moved {
  public:
-  /// Is any node farther than kSeenToMove from where it was when this was last true? Then they are remembered.
+  /// Is any node further than kSeenToMove from where it was when this was last true? Then they are remembered.
   bool operator()(std::span<const tissue::NodeState> nodes);
   bool operator()(std::span<const Vec3d> nodes);
 

@@ -159,7 +159,7 @@ Vec3d pressed(Vec3d p, const ClipPress& press) {
   const double bulge = between * (4 * near * (1 - near) * kPinchBulge + kGathers * gathers * smooth(0.05, 0.7, near));
   const double flattened = x * ((1 + bulge) * (1 - amount) + amount * std::min(1.0, press.flat));
   double spread = z * (1 + bulge * (1 - amount) + kPinchSpreads * amount);
-  if (z > press.low) spread = std::max(spread, press.low + 0.5 * rim);  // no farther than the bend and the tips
+  if (z > press.low) spread = std::max(spread, press.low + 0.5 * rim);  // no further than the bend and the tips
   if (z < press.high) spread = std::min(spread, press.high - 0.5 * rim);
   return p + (flattened - x) * press.open + (spread - z) * press.axis;
 }

@@ -35,7 +35,7 @@ struct JawPress {
 
 /// Half the clear space between the legs of a closed clip, and how wide and thick a leg is [m].
 inline constexpr double kClipHalfGap = 0.00025, kClipLegWidth = 0.0011, kClipLegThickness = 0.00085;
-/// A cut end that is no farther from a clip is closed by it: it cannot open to a round tube again [m].
+/// A cut end that is no further from a clip is closed by it: it cannot open to a round tube again [m].
 inline constexpr double kSealedWithin = 0.008;
 /// Legs of clips whose applier does not say how long they are [m].
 inline constexpr double kClipLength = 0.0085;
@@ -43,7 +43,7 @@ inline constexpr double kClipLength = 0.0085;
 /// Does that clip close a cut end of its strand there, at arc length `end` [m]?
 bool closes_end(const interactions::Clip& clip, double end);
 ClipPress press_of(const interactions::Clip& clip, const sim::Model& model, const sim::State& state);
-/// Of a clip that sits on a thread, `number` in the book; radius 0: it has come off.
+/// Of a clip that sits on a thread, `number` in the book; radius 0: it has detached.
 ClipPress press_on_thread(const interactions::Clip& clip, int number, const sim::State& state);
 /// Clips on a strand.
 std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::State& state);

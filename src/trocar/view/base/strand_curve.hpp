@@ -1,7 +1,7 @@
 // The smooth line through a strand's nodes, in pieces where it is cut: what tubes and folds are swept along.
 //   const StrandCurve curve(body, state, pieces_of(...));
 //   const CurveFrame at = curve.at(0, s);          // piece 0, arc length s [m]
-// Cubic between nodes with their central differences as slopes [Catmull & Rom 74]; a piece's stump goes on straight.
+// Cubic between nodes with their central differences as slopes [Catmull & Rom 74]; a piece's stump continues straight.
 #pragma once
 
 #include <span>

@@ -11,7 +11,7 @@
 
 namespace trocar::view {
 
-/// A wall's look with its vessels drawn around the cavity, so that they go on from one mesh to the next.
+/// A wall's look with its vessels drawn around the cavity, so that they continue from one mesh to the next.
 render::Material lining(render::Material material, const sim::Model& model);
 /// Seen from inside; a few millimetres of it lie below the walls.
 MeshBuffer cavity_around(const sim::Model& model);

@@ -89,7 +89,7 @@ void CutShape::measure(const tissue::FaceSkin& skin, std::span<const Edge> edges
     }
 }
 
-/// What lies farther off than it moves along is let go.
+/// What lies further off than it moves along is let go.
 void CutShape::keep_near(std::vector<Edge>& edges) {
   std::vector<int> renamed(m_kind.size(), -1);
   int kept = 0;

@@ -23,7 +23,7 @@ constexpr float kStains = 0.0014f;            // [m] how far from a cut its bloo
 constexpr float kCuttableLip = 0.0003f;       // [m] how far its lips are turned out ...
 constexpr float kLipAt = 0.0022f;             // [m] ... so far from the rim
 constexpr float kRough = 0.3f;                // slope of torn flesh, which breaks up what it mirrors
-constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
+constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have detached, which do not lie where they were baked
 constexpr std::uint8_t kLoosePale = 60;       // their capsule has bled out
 constexpr float kGrain = 0.0007f;             // [m] torn lobules of what is bare
 constexpr float kGape = 0.0017f;              // [m] how far either side of a cut draws back
@@ -49,7 +49,7 @@ std::vector<std::uint8_t> skin_nodes(const tissue::FaceSkin& skin, std::size_t n
   return own;
 }
 
-/// Nodes of pieces that have come off: all but those that hang together with the most.
+/// Nodes of pieces that have detached: all but those that hang together with the most.
 std::vector<std::uint8_t> loose_nodes(const tissue::FaceSkin& skin, std::size_t nodes) {
   std::vector<int> root(nodes), size(nodes, 0);
   std::iota(root.begin(), root.end(), 0);

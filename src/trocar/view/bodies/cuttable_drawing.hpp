@@ -25,7 +25,7 @@ class CuttableDrawing {
 
   /// How open its own surface lies, from what stands around it; once, before the first picture.
   void shade(const render::OpennessBaker& baker);
-  /// Moves the mesh, or makes it anew where the State has another cut than the last; nothing where nothing has moved.
+  /// Moves the mesh, or makes it again where the State has another cut than the last; nothing where nothing has moved.
   /// @param rods  instruments that may dent it
   void update(const tissue::CuttableState& state, std::span<const collision::Capsule> rods = {});
   /// What heat has left; before update().
@@ -72,12 +72,12 @@ class CuttableDrawing {
   std::vector<std::array<std::uint32_t, 3>> m_bare;
   std::vector<std::array<int, 2>> m_beside;
   std::vector<std::uint8_t> m_mouth;       ///< (nodes) 1: on the body's own surface
-  std::vector<std::uint8_t> m_loose;       ///< (nodes) 1: of a piece that has come off
+  std::vector<std::uint8_t> m_loose;       ///< (nodes) 1: of a piece that has detached
   std::vector<Vec3f> m_gape, m_gape_next;  ///< (nodes) [m]
   std::vector<float> m_gape_weight;
   CutShape m_shape;
   std::vector<Vec3f> m_drips;
-  render::Liquid m_ooze;  ///< what runs from it, made anew when it moves
+  render::Liquid m_ooze;  ///< what runs from it, made again when it moves
   tissue::Box m_box;
   bool m_dented = false, m_burnt = false;
   Moved m_moved;

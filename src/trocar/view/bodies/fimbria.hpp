@@ -1,7 +1,7 @@
 // The open end of a uterine tube: its wall flares to a bell, whose inside narrows to the mouth. Its rim runs out into
-// tapering fronds with frilled edges, in clumps: one surface with the bell, whose folds they go on from. Within stand
-// more of them, closed surfaces that rise out of its inner side. Made in the frame of the tube's end, with which it
-// moves rigidly.
+// tapering fronds with frilled edges, in clumps: one surface with the bell, whose folds they continue from. Within
+// stand more of them, closed surfaces that rise out of its inner side. Made in the frame of the tube's end, with which
+// it moves rigidly.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace trocar::view {
 
 inline constexpr double kBellLength = 0.007;  ///< of tube that widens to its end [m]
 inline constexpr double kBellFlare = 1.22;    ///< end's radius over the tube's
-inline constexpr int kRimColumns = 96;        ///< vertices of the first ring, which the tube goes on to
+inline constexpr int kRimColumns = 96;        ///< vertices of the first ring, which the tube continues to
 inline constexpr int kRimFronds = 24;         ///< that the rim runs out into
 inline constexpr int kFoldFronds = 25;        ///< that stand within
 

@@ -4,7 +4,7 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kFimbriaReach = 0.019;  // [m] from the tube's end to the ovary, no farther
+constexpr double kFimbriaReach = 0.019;  // [m] from the tube's end to the ovary, no further
 constexpr double kSlide = 0.0035;        // [m] of the frond lie on it
 constexpr double kUpwards = 0.9;
 constexpr float kAboveOvary = 0.0004f;

@@ -29,7 +29,7 @@ class OrganDrawing {
               const Blanching* blanched = nullptr);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   bool dented() const { return m_dented; }  ///< by an instrument
-  /// Rises whenever it is drawn anew: what follows it looks whether it has to.
+  /// Rises whenever it is drawn again: what follows it looks whether it has to.
   std::uint64_t version() const { return m_version; }
   /// As drawn now, per vertex of solid.fine.
   std::span<const Vec3f> positions() const { return m_pose.position; }

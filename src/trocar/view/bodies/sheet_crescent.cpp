@@ -8,7 +8,7 @@ namespace trocar::view {
 namespace {
 
 constexpr double kCrescentFarthest = 0.04;  // [m] from the strand to the wall
-constexpr double kBaseFar = 0.016;          // [m] from the fold's base to the wall, if it goes on to a ligament
+constexpr double kBaseFar = 0.016;          // [m] from the fold's base to the wall, if it continues to a ligament
 constexpr double kCrescentSunk = 0.0022;    // [m] the fold ends below the wall
 constexpr double kCrescentHollow = 0.55;    // of the border's span: how far it keeps to the strand, and to the wall
 constexpr double kUneven = 0.0014;          // [m] of the free border
@@ -34,7 +34,7 @@ Vec3d hung_border(double v, Vec3d tip, Vec3d along, std::span<const Vec3d> ligam
          (t * t * u) * arrives;
 }
 
-/// How much of a patch that goes on to a ligament has the wall's colour: the nearer to the wall, the more.
+/// How much of a patch that continues to a ligament has the wall's colour: the nearer to the wall, the more.
 double wall_share(double u, double v) { return smooth(-0.3, 0.9, u) * (0.55 + 0.35 * v); }
 
 }  // namespace

@@ -28,7 +28,8 @@ class SheetCrescent {
   /// False: no wall is near.
   bool there() const { return !m_on_wall.empty(); }
 
-  /// @param column  the fold's last one, strand to base  @param before  the one before it: the patch goes on from both
+  /// @param column  the fold's last one, strand to base  @param before  the one before it: the patch continues from
+  /// both
   /// @param out  (kSteps x column.size())
   void place(std::span<const Vec3f> column, std::span<const Vec3f> before, std::span<const Vec3d> beside,
              std::span<const Vec3d> ligament, std::span<Vec3f> out) const;

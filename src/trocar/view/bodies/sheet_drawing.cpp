@@ -19,14 +19,14 @@ constexpr double kPaleEdge = 0.22;       // of kTearReach: whitish beside a tear
 constexpr double kSag = 0.10;            // of the width, where the fold is as drawn
 constexpr double kSheetRipple = 0.0006;  // [m]
 constexpr std::size_t kSheetFaded = 6;   // columns over which a free edge runs out
-constexpr int kBlended = 14;             // columns over which it takes on the colour of a wall that it goes on to
+constexpr int kBlended = 14;             // columns over which it takes on the colour of a wall that it continues to
 constexpr int kMarginSteps = 4;          // columns between an edge and the organ it runs out on
 constexpr double kMarginFar = 0.012;     // [m] to that
 constexpr int kEvenPasses = 4;
 constexpr double kTopOffset = 0.3;       // radii of the strand: there the fold begins, well within it
 constexpr double kCrescent = 0.3;        // of the width: the margin's free border starts this far from the strand
 constexpr double kLigamentNear = 0.03;   // [m] from where the margin's border would be free
-constexpr double kLigamentAside = 0.12;  // of the ligament: how much farther along it the border arrives
+constexpr double kLigamentAside = 0.12;  // of the ligament: how much further along it the border arrives
 constexpr int kLigamentPoints = 8;
 constexpr int kSheetHemRows = 7;    // from a base in the air to the wall
 constexpr double kHemFar = 0.06;    // [m] at most
@@ -119,7 +119,7 @@ void SheetDrawing::connect() {
       const double near = std::min(v, 1 - v);
       const std::size_t left = m_columns.size() - 1 - c;  // a free edge is not seen as one
       const double end = beyond(true) == 0 && left < kSheetFaded ? double(left) / kSheetFaded : 1;
-      const double thin = m_hem.empty() ? near : v;  // goes on below its base
+      const double thin = m_hem.empty() ? near : v;  // continues below its base
       // Pale where it is torn, and not beyond that: paint of burns hides how sheer a fold is.
       const double whole = whole_beside_tear(m_columns[c].gap, m_columns[c].s, v);
       const double torn = smooth(kTear, 0.6 * kTear, v) * smooth(kPaleEdge, 0.5 * kPaleEdge, m_columns[c].gap);
@@ -144,7 +144,7 @@ void SheetDrawing::connect() {
       m_buffer.quad(at(c, r), at(c, r + 1), at(c + 1, r + 1), at(c + 1, r));
 }
 
-/// Of a sheet that goes on to a wall: as much of that one's colour as what goes on has where it begins.
+/// Of a sheet that continues to a wall: as much of that one's colour as what continues has where it begins.
 double SheetDrawing::wall_tint(std::size_t columns_left, double v) const {
   if (m_onto[1].strand < 0) return 0;
   return SheetCrescent::paint(0, v, true).tint / 255.0 * smooth(double(kBlended), 0, double(columns_left));
@@ -166,7 +166,7 @@ void SheetDrawing::connect_end(bool at_end) {
   }
 }
 
-/// A base that nothing carries hangs in the air: below it the sheet goes on to the wall and is lost there.
+/// A base that nothing carries hangs in the air: below it the sheet continues to the wall and is lost there.
 void SheetDrawing::find_hem(const WallSurface& walls) {
   m_hem.clear();
   for (const sim::BasePoint& b : m_sheet->base)

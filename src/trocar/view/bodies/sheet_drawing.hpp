@@ -21,7 +21,7 @@ class SheetDrawing {
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   const MeshBuffer& buffer() const { return m_buffer; }
-  /// Nothing carries its base: it goes on to a wall and is lost there.
+  /// Nothing carries its base: it continues to a wall and is lost there.
   bool has_hem() const { return !m_hem.empty(); }
 
  private:

@@ -30,7 +30,7 @@ struct TubeRow {
   double turn = 0;   ///< of its scallops against those of the piece's rim, in their seed
 };
 
-/// Where a strand's end goes on below the surface of what holds it. An organ's moves with the strand's end frame, a
+/// Where a strand's end continues below the surface of what holds it. An organ's moves with the strand's end frame, a
 /// wall's stays in space.
 struct TubeRoot {
   bool there = false, in_space = false;
@@ -66,7 +66,7 @@ class TubeDrawing {
   /// Rings (of `sides`) around it as it was last made, from one arc length to the other, `lift` above it [m]: for what
   /// lies on it. Empty where it is cut between them.
   std::vector<Vec3f> band(double from, double to, int rings, float lift) const;
-  /// Rises whenever it is drawn anew: what follows it looks whether it has to.
+  /// Rises whenever it is drawn again: what follows it looks whether it has to.
   std::uint64_t version() const { return m_version; }
   bool burnt() const { return m_marks.any(); }
   const TubeRoot& end_root() const { return m_end_root; }

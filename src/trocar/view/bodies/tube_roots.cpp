@@ -1,4 +1,4 @@
-// Where a strand goes on below the surface of what holds it.
+// Where a strand continues below the surface of what holds it.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace trocar::view {
 namespace {
 
 constexpr double kRootDepth = 1.6;                          // radii below the organ's surface where it ends
-constexpr double kRootSlide = 0.022;                        // [m] a ligament goes on along a wall ...
+constexpr double kRootSlide = 0.022;                        // [m] a ligament continues along a wall ...
 constexpr double kRootBelow = 0.003;                        // [m] ... to below its surface
 constexpr double kRootLeaves = 0.012, kRootBeside = 0.003;  // [m] from a place to the wall: it is not below that
 constexpr double kRootStep = 0.002;                         // [m]
@@ -20,7 +20,7 @@ constexpr double kHeadOnDepth = 0.012;  // [m] ... behind which it ends
 constexpr double kWallNeck = 0.008;     // [m] ... from so far above it on
 constexpr double kNeckFar = 0.011;      // [m] from its end a strand's collar begins at most
 constexpr double kSink = 0.9;           // radii that a strand has sunk into its organ at its end
-constexpr double kRootReach = 0.03;     // [m] a wall farther from a fixed end is not its root
+constexpr double kRootReach = 0.03;     // [m] a wall further from a fixed end is not its root
 
 /// How far there is a wall over who goes that way: beyond its border he would come out again.
 double slide_below(const WallSurface::Place& from, Vec3d way, const WallSurface& walls) {

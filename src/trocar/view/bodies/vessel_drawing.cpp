@@ -173,7 +173,7 @@ void VesselDrawing::update(const sim::State& state) {
   m_mesh.replace(m_buffer.data());
 }
 
-/// Does another vessel go on from this end? Of a fold's vessels: one that is drawn in the fold, too.
+/// Does another vessel continue from this end? Of a fold's vessels: one that is drawn in the fold, too.
 bool VesselDrawing::leads_on(int vessel, int end) const {
   const auto end_of = [this](std::size_t v, int which) {
     const auto& points = m_model->vessels.list[v].path.points;

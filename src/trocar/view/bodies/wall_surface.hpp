@@ -20,7 +20,7 @@ class WallSurface {
     bool there = false;   ///< false: the scene has no walls
   };
   Place nearest(Vec3d p) const;
-  const MeshBuffer& cavity() const { return m_cavity; }  ///< what goes on from the walls' borders
+  const MeshBuffer& cavity() const { return m_cavity; }  ///< what continues from the walls' borders
 
  private:
   std::uint32_t nearest_vertex(Vec3f p) const;

@@ -10,7 +10,7 @@ namespace trocar::view {
 namespace {
 
 constexpr int kVeilColumns = 8, kVeilRows = 7;       // of vertices: from bond to bond, and from foot to wall
-constexpr double kVeilReach = 0.016;                 // [m] bonds farther apart have no film between them
+constexpr double kVeilReach = 0.016;                 // [m] bonds further apart have no film between them
 constexpr double kVeilSunk = 0.0007;                 // [m] how deep its borders go into what it hangs between
 constexpr double kVeilRipple = 0.10;                 // of its height, to the side
 constexpr double kVeilDense = 0.75, kThinned = 0.6;  // of Paint's openness; share that a bond loses before it parts

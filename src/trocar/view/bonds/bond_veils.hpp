@@ -13,7 +13,7 @@
 namespace trocar::view {
 
 /// Those of these places that are neighbours: no third one lies in the ball that has both on its surface
-/// [Gabriel & Sokal 1969], and they are no farther apart than `reach` [m].
+/// [Gabriel & Sokal 1969], and they are no further apart than `reach` [m].
 std::vector<std::pair<int, int>> neighbours(const std::vector<Vec3d>& places, double reach);
 
 /// A bond: where it is rooted, where it holds the wall, how much of it is left.

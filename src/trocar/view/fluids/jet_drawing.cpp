@@ -23,7 +23,7 @@ constexpr float kLater = 1.3f;                    // ... so many times of growth
 constexpr float kHangTogether = 0.6f;             // share of beads that never part from the next: ligaments
 constexpr float kAnywhere = 0.40f;                // in beads: how far a neck is from the middle between two
 constexpr float kJetBulge = 0.25f;                // in column radii: what necks lose, middles win
-constexpr float kDrawsIn = 0.15f;                 // of its length: a bead that has come off becomes rounder
+constexpr float kDrawsIn = 0.15f;                 // of its length: a bead that has detached becomes rounder
 constexpr float kBall = 0.85f;                    // in column radii: such a bead's half width, before it is torn
 constexpr float kJetTorn = 0.3f;                  // of that: what most lose to drops too small to show
 constexpr int kMostRods = 14;                     // that a bead is drawn as
@@ -42,7 +42,7 @@ constexpr float kBeadStrays = 0.08f;              // of a jet's speed
 constexpr float kSprayStrays = 0.16f;
 constexpr int kMostSpray = 4;                                  // drops from a neck
 constexpr float kThinSpray = 0.05e-3f, kWideSpray = 0.25e-3f;  // [m] radius
-constexpr float kFirstThread = 0.005f;                         // [m] a column goes so far before threads come off it
+constexpr float kFirstThread = 0.005f;                         // [m] a column goes so far before threads detach it
 constexpr float kThickThread = 0.34e-3f;                       // [m] radius
 constexpr float kFan = 0.10f;                                  // how far threads are aside, a share of their way
 constexpr int kMostThreads = 5;                                // from a drop of the simulation
@@ -211,7 +211,7 @@ void Strand::find_necks() {
   m_necks.push_back(end(float(m_nodes.size()) - 0.5f, 42));
 }
 
-/// Of the polygon that the strand smooths; goes on straight beyond the ends.
+/// Of the polygon that the strand smooths; continues straight beyond the ends.
 Vec3f Strand::corner(int i) const {
   const int last = int(m_nodes.size()) - 1;
   const int from = i < 0 ? 0 : last, other = i < 0 ? 1 : last - 1;
@@ -284,7 +284,7 @@ void Strand::list_bead(const Neck& a, const Neck& b, Liquid& liquid) const {
   }
 }
 
-/// Where a neck tears, small drops come off.
+/// Where a neck tears, small drops detach.
 void Strand::list_spray(const Neck& neck, Liquid& liquid) const {
   const Node& n = node(neck.at);
   if (!(neck.since > 0) || !(n.way > 0)) return;
@@ -300,7 +300,7 @@ void Strand::list_spray(const Neck& neck, Liquid& liquid) const {
   }
 }
 
-/// What the air tears off a column's sides: thin threads along the flight, more and farther out on the way.
+/// What the air tears off a column's sides: thin threads along the flight, more and further out on the way.
 void Strand::list_threads(const Node& n, Liquid& liquid) const {
   const double torn = smooth(double(kFirstThread), double(kJetFar), double(n.way));
   const int count = int(float(kMostThreads) * float(torn) + float(varied(int(n.id & 0xffffff), 160)));

@@ -1,4 +1,4 @@
-// What flies: drops that left one after the other are a jet, whole near its hole and torn into beads and spray farther
+// What flies: drops that left one after the other are a jet, whole near its hole and torn into beads and spray further
 // off, others rain; and a jet's hole bleeds.
 #pragma once
 

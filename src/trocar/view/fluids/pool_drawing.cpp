@@ -78,7 +78,7 @@ void PoolDrawing::spread_level() {
   }
 }
 
-/// Depth, cover and level of the cells that are wet and of those around them, smoothed; the level goes on beyond the
+/// Depth, cover and level of the cells that are wet and of those around them, smoothed; the level continues beyond the
 /// border as if the pool did, so that the border lies where the surface meets what is drawn.
 void PoolDrawing::smooth_fields(const fluids::PoolState& pool, std::span<const float> floor) {
   const fluids::PoolModel& m = m_model->pool;
@@ -95,7 +95,7 @@ void PoolDrawing::smooth_fields(const fluids::PoolState& pool, std::span<const f
       m_level[k] = (floor_at(m, floor, i0 + i, j0 + j) + m_depth[k]) * m_known[k];
     }
   spread_level();
-  // Under what overhangs the pool goes on; what stands before it hides that.
+  // Under what overhangs the pool continues; what stands before it hides that.
   for (std::size_t k = 0; k < m_window.size(); ++k)
     if (m_known[k] > 0 && floor_at(m, floor, i0 + int(k) % w, j0 + int(k) / w) > m_level[k] + kOverhang)
       m_cover[k] = 1, m_depth[k] = std::max(m_depth[k], kPoolShallow);

@@ -102,7 +102,7 @@ void MetalDrawing::make_hand(std::size_t h, const std::vector<PiercedWall>& pier
   }
 }
 
-/// How far the jaws look open: no farther than a sleeve lets them in which they still are.
+/// How far the jaws look open: no further than a sleeve lets them in which they still are.
 double MetalDrawing::drawn_aperture(const sim::State& state, std::size_t hand) const {
   const interactions::ToolState& tool = state.tools[hand];
   const interactions::ToolModel& of = m_model->tool(state, hand);

@@ -15,7 +15,7 @@ namespace trocar::view {
 
 class MetalDrawing {
  public:
-  /// @param cavity  what goes on from the model's walls, which trocars may come through, too
+  /// @param cavity  what continues from the model's walls, which trocars may come through, too
   MetalDrawing(const sim::Model& model, const MeshBuffer& cavity, render::Backend& backend);
 
   void update(const sim::State& state);

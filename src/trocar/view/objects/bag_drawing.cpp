@@ -22,7 +22,7 @@ Vec3d between_nodes(Vec3d a, Vec3d b, Vec3d c, Vec3d d, double t) {
   return 0.5 * (2.0 * b + t * (c - a) + t2 * (2.0 * a - 5.0 * b + 4.0 * c - d) + t3 * (3.0 * b - a - 3.0 * c + d));
 }
 
-/// Nodes by row and column; rows beyond the mouth and beyond the bottom go on as the cloth does there.
+/// Nodes by row and column; rows beyond the mouth and beyond the bottom continue as the cloth does there.
 Vec3d node_at(const BagModel& m, const BagState& s, int r, int c) {
   const int around = m.around;
   if (r < 0) return 2.0 * node_at(m, s, 0, c) - node_at(m, s, 1, c);

@@ -13,7 +13,7 @@ using interactions::Fat;
 
 constexpr float kCell = 0.0008f;                    // [m] of the grid that the surface is taken from
 constexpr double kReach = 1.15;                     // of a lobule's bell, in spacings
-constexpr float kMoves = 2e-5f;                     // [m] less is not drawn anew
+constexpr float kMoves = 2e-5f;                     // [m] less is not drawn again
 constexpr double kBlanched = 100, kCharred = 215;   // Paint::burn of what is coagulated, and of what is about to go
 constexpr double kThreadFrom = 1.7, kThreadTo = 8;  // spacings between which a septum is seen as a thread
 constexpr double kThin = 0.00008, kThick = 0.0005;  // [m] a thread's radius in its middle and at its ends

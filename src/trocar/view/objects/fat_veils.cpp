@@ -7,7 +7,7 @@ namespace {
 
 constexpr float kParted = 1.6f, kFarthest = 4.6f;  // spacings between what a film closes the notch of
 constexpr float kClear = 0.75f;                    // spacings: nothing may lie so near to the middle of its free border
-constexpr float kStacked = 0.7f;                   // spacings: films no farther apart are one
+constexpr float kStacked = 0.7f;                   // spacings: films no further apart are one
 constexpr std::size_t kInside = 11;                // links: what has so many lies within fat
 constexpr int kEachAtMost = 2;                     // films that begin at a place
 constexpr std::size_t kMostVeils = 240;

@@ -393,7 +393,7 @@ Vec3f BodyDrawing::returned() const {
   return (dot(pink, share) / std::max(dot(own, share), 1e-3f)) * own;
 }
 
-/// Vessels of walls, and of what lies on them, go on from mesh to mesh.
+/// Vessels of walls, and of what lies on them, continue from mesh to mesh.
 DrawItem BodyDrawing::as_lining(DrawItem item) const {
   if (!item.material.lining) return item;
   item.material.middle = m_lining.middle;

@@ -51,7 +51,7 @@ class BodyDrawing {
 
   /// Names of the kinds of vessels that there are, as parts.
   std::vector<std::string> vessel_kinds() const;
-  /// What goes on from the model's walls: trocars come through it, too.
+  /// What continues from the model's walls: trocars come through it, too.
   const MeshBuffer& cavity() const { return m_cavity_shape; }
   /// Colour of the light that the walls return: tissue's pink, or a box's own.
   Vec3f returned() const;
@@ -95,7 +95,7 @@ class BodyDrawing {
   render::DrawItem as_lining(render::DrawItem item) const;
 
   const sim::Model* m_model;
-  const Look* m_wall_look;             ///< of all that goes on from the walls
+  const Look* m_wall_look;             ///< of all that continues from the walls
   render::Material m_lining;           ///< the same with its vessels' place in this scene
   std::vector<OrganDrawing> m_organs;  ///< solids
   std::vector<CuttableDrawing> m_cuttables;

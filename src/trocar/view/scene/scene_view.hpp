@@ -1,5 +1,5 @@
 // Draws a simulation: from a const State to a render::Frame. Meshes are made once from the Model; each frame moves them
-// (organs by their skin weights, tubes and folds swept anew) and lists what is to be seen.
+// (organs by their skin weights, tubes and folds swept again) and lists what is to be seen.
 //
 //   view::SceneView view(model, *backend);
 //   render::Frame frame = view.frame(state, {});               // what the endoscope sees

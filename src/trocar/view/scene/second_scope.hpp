@@ -15,7 +15,7 @@ namespace trocar::view {
 /// out of its trocar, towards the middle of the scene.
 SecondScope second_scope_of(const sim::Model& model);
 
-/// Swings about the trocar, to look farther to the picture's right and up [rad].
+/// Swings about the trocar, to look further to the picture's right and up [rad].
 void aim(SecondScope& scope, double right, double up);
 /// In (> 0) or out [m].
 void advance(SecondScope& scope, double by);

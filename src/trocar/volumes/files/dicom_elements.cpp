@@ -46,7 +46,7 @@ constexpr Syntax kPacked[] = {
     {"1.2.840.10008.1.2.4.91", DicomPacking::jpeg_2000},
 };
 
-/// The bytes given are a file's beginning, and it goes on.
+/// The bytes given are a file's beginning, and it continues.
 struct EndsEarly {};
 
 struct ElementHead {

@@ -1,4 +1,4 @@
-// How whatever takes long says how far it is, and is told to stop.
+// How long computations report their progress, and can be stopped.
 //
 //   read_volume(path, {.progress = [&](double share) { bar = share; return !stop; }});
 #pragma once

@@ -48,7 +48,7 @@ class Envelope {
   std::vector<double> m_from, m_at, m_value;
 };
 
-/// Nothing is farther from the outside than the box's faces, half a voxel beyond... the next voxel's centre.
+/// Nothing is further from the outside than the box's faces, half a voxel beyond... the next voxel's centre.
 void bound_by_border(std::vector<float>& squared, const Index3& size, Vec3d spacing) {
   std::size_t n = 0;
   for (int k = 0; k < size[2]; ++k)

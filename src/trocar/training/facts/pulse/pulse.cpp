@@ -48,7 +48,7 @@ class TappedRate final : public Observer {
 
  private:
   static constexpr int kTaps = 6;
-  static constexpr double kPause = 2.5;  // [s] after which counting begins anew: slower than any heart
+  static constexpr double kPause = 2.5;  // [s] after which counting restarts: slower than any heart
   std::array<double, kTaps> m_time{};    ///< [s]
   int m_count = 0;
   bool m_down = false;

@@ -10,10 +10,10 @@ namespace trocar::training {
 namespace {
 
 constexpr double kBegins = 0.025;  // [m] the run begins with a hold as near to the first station's end as this
-constexpr double kAgain = 0.035;   // [m] and goes on, once it was lost, with one as near to where it had come to
+constexpr double kAgain = 0.035;   // [m] and continues, once it was lost, with one as near to where it had come to
 constexpr double kFollows = 0.02;  // [m] a hold within this of the front is the one that keeps the place
 
-/// Goes on from hold to hold: the next one is taken while the last one still holds, not farther on than one step.
+/// Continues from hold to hold: the next one is taken while the last one still holds, not further on than one step.
 class Run : public Observer {
  public:
   Run(const sim::Model& model, const Arguments& a)

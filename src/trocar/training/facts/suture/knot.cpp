@@ -1,4 +1,4 @@
-// What the thread is tied in. Reading a knot costs some milliseconds, so that it is read anew twice a second.
+// What the thread is tied in. Reading a knot costs some milliseconds, so that it is read again twice a second.
 #include <trocar/training/facts/registry.hpp>
 #include <trocar/training/observe/stitches.hpp>
 

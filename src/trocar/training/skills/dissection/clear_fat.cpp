@@ -30,7 +30,7 @@ class ClearFat final : public Skill {
  private:
   enum Phase { kAbove, kReach, kPress, kLift, kAway };
 
-  // Of the metal from tubes [m]: farther than sparks jump when the pedal is down; a hot tip touches none.
+  // Of the metal from tubes [m]: further than sparks jump when the pedal is down; a hot tip touches none.
   static constexpr double kSpark = 0.0017, kHot = 0.0005;
 
   const interactions::FatBody& body(const Surgeon& op) const {
@@ -58,7 +58,7 @@ class ClearFat final : public Skill {
   /// The outermost of those that have not been tried, near to where the hook is.
   int next(Surgeon& op) {
     constexpr double kNear = 1.5;     // what the way there counts beside the depth
-    constexpr double kAstray = 0.03;  // [m] from where it was drawn: it has come off
+    constexpr double kAstray = 0.03;  // [m] from where it was drawn: it has detached
     const Arms::Arm& arm = op.arm(m_hand);
     int best = -1;
     double least = 0;
@@ -167,7 +167,7 @@ class ClearFat final : public Skill {
     m_lifted = arm.tip + kBy * normalised(arm.port - arm.tip);
     go(kLift);
   }
-  /// Goes on with what the wire is at; lifts it where there is no more, and off what does not go.
+  /// Continues with what the wire is at; lifts it where there is no more, and off what does not go.
   void press(Surgeon& op) {
     const int was = m_lobule;
     m_lobule = at_metal(op);

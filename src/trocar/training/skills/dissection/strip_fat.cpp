@@ -58,7 +58,7 @@ class StripFat final : public Skill {
 
   /// The outermost of those about one of the strands, near to where the jaws are.
   int next(Surgeon& op) {
-    constexpr double kAstray = 0.012;  // [m] from where it was drawn: it has come off
+    constexpr double kAstray = 0.012;  // [m] from where it was drawn: it has detached
     constexpr double kNear = 1.5;      // what the way there counts beside the depth
     const Arms::Arm& arm = op.arm(m_hand);
     const interactions::FatBody& fat = body(op);

@@ -62,7 +62,7 @@ class RunAlong final : public Skill {
     return p;
   }
 
-  /// It goes on from what is held: a run that was interrupted is taken up again.
+  /// It continues from what is held: a run that was interrupted is taken up again.
   void start(Surgeon& op, int tries) override {
     m_offset = tries;
     const double held0 = m_stations.held_at(op.state(), size_t(m_hands[0]));
@@ -273,8 +273,8 @@ class RunAlong final : public Skill {
     op.from(0.06);
     if (!op.arms().grip(hand, 0.95, 0.6) || m_in_phase < kFeels) return Progress::working;
     const std::optional<Stations::Span> held = m_stations.held_span(op.state(), size_t(hand));
-    constexpr double kBeside = 0.035;   // [m] what is farther from where it was wanted is of another loop
-    constexpr double kOnwards = 0.015;  // [m] farther along than the last hold, though not as far as meant: it will do
+    constexpr double kBeside = 0.035;   // [m] what is further from where it was wanted is of another loop
+    constexpr double kOnwards = 0.015;  // [m] further along than the last hold, though not as far as meant: it will do
     constexpr int kAtLast = 2;
     double least = m_next - kBeside;
     if (m_attempt >= kAtLast && m_at > 0) least = std::min(least, m_at + kOnwards);
@@ -286,7 +286,7 @@ class RunAlong final : public Skill {
     go(kLift);
     return Progress::working;
   }
-  /// How far a hold is lifted: one beside the other hand's no farther than there is gut between them, which they would
+  /// How far a hold is lifted: one beside the other hand's no further than there is gut between them, which they would
   /// tear apart.
   double rise_beside(const Surgeon& op, int hand) const {
     constexpr double kOfGut = 0.5;

@@ -22,7 +22,7 @@ class GraspTail final : public Skill {
   enum Phase { kAway, kReach, kEnter, kClose };
   static constexpr double kInside = 0.7, kFeels = 0.3, kBare = 0.5, kLongest = 4, kThere = 0.001,
                           kShift = 0.0015;  // of the jaws' length, [s], [m]
-  /// Jaws that have missed it draw back just far enough, or what is wound round them comes off.
+  /// Jaws that have missed it draw back just far enough, or what is wound round them detaches.
   static constexpr double kBefore = 0.014, kBeforeAgain = 0.008;           // [m]
   static constexpr double kSwings = 2, kNearer = 0.004, kNearest = 0.016;  // [s], [m/s], [m] from its end
   static constexpr int kMostAgain = 5;

@@ -129,7 +129,7 @@ class CloseLoop final : public Skill {
     m_around.look(op, m_strand, m_at);
     m_ended = m_shift = 0;
   }
-  /// Where the loop slides off the place while it closes, the knot is led the other way.
+  /// Where the loop slides off the place while it closes, the knot is controlled the other way.
   void lead_back(const Surgeon& op, const SlingState& g) {
     constexpr double kGain = 2, kMost = 0.004;  // [1/s] [m]
     for (std::int32_t i = 0; i < g.around_count; ++i) {

@@ -86,15 +86,15 @@ class PullThrow final : public Skill {
     m_off_for = 0, m_gone = 0;
     go(kOff);
   }
-  /// The thread is led ahead of the jaws, along them, and these are drawn out of what is wound: pulled tight it would
-  /// not slide.
+  /// The thread is controlled ahead of the jaws, along them, and these are drawn out of what is wound: pulled tight it
+  /// would not slide.
   Progress slide_off(Surgeon& op) {
     constexpr double kAside = 1, kSeenOf = 0.9, kGently = 0.15;   // of the way ahead, of the thread, [N]
     constexpr double kOffAt = 0.25, kStays = 0.5, kLongest = 14;  // of a turn, [s], [s]
     const Vec3d axis = normalised(op.arm(m_hand).tip - op.arm(m_hand).port);
     const Vec3d ahead =
         tying::above_tissue(op, m_with, op.arm(m_hand).tip + m_ahead_now * normalised(axis - kAside * m_dir));
-    // what is wide comes off later; who pulls gives way, or what is wound is drawn tight round the jaws
+    // what is wide detaches later; who pulls gives way, or what is wound is drawn tight round the jaws
     const double thread = tying::tension_from(op, m_with, kSeenOf * m_free);
     if (thread > kFirmly) {
       tying::lead(op, m_with, op.arm(m_hand).tip, kTight);

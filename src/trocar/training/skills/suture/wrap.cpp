@@ -35,7 +35,7 @@ class Wrap final : public Skill {
 
   void start(Surgeon& op, int tries) override {
     m_angle = 0;
-    // with more thread the jaws stand farther from the stitch, as what is wound hangs between them
+    // with more thread the jaws stand further from the stitch, as what is wound hangs between them
     m_stitch = op.arm(m_around).tip;
     tying::find_stitch(op, m_stitch);
     m_free = tying::free_thread(op, m_hand);
@@ -92,12 +92,12 @@ class Wrap final : public Skill {
     if (taut < 4 * m_pull) m_angle += kPace / std::max(0.01, m_now) * sim::kTick;
     const Vec3d round = m_centre + m_now * (portable::cos(m_angle) * m_from + portable::sin(m_angle) * m_to);
     tying::lead(op, m_hand, before_jaws(op, tying::above_tissue(op, m_hand, round)), 2 * pace::kTravel);
-    // what lies round jaws loosely may come off over their tip, and then it is wound anew; counted from the needle
+    // what lies round jaws loosely may detach over their tip, and then it is wound again; counted from the needle
     const double wound = -double(m_sense) * wraps_around(op.model(), op.state(), m_around);
     if (wound > m_turns + kSpare) return Progress::done;
     return m_angle > portable::two_pi * (m_turns + kMostMore) ? fail("the turns slip off the jaws") : Progress::working;
   }
-  /// Farther ahead where this shaft would cross those jaws.
+  /// Further ahead where this shaft would cross those jaws.
   Vec3d before_jaws(const Surgeon& op, Vec3d at) const {
     constexpr double kBefore = 0.007, kNear = 0.008, kFar = 0.014, kFarthest = 0.025;  // [m] between middle lines
     const Vec3d port = op.arm(m_hand).port, tip = op.arm(m_around).tip, far = op.arm(m_around).port;
