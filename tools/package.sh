@@ -85,7 +85,7 @@ CONTROL
 # The libraries that go along: all but glibc, the compiler's, and those that belong to the machine's display.
 bundled() {
   ldd "$1" | awk '$3 ~ /^\// {print $3}' |
-    grep -vE '/(ld-linux.*|lib(c|m|dl|rt|pthread|resolv|stdc\+\+|gcc_s|GL|EGL|GLX|GLdispatch|OpenGL|X11|xcb|Xau|Xdmcp|asound))\.so'
+    grep -vE '/(ld-linux.*|lib(c|m|dl|rt|pthread|resolv|stdc\+\+|gcc_s|GL|EGL|GLX|GLdispatch|OpenGL|X11|xcb|Xau|Xdmcp))\.so'
 }
 
 # The newest glibc that one of the files asks for: the oldest one on which they run.

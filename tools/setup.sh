@@ -73,7 +73,7 @@ package=(
 )
 try_package=(
   debootstrap          # bare systems in which packages are tried
-  xvfb ffmpeg python3-pil  # a screen for them, and pictures of it
+  xvfb ffmpeg python3  # a screen for them, and pictures of it
 )
 
 list_only=false

@@ -58,7 +58,8 @@ files() { (cd "$root" && find . -xdev \( -path ./proc -o -path ./sys -o -path ./
   -o -path ./var/cache -o -path ./var/log -o -path ./run \) -prune -o -print | LC_ALL=C sort); }
 
 colours_of() {
-  python3 -c 'import sys, PIL.Image as I; print(len(set(I.open(sys.argv[1]).convert("RGB").getdata())))' "$1" 2>/dev/null || echo 0
+  ffmpeg -loglevel quiet -i "$1" -f rawvideo -pix_fmt rgb24 - |
+    python3 -c 'import sys; d = sys.stdin.buffer.read(); print(len({d[i:i + 3] for i in range(0, len(d), 3)}))' || echo 0
 }
 
 # A window on a virtual screen outside, so that the bare system stays bare.
