@@ -38,7 +38,7 @@ void draw_results_of(const StartContent& c, const attempt::ExerciseEntry& e) {
     ui::text(tr("You have not done this exercise yet."), ui::kGrey);
     return;
   }
-  const EquilibriumCheck& s = found->second;
+  const Standing& s = found->second;
   ui::mark(s.passed ? Mark::done : Mark::open);
   ui::text(
       tr("Your best: {:.0f} of 100. Last: {:.0f}. Attempts: {}.", s.best.value_or(0), s.last.value_or(0), s.attempts));

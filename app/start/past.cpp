@@ -70,7 +70,7 @@ Standings standings_of(const std::vector<PastAttempt>& attempts) {
   Standings standings;
   for (const PastAttempt& a : attempts) {  // newest first
     if (a.mode != "assessed" || !a.score || was_left(a)) continue;
-    EquilibriumCheck& s = standings[a.exercise];
+    Standing& s = standings[a.exercise];
     ++s.attempts;
     if (!s.last) s.last = a.score;
     s.best = std::max(s.best.value_or(0), *a.score);

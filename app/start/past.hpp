@@ -20,12 +20,12 @@ struct PastAttempt {
 };
 
 /// How far a person has come with one exercise.
-struct EquilibriumCheck {
+struct Standing {
   std::optional<double> best, last;  ///< of 100 points, of attempts that count
   bool passed = false;               ///< at least once
   int attempts = 0;                  ///< that count
 };
-using Standings = std::map<std::string, EquilibriumCheck>;  ///< by the exercise's name
+using Standings = std::map<std::string, Standing>;  ///< by the exercise's name
 
 struct Past {
   std::vector<std::string> people;    ///< with attempts, last first; no demonstrations, no guest

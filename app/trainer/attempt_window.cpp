@@ -610,7 +610,7 @@ void AttemptWindow::watch() {
 
 /// For the window that follows: with this person's earlier attempts, and what comes next.
 void AttemptWindow::summarise_result() {
-  training::EquilibriumCheck standing;
+  training::Standing standing;
   if (m_stage.options.store && counts())
     standing = training::read_standing(*m_stage.options.store, m_log.attempt().trainee, m_lesson.name);
   m_summary = summarise(m_result, standing);

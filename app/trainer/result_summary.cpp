@@ -115,7 +115,7 @@ void add_paths(const Json& metrics, ResultSummary& s) {
     s.paths.push_back(tr("Endoscope: {:.0f} mm", 1000 * number(camera, "path_m")));
 }
 
-std::string earlier_in_words(const training::EquilibriumCheck& standing) {
+std::string earlier_in_words(const training::Standing& standing) {
   const std::size_t n = standing.scores.size();
   if (n < 2) return {};
   return tr("Previous {}, best {}, median {} points ({} attempts)", points(standing.scores[n - 2]),
@@ -140,7 +140,7 @@ std::string advice_of(const ResultSummary& s) {
 
 }  // namespace
 
-ResultSummary summarise(const Json& r, const training::EquilibriumCheck& standing) {
+ResultSummary summarise(const Json& r, const training::Standing& standing) {
   ResultSummary s;
   s.verdict = verdict_of(r);
   s.failure = text(r, "failure");

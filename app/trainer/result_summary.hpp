@@ -46,15 +46,15 @@ struct ResultSummary {
   std::vector<Step> steps;
   std::vector<std::string> paths;  ///< "Endoscope: 1234 mm"
 
-  training::EquilibriumCheck standing;  ///< with this attempt, if it is stored
-  std::string earlier;                  ///< "Previous 62, best 83, median 66 points (5 attempts)"; empty: the first
-  std::string advice;                   ///< what to train; empty: nothing to say
-  std::string next;                     ///< the exercise that follows; empty: none
+  training::Standing standing;  ///< with this attempt, if it is stored
+  std::string earlier;          ///< "Previous 62, best 83, median 66 points (5 attempts)"; empty: the first
+  std::string advice;           ///< what to train; empty: nothing to say
+  std::string next;             ///< the exercise that follows; empty: none
 };
 
 /// @param result  Session::result()
 /// @param standing  of the same person at this exercise, this attempt included
-ResultSummary summarise(const Json& result, const training::EquilibriumCheck& standing);
+ResultSummary summarise(const Json& result, const training::Standing& standing);
 
 /// The one that follows `name` in the order of the files where it was passed, else the same again.
 std::string next_training(const std::vector<attempt::ExerciseEntry>& exercises, const std::string& name, bool passed);

@@ -94,8 +94,8 @@ const std::vector<MaterialChoice>& material_choices() {
     const std::optional<fs::path> scenes = scene::found_scenes_folder();
     if (!scenes) return out;
     std::vector<core::Fault> faults;
-    const scene::MaterialFolders shelf({*scenes / "looks"}, faults);
-    for (const sim::Look& look : shelf.book()->looks)
+    const scene::MaterialFolders materials({*scenes / "looks"}, faults);
+    for (const sim::Look& look : materials.library()->looks)
       if (look.surface == sim::Look::Surface::tissue && !look.moulded && look.name != "neutral")
         out.push_back({look.name, look.colour, look.patches, look.flecks, look.vessel_colour.value_or(look.tint)});
     std::sort(out.begin(), out.end(), [](const MaterialChoice& a, const MaterialChoice& b) { return a.name < b.name; });
