@@ -150,7 +150,7 @@ void CalibrationWindow::picture() {
   ui::begin_screen("calibration");
   ui::title("Calibrate the instrument box");
   ui::text(fmt::format("{}: {}{}", m_options.port, line_in_words(m_lines[m_line]),
-                       hears() ? fmt::format(", {:.0f} blocks a second", m_box->status().rate) : ""),
+                       hears() ? tr(", {:.0f} blocks a second", m_box->status().rate) : ""),
            ui::kGrey);
   ImGui::Separator();
   std::string screen = "search";
@@ -176,7 +176,7 @@ void CalibrationWindow::draw_search() {
   ui::text(m_box->status().open ? "The port is open, and nothing comes. Is the box switched on?"
                                 : "The port cannot be opened yet. Is the box plugged in?");
   if (m_lines.size() > 1)
-    ui::text(fmt::format("Trying what boxes speak, one after the other: {} of {}.", m_line + 1, m_lines.size()));
+    ui::text(tr("Trying what boxes speak, one after the other: {} of {}.", m_line + 1, m_lines.size()));
   else
     ui::text("Only this line is tried, as --raw, --framed or --baud said.");
   if (ui::button("Quit", {.width = 130})) m_quit = true;
@@ -191,8 +191,8 @@ void CalibrationWindow::draw_parts() {
   ui::checkbox("foot switches", m_parts.pedals);
   ImGui::Dummy({0, 6 * ui::scale()});
   const BoxAssistant outlook(m_lines[m_line], m_parts);
-  ui::text(fmt::format("{} questions, about {:.0f} minutes. A protractor and a ruler at the trocars make it exact.",
-                       outlook.count(), std::max(1.0, std::round(double(outlook.count()) / 8))),
+  ui::text(tr("{} questions, about {:.0f} minutes. A protractor and a ruler at the trocars make it exact.",
+              outlook.count(), std::max(1.0, std::round(double(outlook.count()) / 8))),
            ui::kGrey);
   if (ui::button("Begin", {.width = 200, .height = 40, .primary = true, .enabled = m_parts.any()}))
     m_assistant.emplace(m_lines[m_line], m_parts);
@@ -216,8 +216,8 @@ void CalibrationWindow::draw_question() {
   ui::mark(why.empty() ? ui::Mark::done : ui::Mark::open);
   ui::text(!why.empty() ? why
            : q.kind == BoxQuestion::Kind::sweep
-               ? fmt::format("channel {}, moved by {:.0f} codes", m_assistant->found(), m_assistant->moved())
-           : q.kind == BoxQuestion::Kind::hold ? fmt::format("still, within {:.0f} codes", m_assistant->moved())
+               ? tr("channel {}, moved by {:.0f} codes", m_assistant->found(), m_assistant->moved())
+           : q.kind == BoxQuestion::Kind::hold ? tr("still, within {:.0f} codes", m_assistant->moved())
                                                : fmt::format("bit {}", m_assistant->found()),
            why.empty() ? ui::kWhite : ui::kGrey);
   if (q.kind == BoxQuestion::Kind::hold) draw_values();

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 
 namespace trocar::cad {
 namespace {
@@ -33,10 +34,10 @@ bool ends_in(std::string name, std::initializer_list<const char*> endings) {
 template <class Reader>
 TopoDS_Shape read(const std::filesystem::path& file, const char* what) {
   Reader reader;
-  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) refuse(file, fmt::format("expected a whole {} file", what));
+  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) refuse(file, tr("expected a whole {} file", what));
   reader.TransferRoots();
   const TopoDS_Shape shape = reader.OneShape();
-  if (shape.IsNull()) refuse(file, fmt::format("expected shapes in the {} file, got none", what));
+  if (shape.IsNull()) refuse(file, tr("expected shapes in the {} file, got none", what));
   return shape;
 }
 

@@ -115,15 +115,16 @@ int simulate(const SimulateChoice& o, bool json) {
   }
   devices::SoftwareBox box(settings, std::move(motion));
   devices::PseudoTerminal terminal(o.port);
-  fmt::print(json ? stderr : stdout, "box at {} ({}), {} at {} Bd; Ctrl-C ends it\n", o.port, terminal.name(),
-             wiring.raw ? "raw blocks" : "frames", wiring.baud);
+  fmt::print(json ? stderr : stdout, "{}",
+             tr("box at {} ({}), {} at {} Bd; Ctrl-C ends it\n", o.port, terminal.name(),
+                wiring.raw ? "raw blocks" : "frames", wiring.baud));
   std::fflush(json ? stderr : stdout);
   const BoxTime end = o.seconds > 0 ? devices::box_now() + devices::box_time(o.seconds) : INT64_MAX;
   devices::serve(box, terminal, [end] { return attempt::interrupted() || devices::box_now() >= end; });
   if (json)
     print({{"port", o.port}, {"sent", box.sent()}, {"dropped", box.dropped()}});
   else
-    fmt::print("{} blocks sent, {} dropped\n", box.sent(), box.dropped());
+    fmt::print("{}", tr("{} blocks sent, {} dropped\n", box.sent(), box.dropped()));
   return core::kDone;
 }
 
@@ -137,7 +138,7 @@ struct MonitorChoice {
 };
 
 std::string line_text(const devices::BoxStatus& s, double age_ms) {
-  return fmt::format(
+  return tr(
       "{}  {:5.1f} blocks/s  {} blocks  {} missed ({:.2f} %)  {} bad  round trip {:.1f} ms ({:.1f} at "
       "most)  newest {:.0f} ms old",
       s.open ? "open " : "CLOSED", s.rate, s.counts.blocks, s.counts.missed, 100 * s.counts.missed_share(),
@@ -160,7 +161,7 @@ std::string table_text(const devices::BoxPose& pose, const devices::BoxWiring& w
   text += fmt::format("channels");
   for (std::size_t i = 0; i < devices::kBoxChannels; ++i)
     text += fmt::format("{}{:5}", i % 16 == 0 ? "\n" : "", pose.block.codes[i]);
-  text += fmt::format("\nbits {:032b}  pedals:", pose.block.digital);
+  text += tr("\nbits {:032b}  pedals:", pose.block.digital);
   for (std::size_t p = 0; p < devices::kBoxPedals; ++p)
     if ((pose.pedals >> p & 1) != 0) text += fmt::format(" {}", devices::kBoxPedalNames[p]);
   return text + '\n';
@@ -221,9 +222,9 @@ int monitor(const MonitorChoice& o, bool json) {
     if (std::fflush(stdout) != 0) break;  // nobody reads any more
   }
   if (pose.number == 0)
-    throw core::EnvironmentLacks(fmt::format(
-        "nothing came from {}: is the box switched on? Try --raw or --framed, and another --baud (now {} at {} Bd)",
-        o.port, wiring.raw ? "raw" : "framed", wiring.baud));
+    throw core::EnvironmentLacks(
+        tr("nothing came from {}: is the box switched on? Try --raw or --framed, and another --baud (now {} at {} Bd)",
+           o.port, wiring.raw ? "raw" : "framed", wiring.baud));
   return core::kDone;
 }
 

@@ -40,8 +40,8 @@ Compared press(const attempt::SolverPair& pair, double depth, double seconds) {
   const sim::Model& model = pair.dynamic->model;
   const attempt::Press plan = attempt::plan_press(model, pair.organ, depth);
   attempt::PressSource source(model, plan);
-  const std::string hands = fmt::format("{} at {} presses {:.1f} mm in", model.placed(std::size_t(plan.hand)).name,
-                                        model.hands[std::size_t(plan.hand)].name, 1e3 * depth);
+  const std::string hands = tr("{} at {} presses {:.1f} mm in", model.placed(std::size_t(plan.hand)).name,
+                               model.hands[std::size_t(plan.hand)].name, 1e3 * depth);
   core::log::info("{}{}", hands, plan.clear ? "" : "; no path to it is clear, so other tissue moves too");
   return {attempt::compare_solvers(pair, source, seconds, [&] { return source.settled(); }), hands, source.describe()};
 }
@@ -76,9 +76,9 @@ void print_comparison(const reports::SolverReport& r) {
   fmt::print("{:28} {:>9} {:>9} {:>8} {:>9} {:>8} {:>9} {:>9} {:>8}\n", "", "moved mm", "rms mm", "", "largest", "",
              "dynamic N", "static N", "");
   print_sample(r.summary.held.settled ? "pressed in, at rest" : "at the deepest", r.summary.held);
-  print_sample(fmt::format("farthest apart, {:.2f} s", r.summary.worst.seconds), r.summary.worst);
+  print_sample(tr("farthest apart, {:.2f} s", r.summary.worst.seconds), r.summary.worst);
   for (const reports::SolverPress& p : r.presses)
-    print_sample(fmt::format("{:.0f} % of its size, {:.1f} mm", 100 * p.share, 1e3 * p.depth), p.summary.held);
+    print_sample(tr("{:.0f} % of its size, {:.1f} mm", 100 * p.share, 1e3 * p.depth), p.summary.held);
 }
 
 Json json_of(const reports::SolverReport& r, const std::string& page) {

@@ -49,9 +49,9 @@ Json join_window(std::unique_ptr<attempt::Lesson> lesson, const std::shared_ptr<
 int join(const JoinChoice& o, bool json) {
   const bool hands = o.input == "mouse" || o.input == "gamepad";
   if (!hands && o.input != "demo")
-    throw core::BadInput({{{"--input", 0, 0}, fmt::format("expected mouse, gamepad or demo, got {}", o.input)}});
+    throw core::BadInput({{{"--input", 0, 0}, tr("expected mouse, gamepad or demo, got {}", o.input)}});
   if (hands && o.headless)
-    throw core::BadInput({{{"--headless", 0, 0}, fmt::format("expected --input demo with it, got {}", o.input)}});
+    throw core::BadInput({{{"--headless", 0, 0}, tr("expected --input demo with it, got {}", o.input)}});
   const Place place = parse_place(o.at, "join");
   attempt::catch_interrupts();
   const auto member =
@@ -63,8 +63,8 @@ int join(const JoinChoice& o, bool json) {
   if (json)
     print(result);
   else
-    fmt::print("{}: {}; own motion was in everybody's picture after {:.0f} ms\n", o.role, member->ended(),
-               1000 * member->latency());
+    fmt::print("{}", tr("{}: {}; own motion was in everybody's picture after {:.0f} ms\n", o.role, member->ended(),
+                        1000 * member->latency()));
   return member->ended() == attempt::message::kFinished ? core::kDone : core::kGoalNotReached;
 }
 

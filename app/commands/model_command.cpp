@@ -57,8 +57,8 @@ int model(const ModelChoice& o, bool json) {
            {"said", session.said()},
            {"pictures", session.pictures()}});
   else
-    fmt::print("{} steps, {} of them changes of the document; {} pictures{}\n", done.steps, done.operations,
-               session.pictures().size(), session.draws() ? " in " + o.shots : "");
+    fmt::print("{}", tr("{} steps, {} of them changes of the document; {} pictures{}\n", done.steps, done.operations,
+                        session.pictures().size(), session.draws() ? " in " + o.shots : ""));
   return core::kDone;
 }
 

@@ -47,10 +47,10 @@ void print_solvers(const Json& result) {
 void print_none(const std::string& scene, const Json& names) {
   std::string all;
   for (const Json& name : names) all += (all.empty() ? "" : ", ") + name.get<std::string>();
-  fmt::print(
-      "{}: no organ has a static solver. Write \"solver\": \"static\" at a solid in an organ's file, or name "
-      "organs with --organ: {}\n",
-      scene, all.empty() ? "there are none" : all);
+  fmt::print("{}",
+             tr("{}: no organ has a static solver. Write \"solver\": \"static\" at a solid in an organ's file, or name "
+                "organs with --organ: {}\n",
+                scene, all.empty() ? "there are none" : all));
 }
 
 int precompute(const PrecomputeChoice& o, bool json) {
@@ -58,7 +58,7 @@ int precompute(const PrecomputeChoice& o, bool json) {
   told.at("compiling");
   scene::CompileReport report;
   report.said = [&told](const std::string& organ, double share) {
-    told.at(fmt::format("making the static solver of '{}', {:.0f} %", organ, 100 * share));
+    told.at(tr("making the static solver of '{}', {:.0f} %", organ, 100 * share));
   };
   std::vector<std::string> names;
   const auto adapt = [&](scene::Description& scene) {

@@ -36,10 +36,9 @@ int rehearse(const RehearseChoice& o, bool json) {
            {"obstacle", r.obstacle},
            {"choices", choices}});
   else if (r.passed)
-    fmt::print(
-        "score {:.0f} of 100 in {:.0f} s, at attempt {} ({:.0f} s simulated). For \"rehearsed\" in the "
-        "exercise's file:\n  {{\"seed\": {}, \"choices\": {}}}\n",
-        r.score, r.lasted, r.attempts, r.seconds, o.seed, choices.dump());
+    fmt::print("{}", tr("score {:.0f} of 100 in {:.0f} s, at attempt {} ({:.0f} s simulated). For \"rehearsed\" in the "
+                        "exercise's file:\n  {{\"seed\": {}, \"choices\": {}}}\n",
+                        r.score, r.lasted, r.attempts, r.seconds, o.seed, choices.dump()));
   else
     fmt::print("{}\n",
                tr("The demonstration failed in all {} attempts ({:.0f} s simulated). The longest one failed after "

@@ -38,7 +38,7 @@ int say(const ReplayOptions& o, const Json& result, bool json) {
   } else if (o.verify) {
     fmt::print("{}: {}\n", o.file,
                failed ? result.value("difference", std::string("not verified"))
-                      : fmt::format("verified, {} hashes", result["hashes_compared"].get<std::size_t>()));
+                      : tr("verified, {} hashes", result["hashes_compared"].get<std::size_t>()));
   } else if (result.value("played", std::string()) == "keyframes") {
     fmt::print("{}: {} keyframes\n", o.file, result["keyframes"].get<std::size_t>());
   } else {

@@ -11,6 +11,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/pictures/pictures.hpp>
 #include <trocar/pictures/shot_moments.hpp>
@@ -49,7 +50,7 @@ class Verifier {
   std::string difference() const {
     const std::string told = m_told.empty() ? "" : "; " + m_told;
     if (m_differs_at == 0) return "the first state differs before any tick" + told;
-    return fmt::format("the state differs after tick {}; it agreed until tick {}{}", m_differs_at, m_last_good, told);
+    return tr("the state differs after tick {}; it agreed until tick {}{}", m_differs_at, m_last_good, told);
   }
   std::uint64_t last_good() const { return m_last_good; }
   void describe(Json& out) const {
@@ -117,7 +118,7 @@ class Camera {
     if (!m_video) return;
     if (m_picture == 0) return core::log::warn("no film: the recording ended before its first picture");
     if (!m_video->finish())
-      throw core::EnvironmentLacks(fmt::format("no film: {} could not be written; is the disk full?", m_video->path()));
+      throw core::EnvironmentLacks(tr("no film: {} could not be written; is the disk full?", m_video->path()));
     out["video"] = m_video->path();
     out["video_pictures"] = m_picture;
     out["video_seconds"] = double(m_picture) / pictures::kVideoRate;
@@ -153,9 +154,9 @@ void judge(const Verifier& verifier, const attempt::Session& session, const sim:
   // Killed, or cut off between two blocks by somebody: nothing tells which, nor what is missing.
   out["difference"] =
       recording.interrupted
-          ? fmt::format("verified up to tick {}; the recording ends early, without an end mark", verifier.last_good())
-          : fmt::format("the file is damaged ({}); what could be read, until tick {}, agrees", recording.damage,
-                        recording.inputs.size());
+          ? tr("verified up to tick {}; the recording ends early, without an end mark", verifier.last_good())
+          : tr("the file is damaged ({}); what could be read, until tick {}, agrees", recording.damage,
+               recording.inputs.size());
 }
 
 /// The inputs again. With --verify all of them, otherwise as far as pictures are wanted.
@@ -201,7 +202,7 @@ Json play_keyframes(const attempt::Lesson& lesson, const sim::Recording& recordi
     const sim::State& state = footage.at(tick);
     if (!footage.sound()) break;
     if (camera.shows(tick) && (shown++ % kKeyframesPerShot == 0 || i + 1 == recording.keyframes.size()))
-      camera.shot(state, "keyframe", fmt::format("keyframe {} of {}", i + 1, recording.keyframes.size()));
+      camera.shot(state, "keyframe", tr("keyframe {} of {}", i + 1, recording.keyframes.size()));
   }
   if (!footage.sound()) throw core::BadInput({{{o.file, 0, 0}, "its keyframes do not fit the scene as it is now"}});
   while (camera.filming()) {
@@ -230,10 +231,9 @@ pictures::FilmPlan plan_of(const ReplayOptions& o, std::uint64_t last) {
   const pictures::FilmPlan plan{ticks(o.from), o.to < 0 ? last : ticks(o.to), o.speed};
   const bool past = !(o.from * double(core::kTicksPerSecond) <= double(last));
   if (past || plan.from > plan.to)
-    throw core::BadInput(
-        {{{past ? "--from" : "--to", 0, 0},
-          fmt::format("expected a part of the recording's {:.3f} s, got {} to {}", double(last) * core::kTick, o.from,
-                      o.to < 0 ? "the end" : fmt::format("{}", o.to))}});
+    throw core::BadInput({{{past ? "--from" : "--to", 0, 0},
+                           tr("expected a part of the recording's {:.3f} s, got {} to {}", double(last) * core::kTick,
+                              o.from, o.to < 0 ? "the end" : fmt::format("{}", o.to))}});
   return plan;
 }
 
@@ -241,9 +241,9 @@ Json replay_headless(const attempt::Lesson& lesson, const sim::Recording& record
   if (lesson.model.hash == recording.header.model_hash) return play_inputs(lesson, recording, options);
   if (!options.verify) return play_keyframes(lesson, recording, options);
   return {{"verified", false},
-          {"difference", fmt::format("made with another version of the physics or scene (model {}, here {}): nothing "
-                                     "to verify against",
-                                     core::hex(recording.header.model_hash), core::hex(lesson.model.hash))}};
+          {"difference", tr("made with another version of the physics or scene (model {}, here {}): nothing "
+                            "to verify against",
+                            core::hex(recording.header.model_hash), core::hex(lesson.model.hash))}};
 }
 
 }  // namespace trocar::app

@@ -14,7 +14,7 @@ Place parse_place(const std::string& text, const std::string& where) {
   const std::string port = colon == std::string::npos ? "" : text.substr(colon + 1);
   const bool digits = !port.empty() && port.size() <= 5 && port.find_first_not_of("0123456789") == std::string::npos;
   if (colon == 0 || !digits || std::stoi(port) > 65535)
-    throw core::BadInput({{{where, 0, 0}, fmt::format("expected ADDRESS:PORT as 127.0.0.1:4711, got {}", text)}});
+    throw core::BadInput({{{where, 0, 0}, tr("expected ADDRESS:PORT as 127.0.0.1:4711, got {}", text)}});
   return {text.substr(0, colon), std::stoi(port)};
 }
 
@@ -49,8 +49,8 @@ attempt::TeamPlan team_plan(const TeamChoice& choice) {
 std::string how_to_join(const attempt::TeamHost& team, const TeamChoice& choice) {
   std::string text;
   for (const attempt::TeamSeat& seat : team.seats())
-    text += fmt::format("\n  {}={} trocar join {}:{} --role {}", kTokenVariable, team.token(),
-                        parse_place(choice.at, "--team-at").address, team.port(), seat.role);
+    text += tr("\n  {}={} trocar join {}:{} --role {}", kTokenVariable, team.token(),
+               parse_place(choice.at, "--team-at").address, team.port(), seat.role);
   return text;
 }
 

@@ -46,11 +46,12 @@ Json seen_json(const TrackerThread& tracker) {
 
 void show_seen(const TrackerThread& tracker) {
   const TrackerThread::Status status = tracker.status();
-  fmt::print("{}  {} messages, {} damaged\n", status.connected ? "connected" : "GONE", status.messages, status.damaged);
+  fmt::print("{}", tr("{}  {} messages, {} damaged\n", status.connected ? "connected" : "GONE", status.messages,
+                      status.damaged));
   for (const auto& heard : tracker.poses())
-    fmt::print("  {:20} {:9.1f} {:9.1f} {:9.1f} mm  {:5.0f} ms old  {} times\n", heard.what.name,
-               1000 * heard.what.place.x, 1000 * heard.what.place.y, 1000 * heard.what.place.z,
-               1e-6 * double(steady_nanoseconds() - heard.at), heard.times);
+    fmt::print("{}", tr("  {:20} {:9.1f} {:9.1f} {:9.1f} mm  {:5.0f} ms old  {} times\n", heard.what.name,
+                        1000 * heard.what.place.x, 1000 * heard.what.place.y, 1000 * heard.what.place.z,
+                        1e-6 * double(steady_nanoseconds() - heard.at), heard.times));
   for (const auto& heard : tracker.all_values()) {
     fmt::print("  {:20}", heard.what.name);
     for (const double value : heard.what.values) fmt::print(" {:9.3f}", value);
@@ -72,8 +73,8 @@ int monitor_tracker(const TrackerChoice& o, bool json) {
     if (std::fflush(stdout) != 0) break;  // nobody reads any more
   }
   if (tracker.status().messages == 0)
-    throw core::EnvironmentLacks(fmt::format(
-        "nothing that can be read came from {}: does it send TRANSFORM, POSITION or TDATA (OpenIGTLink)?", o.place));
+    throw core::EnvironmentLacks(
+        tr("nothing that can be read came from {}: does it send TRANSFORM, POSITION or TDATA (OpenIGTLink)?", o.place));
   return core::kDone;
 }
 

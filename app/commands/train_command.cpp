@@ -56,8 +56,8 @@ void tell(const Json& result) {
     fmt::print("done: {:.1f} s\n", result["simulated_seconds"].get<double>());
   } else {
     const Json& a = result["assessment"];
-    fmt::print("{}: score {:.0f} of 100 in {:.0f} s\n", result["passed"].get<bool>() ? "passed" : "not passed",
-               a["score"]["total"].get<double>(), result["exercise_seconds"].get<double>());
+    fmt::print("{}", tr("{}: score {:.0f} of 100 in {:.0f} s\n", result["passed"].get<bool>() ? "passed" : "not passed",
+                        a["score"]["total"].get<double>(), result["exercise_seconds"].get<double>()));
     for (const Json& step : a["steps"])
       fmt::print("  [{}] {}\n", step["done"].get<bool>() ? "x" : " ", step["name"].get<std::string>());
     for (const Json& e : a["errors"])
@@ -167,8 +167,7 @@ void check_haptics(const TrainChoice& o, const attempt::Lesson* lesson) {
   const std::unique_ptr<devices::HapticDevice> device = devices::choose_haptic_device(o.haptics, "--haptics");
   if (o.headless && !device->is_led())
     throw core::BadInput(
-        {{{"--haptics", 0, 0},
-          fmt::format("expected simulated with --headless, where no time passes, got {}", o.haptics)}});
+        {{{"--haptics", 0, 0}, tr("expected simulated with --headless, where no time passes, got {}", o.haptics)}});
   if (lesson) static_cast<void>(attempt::haptic_hand_of(lesson->model, o.haptics_hand, "--haptics-hand"));
   device->open();
   device->close();
@@ -179,7 +178,7 @@ int train(const TrainChoice& o, bool json) {
   if (o.headless && hands)
     throw core::BadInput(
         {{{"--headless", 0, 0},
-          fmt::format("expected --input demo, motion:FILE, replay:FILE or box:PORT with it, got {}", o.input)}});
+          tr("expected --input demo, motion:FILE, replay:FILE or box:PORT with it, got {}", o.input)}});
   if (o.exercise.empty() && (o.headless || !hands))
     throw core::BadInput({{{"train", 0, 0}, "expected an exercise (see trocar list), got none"}});
   // Faults are told before anything is begun.

@@ -12,6 +12,7 @@
 
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/picture/handles.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/render/gl/gl_context.hpp>
@@ -236,14 +237,14 @@ class RoomWindow {
     if (ui::slider("left down", left, -t.side_most / kDegree, t.side_most / kDegree, "%.0f deg", false))
       tilt(0, left * kDegree - m_pose.tilt.left_down);
     const Vec3d g = m_model->gravity(m_pose.tilt);
-    ui::text(fmt::format("gravity in the patient {:.2f}, {:.2f}, {:.2f} m/s2", g.x, g.y, g.z), ui::kGrey);
+    ui::text(tr("gravity in the patient {:.2f}, {:.2f}, {:.2f} m/s2", g.x, g.y, g.z), ui::kGrey);
     ui::heading("Arms and their ports");
     for (std::size_t a = 0; a < m_room.arms.size(); ++a) draw_arm(a);
     ui::heading("Shown");
     if (ui::checkbox("reach", m_shows_reach)) m_stale = true;
     ImGui::SameLine();
     if (ui::checkbox("clearance", m_shows_gaps)) m_stale = true;
-    ui::heading(fmt::format("Clearance (margin {:.0f} mm)", 1e3 * m_room.margin));
+    ui::heading(tr("Clearance (margin {:.0f} mm)", 1e3 * m_room.margin));
     for (std::size_t k = 0; k < std::min<std::size_t>(6, m_near.size()); ++k) {
       const Near& n = m_near[k];
       const bool bad = n.distance < m_room.margin;
@@ -279,7 +280,7 @@ class RoomWindow {
     ui::note_widget(arm.name);
     if (gap > 1e-4) {
       ui::mark(ui::Mark::error);
-      ui::text(fmt::format("its shaft is {:.1f} mm beside its port: dock it again", 1e3 * gap), ui::kOrange);
+      ui::text(tr("its shaft is {:.1f} mm beside its port: dock it again", 1e3 * gap), ui::kOrange);
     }
   }
 
@@ -291,8 +292,8 @@ class RoomWindow {
     if (ui::button(m_plays ? "Pause" : "Play")) m_plays = !m_plays;
     if (m_report.good()) {
       ui::mark(ui::Mark::done);
-      ui::text(fmt::format("can be done; least clearance {:.0f} mm at {:.1f} s", 1e3 * m_report.least_clearance,
-                           m_report.least_at));
+      ui::text(
+          tr("can be done; least clearance {:.0f} mm at {:.1f} s", 1e3 * m_report.least_clearance, m_report.least_at));
     }
     for (std::size_t k = 0; k < std::min<std::size_t>(4, m_report.faults.size()); ++k) {
       const MotionFault& f = m_report.faults[k];

@@ -9,6 +9,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 
@@ -91,7 +92,7 @@ std::string EventLog::path_of(const std::string& given) {
 EventLog::EventLog(const std::string& path) : m_path(path) {
   if (path.empty()) return;
   m_file.reset(std::fopen(path.c_str(), "w"));
-  if (!m_file) throw core::EnvironmentLacks(fmt::format("cannot write the log {}: check the folder", path));
+  if (!m_file) throw core::EnvironmentLacks(tr("cannot write the log {}: check the folder", path));
 }
 
 void EventLog::event(const std::string& name, const Json& details) {
@@ -101,7 +102,7 @@ void EventLog::event(const std::string& name, const Json& details) {
   const std::string text = line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
   const bool written = std::fputs(text.c_str(), m_file.get()) >= 0 && std::fflush(m_file.get()) == 0;
   if (written || !m_failure.empty()) return;
-  m_failure = fmt::format("lines of the log {} are lost: {}", m_path, std::strerror(errno ? errno : EIO));
+  m_failure = tr("lines of the log {} are lost: {}", m_path, std::strerror(errno ? errno : EIO));
   core::log::error("{}", m_failure);
 }
 

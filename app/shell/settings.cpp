@@ -8,6 +8,7 @@
 
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/training/store/store.hpp>
 
@@ -218,7 +219,7 @@ void write_settings(const fs::path& file, const Settings& settings) {
   std::error_code ignored;
   fs::remove(fresh, ignored);
   throw core::EnvironmentLacks(
-      fmt::format("cannot write {}: make room or allow writing; the settings hold until the end", file.string()));
+      tr("cannot write {}: make room or allow writing; the settings hold until the end", file.string()));
 }
 
 bool forget_in_settings(const fs::path& file, const std::string& trainee) {

@@ -18,6 +18,7 @@
 #include <GLFW/glfw3.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 
 #include "shell/ui.hpp"
 
@@ -109,10 +110,10 @@ void leave_a_core_to_the_simulation() {
 Window::Glfw::Glfw() {
   leave_a_core_to_the_simulation();
   if (!glfwInit())
-    throw core::EnvironmentLacks(fmt::format(
-        "cannot open a window: {}. Start it from a desktop (DISPLAY or WAYLAND_DISPLAY set), or use trocar train "
-        "EXERCISE --headless --input demo",
-        last_glfw_error()));
+    throw core::EnvironmentLacks(
+        tr("cannot open a window: {}. Start it from a desktop (DISPLAY or WAYLAND_DISPLAY set), or use trocar train "
+           "EXERCISE --headless --input demo",
+           last_glfw_error()));
 }
 Window::Glfw::~Glfw() { glfwTerminate(); }
 
@@ -131,7 +132,7 @@ Window::Window(const std::string& title, pictures::PictureSize size, bool quad_b
     m_window = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
   }
   if (!m_window)
-    throw core::EnvironmentLacks(fmt::format(
+    throw core::EnvironmentLacks(tr(
         "cannot open a window with OpenGL 3.3: {}. Update the graphics driver, or use --headless", last_glfw_error()));
   glfwSetWindowUserPointer(m_window, this);
   glfwSetWindowSizeLimits(m_window, 480, 360, GLFW_DONT_CARE, GLFW_DONT_CARE);

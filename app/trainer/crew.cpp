@@ -105,8 +105,8 @@ std::vector<std::string> Crew::how_to_join() const {
   if (!m_team) return lines;
   for (const attempt::TeamSeat& seat : m_team->seats())
     if (!seat.here)
-      lines.push_back(fmt::format("trocar join {}:{} --role {} --token {}", m_stage.options.team->address,
-                                  m_team->port(), seat.role, m_team->token()));
+      lines.push_back(tr("trocar join {}:{} --role {} --token {}", m_stage.options.team->address, m_team->port(),
+                         seat.role, m_team->token()));
   return lines;
 }
 

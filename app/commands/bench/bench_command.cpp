@@ -140,20 +140,20 @@ Json bench_kernel() {
 
 void print_bench(const Json& r) {
   if (r["name"] == "kernel") {
-    fmt::print("kernel ({}): {} springs x {} sub-steps, {:.2f} ns per spring and sub-step\n",
-               r["simd"].get<std::string>(), r["springs"].get<int>(), r["substeps"].get<int>(),
-               r["ns_per_spring_and_substep"].get<double>());
+    fmt::print("{}", tr("kernel ({}): {} springs x {} sub-steps, {:.2f} ns per spring and sub-step\n",
+                        r["simd"].get<std::string>(), r["springs"].get<int>(), r["substeps"].get<int>(),
+                        r["ns_per_spring_and_substep"].get<double>()));
     return;
   }
-  fmt::print("{}: {} free nodes, {} ticks, {}\n", r["name"].get<std::string>(), r["free_nodes"].get<int>(),
-             r["ticks"].get<std::size_t>(), r["simd"].get<std::string>());
+  fmt::print("{}", tr("{}: {} free nodes, {} ticks, {}\n", r["name"].get<std::string>(), r["free_nodes"].get<int>(),
+                      r["ticks"].get<std::size_t>(), r["simd"].get<std::string>()));
   for (const Json& run : r["runs"]) {
     const auto line = [](const std::string& name, const Json& t) {
-      fmt::print("    {:18} mean {:7.1f}  median {:7.1f}  p99 {:7.1f} us\n", name, t["mean_us"].get<double>(),
-                 t["median_us"].get<double>(), t["p99_us"].get<double>());
+      fmt::print("{}", tr("    {:18} mean {:7.1f}  median {:7.1f}  p99 {:7.1f} us\n", name, t["mean_us"].get<double>(),
+                          t["median_us"].get<double>(), t["p99_us"].get<double>()));
     };
-    fmt::print("  {} thread(s), state {}, tissue held in {} ticks\n", run["threads"].get<int>(),
-               run["state_hash"].get<std::string>(), run["ticks_with_tissue_held"].get<std::size_t>());
+    fmt::print("{}", tr("  {} thread(s), state {}, tissue held in {} ticks\n", run["threads"].get<int>(),
+                        run["state_hash"].get<std::string>(), run["ticks_with_tissue_held"].get<std::size_t>()));
     line("tick", run["tick"]);
     if (run.contains("tick_cpu")) line("tick, processor", run["tick_cpu"]);
     for (const auto& stage : run["stages"].items()) line(stage.key(), stage.value());
@@ -198,7 +198,7 @@ int bench(BenchChoice o) {
   if (!o.file.empty()) {
     std::ofstream out(o.file);
     out << all.dump(2) << '\n';
-    if (!out.flush()) throw core::EnvironmentLacks(fmt::format("cannot write {}: is the disk full?", o.file));
+    if (!out.flush()) throw core::EnvironmentLacks(tr("cannot write {}: is the disk full?", o.file));
   }
   if (o.json) print(all);
   return core::kDone;

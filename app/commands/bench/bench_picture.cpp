@@ -10,6 +10,7 @@
 
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/render/backend/backend.hpp>
 #include <trocar/render/frame/governor.hpp>
 #include <trocar/render/gl/gl_context.hpp>
@@ -292,18 +293,18 @@ Json bench_picture(const std::string& exercise, double seconds, const PictureBen
 }
 
 void print_picture_bench(const Json& r) {
-  fmt::print("{}, {} x {}, {} pictures around {:.1f} s, {}\n", r["name"].get<std::string>(), r["size"][0].get<int>(),
-             r["size"][1].get<int>(), r["frames"].get<int>(), r["seconds"].get<double>(),
-             r["driver"].get<std::string>());
-  fmt::print("  {} things of {} triangles, {} drops and films, pool of {} triangles\n", r["items"].get<std::uint64_t>(),
-             r["triangles"].get<std::uint64_t>(), r["splats"].get<std::uint64_t>(),
-             r["pool_triangles"].get<std::uint64_t>());
+  fmt::print("{}", tr("{}, {} x {}, {} pictures around {:.1f} s, {}\n", r["name"].get<std::string>(),
+                      r["size"][0].get<int>(), r["size"][1].get<int>(), r["frames"].get<int>(),
+                      r["seconds"].get<double>(), r["driver"].get<std::string>()));
+  fmt::print("{}", tr("  {} things of {} triangles, {} drops and films, pool of {} triangles\n",
+                      r["items"].get<std::uint64_t>(), r["triangles"].get<std::uint64_t>(),
+                      r["splats"].get<std::uint64_t>(), r["pool_triangles"].get<std::uint64_t>()));
   std::string parts = "  triangles:";
   for (const Json& part : r["parts"])
     parts += fmt::format(" {} {},", part["part"].get<std::string>(), part["triangles"].get<std::uint64_t>());
   parts.back() = '\n';
   fmt::print("{}", parts);
-  fmt::print("  medians [ms]: wall, processor (all threads), graphics card where it has a clock\n");
+  fmt::print("{}", tr("  medians [ms]: wall, processor (all threads), graphics card where it has a clock\n"));
   fmt::print("  {:16} {:>26} {:>26} {:>26} {:>26}\n", "pass", "detail 2", "detail 1", "detail 0", "cheapest quality");
   for (const Json& row : r["passes"]) {
     std::string line = fmt::format("  {:16}", row["pass"].get<std::string>());
@@ -320,11 +321,11 @@ void print_picture_bench(const Json& r) {
     fmt::print("  {:20} {:9} {:8.2f} {:8.2f} {:8.2f}\n", row["things"].get<std::string>(),
                row["triangles"].get<std::uint64_t>(), row["meshes_ms"].get<double>(), row["opaque_ms"].get<double>(),
                row["picture_ms"].get<double>());
-  fmt::print("  whole pictures at the governor's qualities:\n");
+  fmt::print("{}", tr("  whole pictures at the governor's qualities:\n"));
   for (const Json& q : r["qualities"])
-    fmt::print("  scale {:.2f}, samples {}, detail {}, coarser {:.1f}   {:7.2f} {:7.2f}\n",
-               q["render_scale"].get<double>(), q["samples"].get<int>(), q["detail"].get<int>(),
-               q["coarser"].get<double>(), q["wall_ms"].get<double>(), q["processor_ms"].get<double>());
+    fmt::print("{}", tr("  scale {:.2f}, samples {}, detail {}, coarser {:.1f}   {:7.2f} {:7.2f}\n",
+                        q["render_scale"].get<double>(), q["samples"].get<int>(), q["detail"].get<int>(),
+                        q["coarser"].get<double>(), q["wall_ms"].get<double>(), q["processor_ms"].get<double>()));
 }
 
 }  // namespace trocar::app

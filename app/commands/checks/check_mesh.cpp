@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/files.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/tet_files.hpp>
 #include <trocar/scene/compile/mesh_cost.hpp>
 
@@ -80,17 +81,17 @@ Json describe_mesh(const fs::path& path, double unit) {
 void print_mesh(const Json& m) {
   const auto facts = [](const char* what, const Json& f) {
     fmt::print(
-        "  {}: {} nodes, {} tetrahedra, {:.4g} ml (cells {:.3g} to {:.3g} ml), smallest dihedral angle {:.3g} "
-        "degrees,\n    {} triangles on the surface, {} part{}\n",
-        what, f["nodes"].get<int>(), f["cells"].get<int>(), f["volume_ml"].get<double>(),
-        f["smallest_cell_ml"].get<double>(), f["largest_cell_ml"].get<double>(),
-        f["smallest_dihedral_deg"].get<double>(), f["surface_triangles"].get<int>(), f["parts"].get<int>(),
-        f["parts"].get<int>() == 1 ? "" : "s");
+        "{}", tr("  {}: {} nodes, {} tetrahedra, {:.4g} ml (cells {:.3g} to {:.3g} ml), smallest dihedral angle {:.3g} "
+                 "degrees,\n    {} triangles on the surface, {} part{}\n",
+                 what, f["nodes"].get<int>(), f["cells"].get<int>(), f["volume_ml"].get<double>(),
+                 f["smallest_cell_ml"].get<double>(), f["largest_cell_ml"].get<double>(),
+                 f["smallest_dihedral_deg"].get<double>(), f["surface_triangles"].get<int>(), f["parts"].get<int>(),
+                 f["parts"].get<int>() == 1 ? "" : "s"));
   };
   facts(m["format"].get<std::string>().c_str(), m["mesh"]);
   for (const Json& note : m["notes"]) fmt::print("  {}\n", note.get<std::string>());
-  for (const Json& repair : m["repairs"]) fmt::print("  to mend: {}\n", repair.get<std::string>());
-  for (const Json& left : m["left_as_is"]) fmt::print("  not mended: {}\n", left.get<std::string>());
+  for (const Json& repair : m["repairs"]) fmt::print("{}", tr("  to mend: {}\n", repair.get<std::string>()));
+  for (const Json& left : m["left_as_is"]) fmt::print("{}", tr("  not mended: {}\n", left.get<std::string>()));
   if (m.contains("repaired")) facts("mended", m["repaired"]);
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/operating_room/room_file.hpp>
 #include <trocar/studies/operating_room/motion.hpp>
 
@@ -59,21 +60,19 @@ Json describe_room(const fs::path& path) {
   for (std::size_t a = 0; a < model->arms().size(); ++a) {
     const ArmModel& arm = model->arms()[a];
     if (const double gap = port_gap(model->shaft(pose, int(a)), arm.port); gap > 1e-4)
-      wrong.push_back(fmt::format("the shaft of {} is {:.1f} mm beside its port", arm.described->name, 1e3 * gap));
+      wrong.push_back(tr("the shaft of {} is {:.1f} mm beside its port", arm.described->name, 1e3 * gap));
     if (const double beyond = model->beyond_set_up(int(a)); beyond > 0)
-      wrong.push_back(fmt::format("the base of {} is {:.0f} mm beyond the reach of its set-up joints",
-                                  arm.described->name, 1e3 * beyond));
+      wrong.push_back(
+          tr("the base of {} is {:.0f} mm beyond the reach of its set-up joints", arm.described->name, 1e3 * beyond));
   }
   for (std::size_t k = 0; k < model->room().staff.size(); ++k)
     if (const double beyond = model->person(int(k), pose).beyond_reach; beyond > 0)
-      wrong.push_back(
-          fmt::format("what {} holds is {:.0f} mm beyond their reach", model->room().staff[k].name, 1e3 * beyond));
+      wrong.push_back(tr("what {} holds is {:.0f} mm beyond their reach", model->room().staff[k].name, 1e3 * beyond));
   if (!model->can_tilt(pose.tilt)) wrong.push_back("the table cannot tilt so far");
   const std::vector<Near> near = model->nearest(pose);
   for (const Near& n : near)
     if (n.distance < model->room().margin)
-      wrong.push_back(
-          fmt::format("{} and {} are {:.1f} mm apart, less than the margin", n.first, n.second, 1e3 * n.distance));
+      wrong.push_back(tr("{} and {} are {:.1f} mm apart, less than the margin", n.first, n.second, 1e3 * n.distance));
   Json out{{"file", path.string()},
            {"kind", "room"},
            {"arms", model->arms().size()},
@@ -114,10 +113,11 @@ Json describe_programme(const fs::path& path) {
 
 void print_room(const Json& r) {
   if (r["kind"] == "programme")
-    fmt::print("  in {}: {:.2f} s, least clearance {:.1f} mm\n", r["room"].get<std::string>(),
-               r["seconds"].get<double>(), r["least_clearance_mm"].get<double>());
+    fmt::print("{}", tr("  in {}: {:.2f} s, least clearance {:.1f} mm\n", r["room"].get<std::string>(),
+                        r["seconds"].get<double>(), r["least_clearance_mm"].get<double>()));
   else
-    fmt::print("  {} arms, {} ports, {} people\n", r["arms"].get<int>(), r["ports"].get<int>(), r["staff"].get<int>());
+    fmt::print("{}", tr("  {} arms, {} ports, {} people\n", r["arms"].get<int>(), r["ports"].get<int>(),
+                        r["staff"].get<int>()));
   for (const Json& w : r["wrong"]) fmt::print("  {}\n", w.get<std::string>());
 }
 

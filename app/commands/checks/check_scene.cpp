@@ -143,11 +143,11 @@ Json describe(const scene::BodyReport& b, const sim::Model& model, const scene::
 void print_motion(const Json& motion) {
   if (motion.contains("peristalsis"))
     for (const Json& p : motion["peristalsis"])
-      fmt::print("  {}: {:g} waves a minute, {} pairs of points of its wall\n", p["solid"].get<std::string>(),
-                 p["per_minute"].get<double>(), p["pairs"].get<std::size_t>());
+      fmt::print("{}", tr("  {}: {:g} waves a minute, {} pairs of points of its wall\n", p["solid"].get<std::string>(),
+                          p["per_minute"].get<double>(), p["pairs"].get<std::size_t>()));
   if (motion.contains("breathing"))
-    fmt::print("  {:g} breaths a minute of {:g} mm\n", motion["breathing"]["per_minute"].get<double>(),
-               motion["breathing"]["amplitude_mm"].get<double>());
+    fmt::print("{}", tr("  {:g} breaths a minute of {:g} mm\n", motion["breathing"]["per_minute"].get<double>(),
+                        motion["breathing"]["amplitude_mm"].get<double>()));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
 #include <trocar/vessels/flow.hpp>
 
@@ -81,10 +82,10 @@ void print_vessels(const Json& r) {
                v["name"].get<std::string>(), v["from"].get<std::string>(), v["to"].get<std::string>(),
                v["length_mm"].get<double>(), v["radius_mm"].get<double>(), v["wave_speed_m_s"].get<double>(),
                v["flow_mL_min"].get<double>(), v["low_mmHg"].get<double>(), v["high_mmHg"].get<double>());
-  fmt::print("  what the pulse moves and pushes is shown and felt {:g} times as large as it is\n",
-             r["pulse_gain"].get<double>());
-  fmt::print("  {} nodes, {} cells; a tick takes {:.1f} us here\n", r["nodes"].get<int>(),
-             r["cells"].get<std::size_t>(), r["tick_us"].get<double>());
+  fmt::print("{}", tr("  what the pulse moves and pushes is shown and felt {:g} times as large as it is\n",
+                      r["pulse_gain"].get<double>()));
+  fmt::print("{}", tr("  {} nodes, {} cells; a tick takes {:.1f} us here\n", r["nodes"].get<int>(),
+                      r["cells"].get<std::size_t>(), r["tick_us"].get<double>()));
 }
 
 }  // namespace trocar::app

@@ -103,8 +103,7 @@ void exchange(const sim::Model& model, const sim::State& start, pictures::Shots&
   const Vec3d entry = hand->port + 0.045 * tip.axis();
   const auto take = [&](const std::string& what) {
     ViewOptions options = close_up(model, entry, 0.07);
-    shots.take_outside(state, "exchange " + what, fmt::format("{}: instrument exchange, {}", hand->name, what),
-                       options);
+    shots.take_outside(state, "exchange " + what, tr("{}: instrument exchange, {}", hand->name, what), options);
   };
   take("before");
   constexpr int kLongest = 8000;
@@ -131,7 +130,7 @@ void heights(const sim::Model& model, const sim::State& start, pictures::Shots& 
         kinematics::inverse(model.hands[0].port, place + above * towards, double(input.tools[0].roll));
     input.tools[0] = sim::tool_input(pose, 1);
     for (int i = 0; i < 1200; ++i) sim::step(model, input, state, work);
-    const std::string text = above > 0 ? fmt::format("{:.0f} mm above an organ", 1e3 * above) : "touching an organ";
+    const std::string text = above > 0 ? tr("{:.0f} mm above an organ", 1e3 * above) : "touching an organ";
     shots.take(state, "height " + text, "an instrument " + text);
   }
 }
@@ -229,7 +228,7 @@ void outside(const sim::Model& model, const sim::State& start, pictures::Shots& 
   for (const pictures::CameraPreset& preset : pictures::kCameraPresets) {
     ViewOptions options = view_of(pictures::choice_of(preset), around);
     options.walls = false;
-    shots.take_outside(start, preset.name, fmt::format("from outside, {}, walls left out", preset.meaning), options);
+    shots.take_outside(start, preset.name, tr("from outside, {}, walls left out", preset.meaning), options);
   }
   ViewOptions options = view_of(pictures::choice_of(pictures::kCameraPresets[0]), around);
   options.walls = options.instruments = false;
@@ -269,7 +268,7 @@ int gallery(const Wanted& wanted, bool json) {
   const std::vector<scene::SceneEntry> all = scene::list_scenes(attempt::scenes_folder());
   const std::string& scene = wanted.scene;
   if (!scene.empty() && std::none_of(all.begin(), all.end(), [&](const auto& s) { return s.name == scene; }))
-    throw core::BadInput({{{"--scene", 0, 0}, fmt::format("expected a scene (see trocar list), got '{}'", scene)}});
+    throw core::BadInput({{{"--scene", 0, 0}, tr("expected a scene (see trocar list), got '{}'", scene)}});
   if (!wanted.only.empty()) {
     std::vector<scene::Description> wanted_scenes;
     for (const scene::SceneEntry& s : all)
@@ -281,8 +280,7 @@ int gallery(const Wanted& wanted, bool json) {
   for (const scene::SceneEntry& s : all)
     if (scene.empty() || s.name == scene) add_scene(files, s.name, wanted);
   if (files.empty())
-    throw core::BadInput(
-        {{{"--only", 0, 0}, fmt::format("expected a picture of these scenes, none is '{}'", wanted.only)}});
+    throw core::BadInput({{{"--only", 0, 0}, tr("expected a picture of these scenes, none is '{}'", wanted.only)}});
   if (json)
     print({{"pictures", files}});
   else

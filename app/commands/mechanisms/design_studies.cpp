@@ -46,16 +46,19 @@ void print_tolerance(const Json& r) {
   const Json& linear = r["linear"];
   fmt::print("{}: {}, nominal {:.6f} {}\n", r["name"].get<std::string>(), r["measured"].get<std::string>(),
              r["nominal"].get<double>(), r["nominal_unit"].get<std::string>());
-  fmt::print("  first order: worst {:.4f}, root of squares {:.4f}, standard deviation {:.4f} {}\n",
-             linear["worst"].get<double>(), linear["rss"].get<double>(), linear["deviation"].get<double>(), unit);
-  fmt::print("  Monte Carlo: mean {:+.4f}, standard deviation {:.4f}, from {:.4f} to {:.4f} {}\n",
-             r["mean"].get<double>(), r["deviation"].get<double>(), r["low"].get<double>(), r["high"].get<double>(),
-             unit);
+  fmt::print("{}",
+             tr("  first order: worst {:.4f}, root of squares {:.4f}, standard deviation {:.4f} {}\n",
+                linear["worst"].get<double>(), linear["rss"].get<double>(), linear["deviation"].get<double>(), unit));
+  fmt::print("{}", tr("  Monte Carlo: mean {:+.4f}, standard deviation {:.4f}, from {:.4f} to {:.4f} {}\n",
+                      r["mean"].get<double>(), r["deviation"].get<double>(), r["low"].get<double>(),
+                      r["high"].get<double>(), unit));
   for (const Json& p : r["percentiles"])
     fmt::print("    {:>7} %: {:+.4f}\n", p["percent"].get<double>(), p["deviation"].get<double>());
-  fmt::print("  {} samples, {} did not close\n", r["samples"].get<std::int64_t>(), r["open"].get<std::int64_t>());
+  fmt::print("{}",
+             tr("  {} samples, {} did not close\n", r["samples"].get<std::int64_t>(), r["open"].get<std::int64_t>()));
   if (!r["within"].is_null())
-    fmt::print("  yield: {:.4f} % within {:.4g} {}\n", 100 * r["yield"].get<double>(), r["within"].get<double>(), unit);
+    fmt::print("{}", tr("  yield: {:.4f} % within {:.4g} {}\n", 100 * r["yield"].get<double>(),
+                        r["within"].get<double>(), unit));
   fmt::print("  {:36} {:>12} {:>14} {:>9}\n", "dimension", "plus-minus", "effect " + unit, "variance");
   std::size_t shown = 0;
   for (const Json& s : r["sensitivities"]) {
@@ -65,9 +68,9 @@ void print_tolerance(const Json& r) {
                100 * s["share"].get<double>());
   }
   if (r["sensitivities"].size() > kShownEffects)
-    fmt::print("  and {} with less\n", r["sensitivities"].size() - kShownEffects);
+    fmt::print("{}", tr("  and {} with less\n", r["sensitivities"].size() - kShownEffects));
   if (!r["misfits"].empty())
-    fmt::print("  {} dimensions are left out: changed alone, they would open a loop\n", r["misfits"].size());
+    fmt::print("{}", tr("  {} dimensions are left out: changed alone, they would open a loop\n", r["misfits"].size()));
 }
 
 /// A pose that no study can be about: told, not thrown.
@@ -89,7 +92,7 @@ ClearanceOptions sweep_of(const Mechanism& m, const DesignOptions& o) {
   };
   for (const std::string& word : o.ignored) {
     const std::size_t at = word.find(':');
-    if (at == word.npos) refuse_words(word, fmt::format("expected LINK:LINK, got \"{}\"", word));
+    if (at == word.npos) refuse_words(word, tr("expected LINK:LINK, got \"{}\"", word));
     out.ignored.emplace_back(link(word.substr(0, at)), link(word.substr(at + 1)));
   }
   return out;
@@ -115,8 +118,8 @@ Json clearance_json(const Mechanism& m, const ClearanceReport& r) {
           {"always_overlapping", joined}};
 }
 void print_clearance(const Json& r) {
-  fmt::print("  {} poses, {} closed and within limits\n", r["poses"].get<int>(), r["reached"].get<int>());
-  if (r["pairs"].empty()) fmt::print("  no links that could meet\n");
+  fmt::print("{}", tr("  {} poses, {} closed and within limits\n", r["poses"].get<int>(), r["reached"].get<int>()));
+  if (r["pairs"].empty()) fmt::print("{}", tr("  no links that could meet\n"));
   for (const Json& p : r["pairs"]) {
     std::string where;
     for (const auto& [name, handle] : p["where"].items())
@@ -125,8 +128,8 @@ void print_clearance(const Json& r) {
                p["least_mm"].get<double>(), p["least_mm"].get<double>() < 0 ? "IN EACH OTHER" : "apart", where);
   }
   for (const Json& p : r["always_overlapping"])
-    fmt::print("  {} and {} overlap in every pose: taken as meant\n", p["first"].get<std::string>(),
-               p["second"].get<std::string>());
+    fmt::print("{}", tr("  {} and {} overlap in every pose: taken as meant\n", p["first"].get<std::string>(),
+                        p["second"].get<std::string>()));
 }
 
 double shown_value(const Parameter& p, double value) {
@@ -139,11 +142,10 @@ const char* file_unit(const Parameter& p) {
 /// @return where it was written to
 std::string write_optimised(const DesignOptions& o, const std::vector<double>& values) {
   if (o.path.extension() != ".json")
-    throw core::BadInput(
-        {{{"--output", 0, 0}, fmt::format("expected a mechanism in JSON, got {}", o.path.generic_string())}});
+    throw core::BadInput({{{"--output", 0, 0}, tr("expected a mechanism in JSON, got {}", o.path.generic_string())}});
   const std::string text = scene::mechanism_text_with(core::read_file(o.path, scene::kMaxJsonBytes), values);
   if (const std::string fault = core::write_file(o.output, text.data(), text.size()); !fault.empty())
-    throw core::EnvironmentLacks(fmt::format("{} cannot be written: {}", o.output, fault));
+    throw core::EnvironmentLacks(tr("{} cannot be written: {}", o.output, fault));
   return o.output;
 }
 
@@ -219,7 +221,7 @@ int show_clearance(const Mechanism& m, const DesignOptions& o, bool json) {
   if (json) {
     print(out);
   } else {
-    fmt::print("{}: clearance between its links\n", m.name);
+    fmt::print("{}", tr("{}: clearance between its links\n", m.name));
     print_clearance(out);
     tell_page(page);
   }
@@ -266,8 +268,9 @@ int show_optimised(const Mechanism& m, const DesignOptions& o, bool json) {
     for (const Json& d : dimensions)
       fmt::print("  {:20} {:>10.4f} -> {:>10.4f} {}\n", d["name"].get<std::string>(), d["before"].get<double>(),
                  d["after"].get<double>(), d["unit"].get<std::string>());
-    fmt::print("  {} tried from {} starts", r.evaluations, r.starts);
-    if (r.range_before > 0) fmt::print("; range of {} {:.1f} %", o.study.frame, 100 * r.range_after / r.range_before);
+    fmt::print("{}", tr("  {} tried from {} starts", r.evaluations, r.starts));
+    if (r.range_before > 0)
+      fmt::print("{}", tr("; range of {} {:.1f} %", o.study.frame, 100 * r.range_after / r.range_before));
     fmt::print("\n before:\n");
     print_clearance(out["before"]);
     fmt::print(" after:\n");

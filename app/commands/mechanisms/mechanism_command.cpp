@@ -195,15 +195,15 @@ int show_workspace(const Mechanism& m, const MechanismWords& given, bool json) {
     print(out);
     return w.within > 0 ? core::kDone : core::kGoalNotReached;
   }
-  fmt::print("{}: workspace of \"{}\"\n  {} poses, {} closed, {} of them within limits\n", m.name, given.frame,
-             w.samples, w.closed, w.within);
+  fmt::print("{}", tr("{}: workspace of \"{}\"\n  {} poses, {} closed, {} of them within limits\n", m.name, given.frame,
+                      w.samples, w.closed, w.within));
   constexpr const char* kAxes[] = {"x", "y", "z"};
   for (int k = 0; k < 3; ++k) fmt::print("  {} {:>10.3f} to {:>10.3f} mm\n", kAxes[k], 1e3 * w.low[k], 1e3 * w.high[k]);
   if (w.path > 0)
-    fmt::print("  the path is {:.3f} mm long\n", 1e3 * w.path);
+    fmt::print("{}", tr("  the path is {:.3f} mm long\n", 1e3 * w.path));
   else
-    fmt::print("  reachable volume {:.4g} mL (cells of {:.3g} mm; half of the poses: {:.4g} mL)\n", 1e6 * w.volume,
-               1e3 * w.cell, 1e6 * w.volume_of_half);
+    fmt::print("{}", tr("  reachable volume {:.4g} mL (cells of {:.3g} mm; half of the poses: {:.4g} mL)\n",
+                        1e6 * w.volume, 1e3 * w.cell, 1e6 * w.volume_of_half));
   return w.within > 0 ? core::kDone : core::kGoalNotReached;
 }
 

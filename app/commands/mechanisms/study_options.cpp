@@ -102,7 +102,7 @@ Vec3d direction_of(const std::string& word) {
     from = comma + 1;
   }
   if (k < 3 || from <= word.size() || !(length(d) > 1e-6))
-    refuse_words(word, fmt::format("expected x, y, z or three numbers X,Y,Z that are not all 0, got \"{}\"", word));
+    refuse_words(word, tr("expected x, y, z or three numbers X,Y,Z that are not all 0, got \"{}\"", word));
   return (1 / length(d)) * d;
 }
 

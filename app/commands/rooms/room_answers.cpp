@@ -7,6 +7,7 @@
 
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/reports/room_page.hpp>
 
@@ -92,24 +93,26 @@ int answer_pose(const RoomModel& model, const RoomWords& words, bool json) {
     return good ? core::kDone : core::kGoalNotReached;
   }
   fmt::print(
-      "{}: table {:.1f} deg head down, {:.1f} deg left side down{}; gravity in the patient ({:.2f}, {:.2f}, {:.2f}) "
-      "m/s2\n",
-      model.room().name, degrees(pose.tilt.head_down), degrees(pose.tilt.left_down),
-      model.can_tilt(pose.tilt) ? "" : ", which it cannot", g.x, g.y, g.z);
+      "{}",
+      tr("{}: table {:.1f} deg head down, {:.1f} deg left side down{}; gravity in the patient ({:.2f}, {:.2f}, {:.2f}) "
+         "m/s2\n",
+         model.room().name, degrees(pose.tilt.head_down), degrees(pose.tilt.left_down),
+         model.can_tilt(pose.tilt) ? "" : ", which it cannot", g.x, g.y, g.z));
   for (const Json& a : arms)
-    fmt::print("  arm {:12} port {:12} tip ({:7.1f}, {:7.1f}, {:7.1f}) mm, shaft {:.4f} mm beside its port{}\n",
-               a["name"].get<std::string>(), a["port"].get<std::string>(), a["tip_mm"][0].get<double>(),
-               a["tip_mm"][1].get<double>(), a["tip_mm"][2].get<double>(), a["beside_port_mm"].get<double>(),
-               a["beyond_set_up_mm"].get<double>() > 0
-                   ? fmt::format("; its base is {:.0f} mm beyond the reach of its set-up joints",
-                                 a["beyond_set_up_mm"].get<double>())
-                   : "");
+    fmt::print(
+        "{}",
+        tr("  arm {:12} port {:12} tip ({:7.1f}, {:7.1f}, {:7.1f}) mm, shaft {:.4f} mm beside its port{}\n",
+           a["name"].get<std::string>(), a["port"].get<std::string>(), a["tip_mm"][0].get<double>(),
+           a["tip_mm"][1].get<double>(), a["tip_mm"][2].get<double>(), a["beside_port_mm"].get<double>(),
+           a["beyond_set_up_mm"].get<double>() > 0 ? tr("; its base is {:.0f} mm beyond the reach of its set-up joints",
+                                                        a["beyond_set_up_mm"].get<double>())
+                                                   : ""));
   for (const Json& p : people)
     fmt::print("  {:14} {:14} {}\n", p["name"].get<std::string>(), p["role"].get<std::string>(),
                p["beyond_reach_mm"].get<double>() > 0
-                   ? fmt::format("what they hold is {:.0f} mm beyond their reach", p["beyond_reach_mm"].get<double>())
+                   ? tr("what they hold is {:.0f} mm beyond their reach", p["beyond_reach_mm"].get<double>())
                    : "reaches what they hold");
-  fmt::print("  clearance, nearest first (margin {:.1f} mm)\n", 1e3 * model.room().margin);
+  fmt::print("{}", tr("  clearance, nearest first (margin {:.1f} mm)\n", 1e3 * model.room().margin));
   for (const Near& n : near)
     if (n.distance < 0.3)
       fmt::print("    {:24} {:24} {:8.1f} mm{}\n", n.first, n.second, 1e3 * n.distance,
@@ -175,19 +178,19 @@ int answer_motion(const RoomModel& model, const RoomMotion& motion, const std::s
     print(out);
     return r.good() ? core::kDone : core::kGoalNotReached;
   }
-  fmt::print(
-      "{}: {} of {:.2f} s in {} steps\n  shafts at most {:.2g} mm beside their ports, loops open by at most {:.1e} m\n"
-      "  fastest {:.0f} % of what is allowed; least clearance {:.1f} mm at {:.2f} s, {}\n",
-      model.room().name, label, r.length, r.count, 1e3 * r.port_gap, r.loop_gap, 100 * r.most_speed,
-      1e3 * r.least_clearance, r.least_at, r.least_pair);
+  fmt::print("{}", tr("{}: {} of {:.2f} s in {} steps\n  shafts at most {:.2g} mm beside their ports, loops open by at "
+                      "most {:.1e} m\n"
+                      "  fastest {:.0f} % of what is allowed; least clearance {:.1f} mm at {:.2f} s, {}\n",
+                      model.room().name, label, r.length, r.count, 1e3 * r.port_gap, r.loop_gap, 100 * r.most_speed,
+                      1e3 * r.least_clearance, r.least_at, r.least_pair));
   for (std::size_t k = 0; k < std::min(kToldFaults, r.faults.size()); ++k) {
     const MotionFault& f = r.faults[k];
     fmt::print("  {:7.2f} to {:7.2f} s  {}{}: {}\n", f.from, f.to,
                f.arm >= 0 ? model.arms()[std::size_t(f.arm)].described->name + ", " : "", word_of(f.kind), f.words);
   }
   if (r.faults.size() > kToldFaults)
-    fmt::print("  and {} more; --json or --out has them all\n", r.faults.size() - kToldFaults);
-  if (r.good()) fmt::print("  can be done\n");
+    fmt::print("{}", tr("  and {} more; --json or --out has them all\n", r.faults.size() - kToldFaults));
+  if (r.good()) fmt::print("{}", tr("  can be done\n"));
   if (out.contains("report")) fmt::print("  {}\n", out["report"].get<std::string>());
   return r.good() ? core::kDone : core::kGoalNotReached;
 }

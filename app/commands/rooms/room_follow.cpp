@@ -7,6 +7,7 @@
 
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/sim/recording/recording.hpp>
 
 #include "rooms/room_hands.hpp"
@@ -30,7 +31,7 @@ RoomMotion motion_of_recording(const RoomModel& model, const std::string& file, 
   if (motion.moves.empty())
     throw core::BadInput(
         {{{model.room().file, 0, 0},
-          fmt::format("expected an arm at the port of one of the recording's hands ({}), got none", hands.known())}});
+          tr("expected an arm at the port of one of the recording's hands ({}), got none", hands.known())}});
   const double recorded = double(recording->inputs.size() - 1) / double(core::kTicksPerSecond);
   motion.length = seconds > 0 ? std::min(seconds, recorded) : recorded;
   const auto input = [recording](double at) -> const sim::Input& {

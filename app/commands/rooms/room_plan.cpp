@@ -8,6 +8,7 @@
 
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/reports/room_page.hpp>
 #include <trocar/scene/compile/compile.hpp>
@@ -73,8 +74,7 @@ void find_target(const scene::Room& room, const std::string& name, PortPlanOptio
 }
 
 std::string ways_text(const WaysIn& ways) {
-  return fmt::format("{:.0f} % of the ways through {} (up to {:.0f} mm)", 100 * ways.blocked, ways.first,
-                     1e3 * ways.longest);
+  return tr("{:.0f} % of the ways through {} (up to {:.0f} mm)", 100 * ways.blocked, ways.first, 1e3 * ways.longest);
 }
 
 }  // namespace
@@ -175,9 +175,9 @@ int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
     print(out);
     return good ? core::kDone : core::kGoalNotReached;
   }
-  fmt::print("{}: ports about the endoscope's ({}), target ({:.0f}, {:.0f}, {:.0f}) mm; {} places, {} pairs\n",
-             model.room().name, o.scope, 1e3 * plan.target.x, 1e3 * plan.target.y, 1e3 * plan.target.z,
-             plan.candidates.size(), plan.looked_at);
+  fmt::print("{}", tr("{}: ports about the endoscope's ({}), target ({:.0f}, {:.0f}, {:.0f}) mm; {} places, {} pairs\n",
+                      model.room().name, o.scope, 1e3 * plan.target.x, 1e3 * plan.target.y, 1e3 * plan.target.z,
+                      plan.candidates.size(), plan.looked_at));
   fmt::print("  {:>5} {:>5} {:>22} {:>22} {:>7} {:>13} {:>11} {:>11} {:>9}{}\n", "rank", "score", "left mm", "right mm",
              "manip.", "azimuths", "elevations", "levers", "clear mm",
              model.arms().size() >= 2 ? "  arms: reach, clear mm" : "");
@@ -191,14 +191,15 @@ int answer_plan(const RoomModel& model, const RoomWords& words, bool json) {
         1e3 * r.place.z, to_degrees(p.manipulation), to_degrees(l.azimuth), to_degrees(r.azimuth),
         to_degrees(l.elevation), to_degrees(r.elevation), l.lever, r.lever,
         1e3 * std::min(p.clearance, p.patient_clearance),
-        p.with_arms ? fmt::format("  {:.2f}, {:.0f}; bases turned {:.0f}, {:.0f} deg", p.arms_reach,
-                                  1e3 * p.arms_clearance, to_degrees(p.turned[0]), to_degrees(p.turned[1]))
+        p.with_arms ? tr("  {:.2f}, {:.0f}; bases turned {:.0f}, {:.0f} deg", p.arms_reach, 1e3 * p.arms_clearance,
+                         to_degrees(p.turned[0]), to_degrees(p.turned[1]))
                     : "");
     for (const auto& [side, c] : {std::pair{"left", &l}, {"right", &r}})
       if (c->ways.blocked > 0) fmt::print("        {}: {}\n", side, ways_text(c->ways));
   }
   if (plan.sight.blocked > 0) fmt::print("  endoscope: {}\n", ways_text(plan.sight));
-  if (!good) fmt::print("  no pair of places does: none reaches the target, clear of each other and the patient\n");
+  if (!good)
+    fmt::print("{}", tr("  no pair of places does: none reaches the target, clear of each other and the patient\n"));
   if (out.contains("report")) fmt::print("  {}\n", out["report"].get<std::string>());
   return good ? core::kDone : core::kGoalNotReached;
 }

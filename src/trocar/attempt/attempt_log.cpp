@@ -11,6 +11,7 @@
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 
 namespace trocar::attempt {
 
@@ -119,8 +120,8 @@ void AttemptLog::place_recording(const AttemptPlan& plan) {
   if (!plan.record || !m_store) return;
   if (try_to_record(new_recording(m_store->folder() / "recordings", m_attempt))) return;
   if (try_to_record(new_recording(training::own_temporary_folder(), m_attempt)))
-    notice(fmt::format("{} cannot be written: the recording goes to {}", (m_store->folder() / "recordings").string(),
-                       m_attempt.recording));
+    notice(tr("{} cannot be written: the recording goes to {}", (m_store->folder() / "recordings").string(),
+              m_attempt.recording));
   else
     notice("the attempt is not recorded: neither the data folder nor the temporary folder is writable");
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/hand_names.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/interactions/instrument/lever.hpp>
 
 namespace trocar::attempt {
@@ -71,26 +72,25 @@ std::vector<std::string> fluid_account(const sim::Model& model, const sim::State
 std::vector<std::string> patient_in_words(const sim::Model& model, const sim::State& state) {
   if (!model.vessels.there()) return {};
   const vessels::Vitals v = vessels::vitals(model.vessels.flow, state.flow);
-  std::vector<std::string> out{fmt::format("pulse {:.0f}/min, {:.0f}/{:.0f} mmHg", v.rate,
-                                           v.systolic / vessels::kPascalPerMmHg,
-                                           v.diastolic / vessels::kPascalPerMmHg)};
+  std::vector<std::string> out{tr("pulse {:.0f}/min, {:.0f}/{:.0f} mmHg", v.rate, v.systolic / vessels::kPascalPerMmHg,
+                                  v.diastolic / vessels::kPascalPerMmHg)};
   if (model.wet.there) {
     const double gas = state.fluids.gas.pressure;
     const bool low = gas < 0.8 * model.wet.model.insufflator.set;
-    out.push_back(fmt::format("gas in the abdomen {:.0f} mmHg{}", gas / vessels::kPascalPerMmHg, low ? ", low" : ""));
+    out.push_back(tr("gas in the abdomen {:.0f} mmHg{}", gas / vessels::kPascalPerMmHg, low ? ", low" : ""));
   }
   double gain = 1;
   for (const sim::Vessel& vessel : model.vessels.list)
     if (std::fabs(vessel.gain - 1) > std::fabs(gain - 1)) gain = vessel.gain;
-  if (gain != 1) out.push_back(fmt::format("arteries' pulse shown and felt {:g} times", gain));
+  if (gain != 1) out.push_back(tr("arteries' pulse shown and felt {:g} times", gain));
   return out;
 }
 
 std::string lens_in_words(const sim::Model& model, const sim::State& state) {
   const fluids::SmokeState& lens = state.fluids.smoke;
   if (!model.wet.there) return {};
-  if (lens.wipe_left > 0) return fmt::format("lens is being wiped, {:.0f} s", std::ceil(lens.wipe_left));
-  return lens.fog < kFogTold ? std::string() : fmt::format("lens fogged, {:.0f} %", 100 * lens.fog);
+  if (lens.wipe_left > 0) return tr("lens is being wiped, {:.0f} s", std::ceil(lens.wipe_left));
+  return lens.fog < kFogTold ? std::string() : tr("lens fogged, {:.0f} %", 100 * lens.fog);
 }
 
 std::vector<Choosable> choosable(const sim::Model& model, const sim::State& state, int h) {

@@ -8,6 +8,7 @@
 #include <trocar/attempt/free_way.hpp>
 #include <trocar/attempt/press.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/sim/model/bodies.hpp>
 
 namespace trocar::attempt {
@@ -140,10 +141,10 @@ Press plan_press(const sim::Model& model, int organ, double depth) {
   }
   if (blocked.hand >= 0) return blocked;
   throw core::BadInput({{{"--organ", 0, 0},
-                         fmt::format("expected an organ that an instrument can press {:.1f} mm in, got '{}', which no "
-                                     "hand of {} can press: give recorded hands with --hands, or a "
-                                     "smaller --depth",
-                                     1e3 * depth, model.organ_name(organ), model.name)}});
+                         tr("expected an organ that an instrument can press {:.1f} mm in, got '{}', which no "
+                            "hand of {} can press: give recorded hands with --hands, or a "
+                            "smaller --depth",
+                            1e3 * depth, model.organ_name(organ), model.name)}});
 }
 
 PressSource::PressSource(const sim::Model& model, const Press& press)

@@ -7,6 +7,7 @@
 
 #include <trocar/attempt/footage.hpp>
 #include <trocar/attempt/reel.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/sim/recording/shown_difference.hpp>
 #include <trocar/training/store/json_fields.hpp>
@@ -207,8 +208,8 @@ void Reel::note(Explorer& e) {
   }
   if (differs && m_findings.difference.empty()) {
     const std::string told = sim::told_difference(m_lesson.model, m_recording, session.state());
-    m_findings.difference = fmt::format("the repetition differs from the recording at {}{}{}", clock_text(tick),
-                                        told.empty() ? "" : "; ", told);
+    m_findings.difference =
+        tr("the repetition differs from the recording at {}{}{}", clock_text(tick), told.empty() ? "" : "; ", told);
     m_findings.marks.push_back({TimelineMark::Kind::damage, tick, m_findings.difference});
     ++m_version;
     const std::uint64_t agreed = e.next_hash > 0 ? hashes[e.next_hash - 1].tick : 0;
@@ -305,8 +306,8 @@ void Reel::loop_keyframes() {
   }
   const std::lock_guard lock(m_lock);
   if (!footage.sound())
-    m_findings.difference = fmt::format("the keyframes do not fit the present scene, from {} on",
-                                        clock_text(footage.empty() ? 0 : footage.last()));
+    m_findings.difference =
+        tr("the keyframes do not fit the present scene, from {} on", clock_text(footage.empty() ? 0 : footage.last()));
   m_complete.store(true, std::memory_order_release);
   ++m_version;
 }

@@ -10,6 +10,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/training/observe/hands.hpp>
@@ -40,8 +41,8 @@ std::filesystem::path keep_older(const std::filesystem::path& path) {
     kept = path.parent_path() / fmt::format("{}-older-{}{}", path.stem().string(), n, path.extension().string());
   std::filesystem::rename(path, kept, error);
   if (error)
-    throw core::EnvironmentLacks(fmt::format("{} exists and cannot be renamed ({}): record to another file, or move it",
-                                             path.string(), error.message()));
+    throw core::EnvironmentLacks(
+        tr("{} exists and cannot be renamed ({}): record to another file, or move it", path.string(), error.message()));
   core::log::info("{} existed and was renamed to {}", path.string(), kept.string());
   return kept;
 }
@@ -90,9 +91,8 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
   if (m_beside) m_beside->advance(input);
   m_flags |= m_report.flags;
   if (!m_report.fine())
-    m_broken =
-        fmt::format("the tissue's motion failed in tick {} (body {}, node {}): a fault of the simulation", m_state.tick,
-                    sim::name_of(m_lesson.model, m_report.first_bad_body), m_report.first_bad_index);
+    m_broken = tr("the tissue's motion failed in tick {} (body {}, node {}): a fault of the simulation", m_state.tick,
+                  sim::name_of(m_lesson.model, m_report.first_bad_body), m_report.first_bad_index);
   for (size_t t = 0; t < m_lesson.model.hands.size(); ++t) {
     const Vec3d tip = training::tip_of(m_lesson.model, m_state, t);
     m_path[t] += length(tip - m_tip[t]);

@@ -7,6 +7,7 @@
 #include <trocar/attempt/sources.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/training/observe/hands.hpp>
@@ -219,8 +220,8 @@ std::unique_ptr<InputSource> make_source(const Lesson& lesson, const std::string
   if (const std::string file = argument("motion"); !file.empty())
     return std::make_unique<MotionSource>(lesson.model, file);
   if (const std::string file = argument("replay"); !file.empty()) return replay_source(lesson, file);
-  throw core::BadInput({{{"--input", 0, 0},
-                         fmt::format("expected mouse, demo, motion:FILE, replay:FILE or box:PORT, got '{}'", input)}});
+  throw core::BadInput(
+      {{{"--input", 0, 0}, tr("expected mouse, demo, motion:FILE, replay:FILE or box:PORT, got '{}'", input)}});
 }
 
 }  // namespace trocar::attempt

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/pictures/analysis_choice.hpp>
 
 namespace trocar::pictures {
@@ -28,15 +29,14 @@ view::AnalysisOptions parse_analysis(const std::string& text) {
           "expected springs, strain, forces or pressure, got 'solvers', for which another simulation has to "
           "run beside: trocar compare draws it");
     if (known == std::end(kAnalysisQuantities))
-      refuse_analysis(fmt::format("expected springs, strain, forces or pressure, with commas between, got '{}'", item));
+      refuse_analysis(tr("expected springs, strain, forces or pressure, with commas between, got '{}'", item));
     options.*known->shown = true;
     if (colon == std::string::npos) continue;
     double range = 0;
     char rest = 0;
     const bool read = std::sscanf(item.c_str() + colon, ":%lf%c", &range, &rest) == 1;
     if (!read || !(range >= known->least && range <= known->most))
-      refuse_analysis(
-          fmt::format("expected {}:RANGE from {:g} to {:g}, got '{}'", name, known->least, known->most, item));
+      refuse_analysis(tr("expected {}:RANGE from {:g} to {:g}, got '{}'", name, known->least, known->most, item));
     options.*known->range = range * known->unit;
   }
   return options;

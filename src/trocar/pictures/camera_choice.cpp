@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/pictures/camera_choice.hpp>
 
@@ -32,9 +33,9 @@ CameraChoice parse_camera(const std::string& text) {
       std::fabs(yaw) <= 360 && std::fabs(pitch) <= 88 && distance >= kNearest_mm && distance <= kFarthest_mm;
   if (!read || !good)
     throw core::BadInput({{{"--camera", 0, 0},
-                           fmt::format("expected endoscope, front, side, above, surgeon or free:YAW,PITCH,DISTANCE "
-                                       "(-360..360 deg, -88..88 deg, {:.0f}..{:.0f} mm), got '{}'",
-                                       kNearest_mm, kFarthest_mm, text)}});
+                           tr("expected endoscope, front, side, above, surgeon or free:YAW,PITCH,DISTANCE "
+                              "(-360..360 deg, -88..88 deg, {:.0f}..{:.0f} mm), got '{}'",
+                              kNearest_mm, kFarthest_mm, text)}});
   return outside(yaw, pitch, distance);
 }
 

@@ -5,6 +5,7 @@
 
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/pictures/data_frames.hpp>
 #include <trocar/pictures/npy.hpp>
@@ -18,7 +19,7 @@ Json list(Vec3d v) { return {v.x, v.y, v.z}; }
 
 std::ofstream opened(const std::filesystem::path& path) {
   std::ofstream out(path);
-  if (!out) throw core::EnvironmentLacks(fmt::format("cannot write {}: is the folder writable?", path.string()));
+  if (!out) throw core::EnvironmentLacks(tr("cannot write {}: is the folder writable?", path.string()));
   return out;
 }
 
@@ -55,9 +56,8 @@ Json instruments_of(const sim::Model& model, const sim::State& state) {
 
 void check_data_rate(double rate) {
   if (rate >= kLeastDataRate && rate <= kMostDataRate) return;
-  throw core::BadInput(
-      {{{"--data-rate", 0, 0},
-        fmt::format("expected {:g} to {:g} frames a second, got {:g}", kLeastDataRate, kMostDataRate, rate)}});
+  throw core::BadInput({{{"--data-rate", 0, 0},
+                         tr("expected {:g} to {:g} frames a second, got {:g}", kLeastDataRate, kMostDataRate, rate)}});
 }
 
 DataFrames::DataFrames(const sim::Model& model, DataOptions options, PictureSize size, const PictureLook& look)
@@ -141,8 +141,7 @@ void DataFrames::add(const sim::State& state, const view::ViewOptions& options) 
   line["cameras"] = cameras;
   line["instruments"] = instruments_of(m_model, state);
   m_list << line.dump() << std::endl;  // flushed: what is there stays
-  if (!m_list)
-    throw core::EnvironmentLacks(fmt::format("cannot write {}: is the disk full?", m_options.folder.string()));
+  if (!m_list) throw core::EnvironmentLacks(tr("cannot write {}: is the disk full?", m_options.folder.string()));
   while (due(state.tick)) m_next += m_period;
 }
 

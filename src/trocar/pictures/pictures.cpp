@@ -6,6 +6,7 @@
 
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/pictures/pictures.hpp>
 #include <trocar/render/gl/gl_context.hpp>
 
@@ -116,7 +117,7 @@ void Shots::write(const sim::State& state, const std::string& what, const std::s
 void Shots::write_index() const {
   std::ofstream out(index_file());
   out << Json{{"pictures", m_index}, {"left_out", m_left_out}}.dump(2) << '\n';
-  if (!out.flush()) throw core::EnvironmentLacks(fmt::format("cannot write {}: is the disk full?", index_file()));
+  if (!out.flush()) throw core::EnvironmentLacks(tr("cannot write {}: is the disk full?", index_file()));
 }
 
 }  // namespace trocar::pictures

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/pictures/shown_parts.hpp>
 
 namespace trocar::pictures {
@@ -34,7 +35,7 @@ ShownParts parse_show(const std::string& text) {
     const std::string style = equal == std::string::npos ? "" : item.substr(equal + 1);
     const auto known = std::find(std::begin(kStyles), std::end(kStyles), style);
     if (known == std::end(kStyles) || equal == 0)
-      refuse_parts(fmt::format("expected PART=STYLE with STYLE one of {}, got '{}'", fmt::join(kStyles, ", "), item));
+      refuse_parts(tr("expected PART=STYLE with STYLE one of {}, got '{}'", fmt::join(kStyles, ", "), item));
     shown.push_back({item.substr(0, equal), PartStyle(known - std::begin(kStyles))});
   }
   return shown;
@@ -50,7 +51,7 @@ std::vector<PartStyle> styles_of(const ShownParts& shown, const std::vector<view
     if (found) continue;
     std::vector<std::string> names(std::begin(kGroups), std::end(kGroups));
     for (const view::ScenePart& p : parts) names.push_back(p.name);
-    refuse_parts(fmt::format("expected a part of the scene ({}), got '{}'", fmt::join(names, ", "), name));
+    refuse_parts(tr("expected a part of the scene ({}), got '{}'", fmt::join(names, ", "), name));
   }
   return styles;
 }

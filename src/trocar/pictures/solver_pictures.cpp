@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/free_way.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/pictures/pictures.hpp>
 #include <trocar/pictures/solver_pictures.hpp>
@@ -75,12 +76,12 @@ std::vector<SolverPicture> draw_solvers(const attempt::SolverPair& pair, const a
     render::write_png((folder / file).string(), pictures.still(comparison.dynamic_state(), look));
     drawn.push_back({file, std::move(text)});
   };
-  add("plain.png", fmt::format("as the dynamic solver has it, {:.2f} s", worst.seconds));
+  add("plain.png", tr("as the dynamic solver has it, {:.2f} s", worst.seconds));
   look.beside = beside_of(pair.at_once->model, comparison.static_state(), pair.organ);
   look.analysis.solvers = true;
   look.analysis.apart_most = round_up(worst.largest);
-  add("apart.png", fmt::format("the same in colours of the distance, up to {:.2f} mm, with the static one's outline",
-                               1e3 * worst.largest));
+  add("apart.png",
+      tr("the same in colours of the distance, up to {:.2f} mm, with the static one's outline", 1e3 * worst.largest));
   return drawn;
 }
 

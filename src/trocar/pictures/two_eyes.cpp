@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/pictures/two_eyes.hpp>
 
 namespace trocar::pictures {
@@ -31,9 +32,9 @@ TwoEyes parse_stereo(const std::string& text) {
   if (!good || !known)
     throw core::BadInput(
         {{{"--stereo", 0, 0},
-          fmt::format("expected one of {}, with :BASE,CONVERGENCE if wanted ({:g} to {:g} mm between "
-                      "the eyes, {:g} to {:g} mm to what lies on the screen), got '{}'",
-                      fmt::join(names, ", "), kLeastBase, kMostBase, kLeastConvergence, kMostConvergence, text)}});
+          tr("expected one of {}, with :BASE,CONVERGENCE if wanted ({:g} to {:g} mm between "
+             "the eyes, {:g} to {:g} mm to what lies on the screen), got '{}'",
+             fmt::join(names, ", "), kLeastBase, kMostBase, kLeastConvergence, kMostConvergence, text)}});
   eyes.eyes = {float(1e-3 * base), float(1e-3 * convergence)};
   return eyes;
 }

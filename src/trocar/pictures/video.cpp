@@ -13,6 +13,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/pictures/video.hpp>
 
 extern char** environ;
@@ -49,8 +50,7 @@ struct Child {
 /// Starts ffmpeg. `to_it`: we write to its standard input; otherwise we read its standard output.
 Child start_ffmpeg(std::vector<std::string> words, bool to_it) {
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0)
-    throw core::EnvironmentLacks(fmt::format("cannot start ffmpeg: {}", std::strerror(errno)));
+  if (pipe2(ends, O_CLOEXEC) != 0) throw core::EnvironmentLacks(tr("cannot start ffmpeg: {}", std::strerror(errno)));
   words.insert(words.begin(), {"ffmpeg", "-hide_banner"});
   std::vector<char*> arguments;
   for (std::string& w : words) arguments.push_back(w.data());
@@ -72,7 +72,7 @@ Child start_ffmpeg(std::vector<std::string> words, bool to_it) {
   child.pipe = ends[to_it ? 1 : 0];
   if (error == 0) return child;
   close(child.pipe);
-  throw core::EnvironmentLacks(fmt::format("no film: the program ffmpeg is missing; {}", kInstall));
+  throw core::EnvironmentLacks(tr("no film: the program ffmpeg is missing; {}", kInstall));
 }
 
 int status_of(pid_t process) {
@@ -104,8 +104,8 @@ std::vector<std::string> h264_encoder() {
   };
   if (has("libx264")) return {"libx264", "-preset", "veryfast", "-crf", "18"};
   if (has("libopenh264")) return {"libopenh264", "-b:v", "6M"};
-  throw core::EnvironmentLacks(fmt::format(
-      "no film: this ffmpeg has no H.264 encoder (libx264 or libopenh264); one of Debian has: {}", kInstall));
+  throw core::EnvironmentLacks(
+      tr("no film: this ffmpeg has no H.264 encoder (libx264 or libopenh264); one of Debian has: {}", kInstall));
 }
 
 /// Makes the file, so that a missing folder or right is reported now.
@@ -113,7 +113,7 @@ void make_empty(const fs::path& path) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (!file)
     throw core::EnvironmentLacks(
-        fmt::format("cannot write the film {}: {}; choose another place", path.string(), std::strerror(errno)));
+        tr("cannot write the film {}: {}; choose another place", path.string(), std::strerror(errno)));
   std::fclose(file);
 }
 
@@ -124,7 +124,7 @@ std::unique_ptr<Video> Video::open(const fs::path& path, PictureSize size) {
   const std::vector<std::string> encoder = h264_encoder();
   std::error_code error;
   if (fs::is_directory(path, error))
-    throw core::EnvironmentLacks(fmt::format("cannot write the film {}: it is a folder", path.string()));
+    throw core::EnvironmentLacks(tr("cannot write the film {}: it is a folder", path.string()));
   const fs::path part = fs::absolute(path).string() + ".part";  // absolute: never an option, never a protocol
   make_empty(part);
   std::vector<std::string> words{"-y", "-loglevel", "error", "-f", "rawvideo", "-pixel_format", "rgb24"};

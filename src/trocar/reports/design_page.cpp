@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/reports/design_page.hpp>
 #include <trocar/reports/page_template.hpp>
@@ -46,7 +47,7 @@ std::string histogram(const Statistics& s, const TolerancePage& page) {
   Plot plot;
   plot.id = "histogram";
   plot.title = "Histogram of the deviation from nominal";
-  plot.description = fmt::format("{} samples in {} bins", s.samples - s.open, s.bins.size());
+  plot.description = tr("{} samples in {} bins", s.samples - s.open, s.bins.size());
   plot.x_label = "deviation [" + page.unit + "]";
   plot.y_label = "samples";
   plot.series = {steps};
@@ -152,11 +153,11 @@ std::string tolerance_html(const ToleranceStudy& study, const Statistics& s, con
   for (const Misfit& x : study.misfits())
     misfits += (misfits.empty() ? "" : ", ") + m.parameters[std::size_t(x.parameter)].name;
   std::vector<std::string> lead{
-      fmt::format("{}: what errors of {} dimensions do to the {}. {} samples, {} of which did "
-                  "not close.",
-                  m.name, l.ranked.size(), page.measured, s.samples, s.open)};
+      tr("{}: what errors of {} dimensions do to the {}. {} samples, {} of which did "
+         "not close.",
+         m.name, l.ranked.size(), page.measured, s.samples, s.open)};
   if (std::isfinite(page.limits.high))
-    lead.push_back(fmt::format("Yield: {:.3f} % are within {}.", 100 * s.yield, shown(page.limits.high)));
+    lead.push_back(tr("Yield: {:.3f} % are within {}.", 100 * s.yield, shown(page.limits.high)));
   return page_of(m.name + ": tolerances", lead,
                  Json::array({section("Deviation from nominal", histogram(s, page), "",
                                       table("", {"", "first order", "Monte Carlo"}, figures)),
@@ -171,7 +172,7 @@ std::string tolerance_html(const ToleranceStudy& study, const Statistics& s, con
 }
 
 std::string clearance_html(const Mechanism& m, const ClearanceReport& r) {
-  std::vector<std::string> lead{fmt::format("{} poses, {} of them closed and within limits.", r.poses, r.reached)};
+  std::vector<std::string> lead{tr("{} poses, {} of them closed and within limits.", r.poses, r.reached)};
   if (!r.pairs.empty())
     lead.push_back(fmt::format("{} {} at {:.4f} mm.", pair_name(m, r.pairs[0]),
                                r.least < 0 ? "are deepest in each other" : "come nearest", 1e3 * r.least));
@@ -201,11 +202,10 @@ std::string optimise_html(const Mechanism& m, const OptimiseResult& r, double wi
            curve(r.after, r.after.pairs[0], "after: " + pair_name(m, r.after.pairs[0]), 0)};
   return page_of(
       m.name + ": dimensions for clearance",
-      {fmt::format("{}: least clearance {} before, {} after; {:.4f} mm were asked for.",
-                   r.free ? "Free of collisions" : "Not what was asked for", least(r.before), least(r.after),
-                   1e3 * wish),
-       fmt::format("The frame's range is {:.1f} % of what it was. {} mechanisms tried from {} starts.",
-                   r.range_before > 0 ? 100 * r.range_after / r.range_before : 100, r.evaluations, r.starts)},
+      {tr("{}: least clearance {} before, {} after; {:.4f} mm were asked for.",
+          r.free ? "Free of collisions" : "Not what was asked for", least(r.before), least(r.after), 1e3 * wish),
+       tr("The frame's range is {:.1f} % of what it was. {} mechanisms tried from {} starts.",
+          r.range_before > 0 ? 100 * r.range_after / r.range_before : 100, r.evaluations, r.starts)},
       Json::array({section("Dimensions", all.empty() ? "" : curves(r.after, all, "before-after"), legend(all),
                            table("", {"dimension", "before", "after", "bounds"}, lines)),
                    clearance_section(m, r.after)}));
@@ -215,7 +215,7 @@ std::string write_design_page(const std::filesystem::path& folder, const std::st
   const std::filesystem::path page = folder / "index.html";
   std::ofstream out(page, std::ios::binary);
   out << html;
-  if (!out.flush()) throw core::EnvironmentLacks(fmt::format("cannot write {}: is the disk full?", page.string()));
+  if (!out.flush()) throw core::EnvironmentLacks(tr("cannot write {}: is the disk full?", page.string()));
   return page.string();
 }
 

@@ -67,7 +67,7 @@ Text section(Text& rest, Text name) {
   for (int depth = 1;;) {
     const Text here = rest;
     const Tag tag = next_tag(rest, here.data() == all.data());
-    if (tag.kind == 0) throw std::logic_error(fmt::format("a page's template: section '{}' is not closed", name));
+    if (tag.kind == 0) throw std::logic_error(tr("a page's template: section '{}' is not closed", name));
     if (tag.name != name) continue;
     depth += tag.kind == '#' || tag.kind == '^' ? 1 : tag.kind == '/' ? -1 : 0;
     if (depth == 0) return all.substr(0, std::size_t(tag.before.data() + tag.before.size() - all.data()));
@@ -148,7 +148,7 @@ void fill_into(std::string& out, Text page, Scopes& scopes) {
         fill_into(out, page_text(tag.name), scopes);
         break;
       case '/':
-        throw std::logic_error(fmt::format("a page's template: section '{}' ends before it begins", tag.name));
+        throw std::logic_error(tr("a page's template: section '{}' ends before it begins", tag.name));
       default:  // only text, or words for people
         break;
     }
@@ -160,7 +160,7 @@ void fill_into(std::string& out, Text page, Scopes& scopes) {
 std::string_view page_text(std::string_view name) {
   for (const PageText& page : page_texts())
     if (page.name == name) return page.text;
-  throw std::logic_error(fmt::format("there is no page '{}'", name));
+  throw std::logic_error(tr("there is no page '{}'", name));
 }
 
 std::string fill(std::string_view page, const Json& data) {

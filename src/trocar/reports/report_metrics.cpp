@@ -97,9 +97,8 @@ class Rows {
   void add(const Row& row, const std::string& pointer, bool per_hand) {
     Json cells = Json::array();
     for (std::size_t h = 0; h < m_hands; ++h)
-      cells.push_back(
-          per_hand ? number(number_in(m_report.result, fmt::format("/metrics/hands/{}/{}", h, row.key)), row.scale)
-                   : "");
+      cells.push_back(per_hand ? number(number_in(m_report.result, tr("/metrics/hands/{}/{}", h, row.key)), row.scale)
+                               : "");
     cells.push_back(number(number_in(m_report.result, pointer), row.scale));
     if (!m_earlier.results.empty()) cells.push_back(spread(m_earlier.all(pointer), row.scale));
     if (m_scripted) cells.push_back(number(number_in(*m_scripted, pointer), row.scale));

@@ -171,7 +171,7 @@ Json forces(const Report& r, const std::vector<double>& t) {
       continue;
     }
     p.description = tr("At most {:.2f} N.", most);
-    if (const auto limit = number_in(r.result, fmt::format("/metrics/both/forces/{}/limit_N", k.key)))
+    if (const auto limit = number_in(r.result, tr("/metrics/both/forces/{}/limit_N", k.key)))
       if (*limit < 4 * most) p.levels = {{*limit, tr("limit {:.3g} N", *limit)}};
     p.marks = error_marks(r.result);
     out.push_back({{"name", tr(k.title)}, {"what", tr(k.what)}, {"drawing", svg(p)}});

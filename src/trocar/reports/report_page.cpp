@@ -5,6 +5,7 @@
 #include <trocar/attempt/paths.hpp>
 #include <trocar/attempt/session.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/reports/page_template.hpp>
 #include <trocar/reports/report_data.hpp>
 #include <trocar/reports/report_page.hpp>
@@ -26,7 +27,7 @@ std::string write_report(const fs::path& folder, const Report& report) {
   const fs::path path = folder / "index.html";
   std::ofstream out(path, std::ios::binary);
   out << report_html(here);
-  if (!out.flush()) throw core::EnvironmentLacks(fmt::format("cannot write {}: is the disk full?", path.string()));
+  if (!out.flush()) throw core::EnvironmentLacks(tr("cannot write {}: is the disk full?", path.string()));
   return path.string();
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/reports/design_page.hpp>
 #include <trocar/reports/page_template.hpp>
 #include <trocar/reports/report_svg.hpp>
@@ -74,20 +75,19 @@ std::string motion_html(const RoomModel& model, const MotionReport& r, const std
   sections.push_back({{"heading", "Clearance"},
                       {"drawing", svg(clear)},
                       {"legend", legend(clear.series)},
-                      {"note", fmt::format("Least: {:.1f} mm at {:.2f} s, {}. More than {:.0f} mm is drawn as that.",
-                                           1e3 * r.least_clearance, r.least_at, r.least_pair, 1e3 * kShownClearance)}});
+                      {"note", tr("Least: {:.1f} mm at {:.2f} s, {}. More than {:.0f} mm is drawn as that.",
+                                  1e3 * r.least_clearance, r.least_at, r.least_pair, 1e3 * kShownClearance)}});
   const Plot speed = over_time(model, r, "speed", "Speed of the fastest coordinate, of what is allowed", "share",
                                [](const MotionStep::Arm& a) { return a.speed; });
   sections.push_back({{"heading", "Speed"}, {"drawing", svg(speed)}, {"legend", legend(speed.series)}});
-  return fill(
-      page_text("design.html"),
-      {{"title", fmt::format("{}: {}", model.room().name, led_by)},
-       {"lead",
-        {fmt::format("{:.2f} s in {} steps: {}.", r.length, r.count, r.good() ? "it can be done" : "it cannot be done"),
-         fmt::format("Shafts pass their ports by at most {:.2g} mm; loops stand open by at most {:.1e} m.",
-                     1e3 * r.port_gap, r.loop_gap)}},
-       {"sections", std::move(sections)},
-       {"version", TROCAR_VERSION}});
+  return fill(page_text("design.html"),
+              {{"title", fmt::format("{}: {}", model.room().name, led_by)},
+               {"lead",
+                {tr("{:.2f} s in {} steps: {}.", r.length, r.count, r.good() ? "it can be done" : "it cannot be done"),
+                 tr("Shafts pass their ports by at most {:.2g} mm; loops stand open by at most {:.1e} m.",
+                    1e3 * r.port_gap, r.loop_gap)}},
+               {"sections", std::move(sections)},
+               {"version", TROCAR_VERSION}});
 }
 
 std::string plan_html(const RoomModel& model, const PortPlan& plan, const std::vector<RoomPicture>& pictures) {
@@ -121,10 +121,10 @@ std::string plan_html(const RoomModel& model, const PortPlan& plan, const std::v
         "Best are a manipulation angle of 60 degrees, equal azimuths and an elevation of 60 degrees (Hanna, Shimi and "
         "Cuschieri 1997); the cost of a departure is our estimate."}});
   return fill(page_text("design.html"),
-              {{"title", fmt::format("{}: where to put ports", model.room().name)},
+              {{"title", tr("{}: where to put ports", model.room().name)},
                {"lead",
-                {fmt::format("{} places on the skin, {} pairs; target at {} mm, endoscope at {} mm.",
-                             plan.candidates.size(), plan.looked_at, at(plan.target), at(plan.scope))}},
+                {tr("{} places on the skin, {} pairs; target at {} mm, endoscope at {} mm.", plan.candidates.size(),
+                    plan.looked_at, at(plan.target), at(plan.scope))}},
                {"sections", std::move(sections)},
                {"version", TROCAR_VERSION}});
 }

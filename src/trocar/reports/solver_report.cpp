@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/reports/page_template.hpp>
 #include <trocar/reports/report_svg.hpp>
 #include <trocar/reports/solver_report.hpp>
@@ -75,8 +76,7 @@ Json page_data(const SolverReport& r) {
   Json rows = Json::array({row(held, r.summary.held), row("where both are farthest apart", r.summary.worst)});
   Json presses = Json::array(), pictures = Json::array();
   for (const SolverPress& p : r.presses)
-    presses.push_back(
-        row(fmt::format("{:.0f} % of its size, {:.1f} mm", 100 * p.share, 1e3 * p.depth), p.summary.held));
+    presses.push_back(row(tr("{:.0f} % of its size, {:.1f} mm", 100 * p.share, 1e3 * p.depth), p.summary.held));
   for (const pictures::SolverPicture& p : r.pictures) pictures.push_back({{"file", p.file}, {"text", p.text}});
   return {{"organ", r.organ},
           {"scene", r.scene},
@@ -93,7 +93,7 @@ Json page_data(const SolverReport& r) {
 void write_file(const std::filesystem::path& path, const std::string& text) {
   std::ofstream out(path, std::ios::binary);
   out << text;
-  if (!out.flush()) throw core::EnvironmentLacks(fmt::format("cannot write {}: is the disk full?", path.string()));
+  if (!out.flush()) throw core::EnvironmentLacks(tr("cannot write {}: is the disk full?", path.string()));
 }
 
 }  // namespace

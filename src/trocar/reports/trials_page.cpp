@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/reports/page_template.hpp>
 #include <trocar/reports/report_svg.hpp>
 #include <trocar/reports/trials_page.hpp>
@@ -34,7 +35,7 @@ std::string slope(double value) { return std::isfinite(value) ? typeset(fmt::for
 /// The figure and, smaller, its range.
 std::string with_range(const training::Ranged& r, std::string (*shown)(double)) {
   if (!std::isfinite(r.low)) return shown(r.value);
-  return fmt::format("{} <small>({} … {})</small>", shown(r.value), shown(r.low), shown(r.high));
+  return tr("{} <small>({} … {})</small>", shown(r.value), shown(r.low), shown(r.high));
 }
 
 std::string heading(const MetricStudy& m) {

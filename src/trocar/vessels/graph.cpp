@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/vessels/connected.hpp>
 #include <trocar/vessels/graph.hpp>
@@ -31,12 +32,10 @@ struct Faults {
              bool open = false) {
     if (value <= high && (open ? value > low : value >= low)) return;
     add(part, index, field,
-        fmt::format("expected {} {} and at most {} {}, got {}", open ? "more than" : "at least", low, high, unit,
-                    value));
+        tr("expected {} {} and at most {} {}, got {}", open ? "more than" : "at least", low, high, unit, value));
   }
   void node(Part part, int index, const char* field, int value, int nodes) {
-    if (value < 0 || value >= nodes)
-      add(part, index, field, fmt::format("expected a node, 0 to {}, got {}", nodes - 1, value));
+    if (value < 0 || value >= nodes) add(part, index, field, tr("expected a node, 0 to {}, got {}", nodes - 1, value));
   }
 };
 
@@ -58,7 +57,7 @@ void check_segments(const VesselGraph& graph, Faults& faults) {
     faults.node(Part::segment, i, "from", s.from, graph.nodes);
     faults.node(Part::segment, i, "to", s.to, graph.nodes);
     if (s.from == s.to && there(s.from, graph))
-      faults.add(Part::segment, i, "to", fmt::format("expected another node than it comes from, got {} again", s.to));
+      faults.add(Part::segment, i, "to", tr("expected another node than it comes from, got {} again", s.to));
     faults.range(Part::segment, i, "length", s.length, 1e-5, 5, "m");
     faults.range(Part::segment, i, "radius", s.radius, 1e-6, 0.05, "m");
     if (s.radius_to != 0) faults.range(Part::segment, i, "radius_to", s.radius_to, 1e-6, 0.05, "m");
@@ -76,7 +75,7 @@ void check_ends(const VesselGraph& graph, Faults& faults) {
     faults.range(Part::end, i, "r_far", e.r_far, 0, 1e18, "Pa s/m^3");
     if (!(e.r_near + e.r_far >= 1e3))
       faults.add(Part::end, i, "r_near",
-                 fmt::format("expected r_near + r_far of at least 1000 Pa s/m^3, got {}", e.r_near + e.r_far));
+                 tr("expected r_near + r_far of at least 1000 Pa s/m^3, got {}", e.r_near + e.r_far));
     faults.range(Part::end, i, "compliance", e.compliance, 0, 1, "m^3/Pa");
     faults.range(Part::end, i, "pressure", e.pressure, -1e5, 1e6, "Pa");
   }
@@ -91,10 +90,10 @@ void check_sources(const VesselGraph& graph, Faults& faults) {
     faults.range(Part::source, i, "pressure", s.pressure, -1e5, 1e6, "Pa");
     if (s.kind != VesselSource::Kind::pump) continue;
     if (s.wave.size() < 2 || s.wave.size() > 100'000)
-      faults.add(Part::source, i, "wave", fmt::format("expected 2 to 100000 figures, got {}", s.wave.size()));
+      faults.add(Part::source, i, "wave", tr("expected 2 to 100000 figures, got {}", s.wave.size()));
     for (const double q : s.wave)
       if (!(q >= -1 && q <= 1)) {
-        faults.add(Part::source, i, "wave", fmt::format("expected flows within 1 m^3/s, got {}", q));
+        faults.add(Part::source, i, "wave", tr("expected flows within 1 m^3/s, got {}", q));
         break;
       }
   }
@@ -108,11 +107,11 @@ void check_heart(const Heart& h, Faults& faults) {
   faults.range(Part::heart, -1, "arterial_swing", h.arterial_swing, 0, 1e4, "Pa");
   faults.range(Part::heart, -1, "venous_swing", h.venous_swing, 0, 1e4, "Pa");
   if (h.shape.size() == 1 || h.shape.size() > 100'000)
-    faults.add(Part::heart, -1, "shape", fmt::format("expected none or 2 to 100000 figures, got {}", h.shape.size()));
+    faults.add(Part::heart, -1, "shape", tr("expected none or 2 to 100000 figures, got {}", h.shape.size()));
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const double w : h.shape) {
     if (!(w >= -1e9 && w <= 1e9)) {
-      faults.add(Part::heart, -1, "shape", fmt::format("expected figures within 1e9, got {}", w));
+      faults.add(Part::heart, -1, "shape", tr("expected figures within 1e9, got {}", w));
       return;
     }
     low = w < low ? w : low, high = w > high ? w : high;
@@ -168,14 +167,14 @@ void check_connections(const VesselGraph& graph, Faults& faults) {
     const VesselSegment& s = graph.segments[i];
     if (!there(s.from, graph) || !there(s.to, graph) || s.from == s.to) continue;
     if (!sets.join(s.from, s.to) && graph.tree)
-      faults.add(Part::segment, i, "to", fmt::format("expected a tree, but this closes a cycle at node {}", s.to));
+      faults.add(Part::segment, i, "to", tr("expected a tree, but this closes a cycle at node {}", s.to));
   }
   std::vector<char> met(std::size_t(graph.nodes), 0);
   for (const VesselSegment& s : graph.segments)
     for (const int node : {s.from, s.to})
       if (there(node, graph)) met[node] = 1;
   for (int i = 0; i < graph.nodes; ++i)
-    if (!met[i]) faults.add(Part::graph, i, "nodes", fmt::format("expected every node in a segment, {} is in none", i));
+    if (!met[i]) faults.add(Part::graph, i, "nodes", tr("expected every node in a segment, {} is in none", i));
   std::vector<char> fed(std::size_t(graph.nodes), 0);
   for (const VesselSource& s : graph.sources)
     if (there(s.node, graph)) fed[sets.root(s.node)] = 1;
@@ -183,7 +182,7 @@ void check_connections(const VesselGraph& graph, Faults& faults) {
     const VesselSegment& s = graph.segments[i];
     if (!there(s.from, graph) || !there(s.to, graph) || fed[sets.root(s.from)]) continue;
     fed[sets.root(s.from)] = 1;  // once for each part
-    faults.add(Part::segment, i, "from", fmt::format("expected a way to a source, node {} has none", s.from));
+    faults.add(Part::segment, i, "from", tr("expected a way to a source, node {} has none", s.from));
   }
 }
 
@@ -195,11 +194,11 @@ std::vector<GraphFault> check(const VesselGraph& graph) {
   Faults faults;
   if (graph.segments.size() > kMaxSegments || graph.nodes > int(kMaxSegments) + 1) {
     faults.add(Part::graph, -1, "segments",
-               fmt::format("expected at most {} segments and {} nodes, got {} and {}", kMaxSegments, kMaxSegments + 1,
-                           graph.segments.size(), graph.nodes));
+               tr("expected at most {} segments and {} nodes, got {} and {}", kMaxSegments, kMaxSegments + 1,
+                  graph.segments.size(), graph.nodes));
     return faults.told;  // nobody reads on through a million of them
   }
-  if (graph.nodes < 2) faults.add(Part::graph, -1, "nodes", fmt::format("expected at least 2, got {}", graph.nodes));
+  if (graph.nodes < 2) faults.add(Part::graph, -1, "nodes", tr("expected at least 2, got {}", graph.nodes));
   if (graph.segments.empty()) faults.add(Part::graph, -1, "segments", "expected at least one, got none");
   check_segments(graph, faults);
   check_ends(graph, faults);
@@ -207,7 +206,7 @@ std::vector<GraphFault> check(const VesselGraph& graph) {
   check_heart(graph.heart, faults);
   check_settings(graph, faults);
   if (graph.nodes >= 2) check_connections(graph, faults);
-  if (faults.untold) faults.told.push_back({Part::graph, -1, "", fmt::format("and {} more faults", faults.untold)});
+  if (faults.untold) faults.told.push_back({Part::graph, -1, "", tr("and {} more faults", faults.untold)});
   return faults.told;
 }
 

@@ -6,6 +6,7 @@
 #include <trocar/attempt/box/box_file.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/devices/box/box_time.hpp>
 #include <trocar/devices/box/frames.hpp>
 #include <trocar/devices/box/serial_port.hpp>
@@ -116,7 +117,7 @@ class Taken {
   void take(const scene::JsonObject& o, const char* key, int number) {
     const std::uint64_t mask = std::uint64_t(1) << number;
     if ((m_taken & mask) != 0)
-      o.fault(key, fmt::format("expected a {} that is free, got {}, which is wired already", m_what, number));
+      o.fault(key, tr("expected a {} that is free, got {}, which is wired already", m_what, number));
     m_taken |= mask;
   }
 
@@ -129,7 +130,7 @@ class WiringReader {
  public:
   void read(const scene::JsonObject& o, BoxWiring& w) {
     w.baud = o.integer("baud", w.baud);
-    if (!devices::known_baud(w.baud)) o.fault("baud", fmt::format("expected a usual rate, got {}", w.baud));
+    if (!devices::known_baud(w.baud)) o.fault("baud", tr("expected a usual rate, got {}", w.baud));
     w.rate = o.number("rate_hz", w.rate);
     w.raw = o.text("protocol", "framed") == "raw";
     w.from_placed = o.text("zero", "placed") == "placed";
@@ -142,7 +143,7 @@ class WiringReader {
       if (bit == std::floor(bit))
         w.inverted |= 1u << int(bit);
       else
-        o.fault("closed_is_low", fmt::format("expected whole numbers, got {}", bit));
+        o.fault("closed_is_low", tr("expected whole numbers, got {}", bit));
     }
     check_rate(o, w);
   }
@@ -154,7 +155,7 @@ class WiringReader {
       const auto found = std::find(devices::kBoxActorNames.begin(), devices::kBoxActorNames.end(), name);
       if (name.empty() || found == devices::kBoxActorNames.end()) continue;  // told already
       const auto number = std::size_t(found - devices::kBoxActorNames.begin());
-      if (w.has(BoxActor(number))) hand.fault("hand", fmt::format("expected each hand once, got \"{}\" again", name));
+      if (w.has(BoxActor(number))) hand.fault("hand", tr("expected each hand once, got \"{}\" again", name));
       read_axes(hand, BoxActor(number), w);
       for (std::size_t b = 0; b < devices::kBoxButtons; ++b)
         read_bit(hand, devices::kBoxButtonNames[b], w.buttons[number][b]);
@@ -178,13 +179,13 @@ class WiringReader {
     const scene::NumberTable rows = o.table(unit.key);
     devices::AxisTable table;
     if (rows.columns != 2)
-      return o.fault(unit.key, fmt::format("expected rows of a code and a value, got {} columns", rows.columns));
+      return o.fault(unit.key, tr("expected rows of a code and a value, got {} columns", rows.columns));
     for (std::size_t row = 0; row < rows.rows; ++row) {
       table.codes.push_back(rows.values[2 * row]);
       table.values.push_back(rows.values[2 * row + 1] / unit.per_ours);
     }
     if (const std::string wrong = devices::unfit(table); !wrong.empty())
-      return o.fault(unit.key, fmt::format("expected {}, got another table", wrong));
+      return o.fault(unit.key, tr("expected {}, got another table", wrong));
     axis = {o.integer("channel"), std::move(table)};
     m_channels.take(o, "channel", axis.channel);
   }
@@ -194,8 +195,8 @@ class WiringReader {
     const std::size_t bytes = w.raw ? devices::kRawBlockBytes : devices::data_size(w.mask());
     const double most = 1 / devices::box_seconds(devices::time_on_line(bytes, w.baud));
     if (w.rate > most)
-      o.fault("rate_hz", fmt::format("expected at most {:.1f}, as a block of {} bytes takes {:.2f} ms at {} Bd, got {}",
-                                     most, bytes, 1000 / most, w.baud, w.rate));
+      o.fault("rate_hz", tr("expected at most {:.1f}, as a block of {} bytes takes {:.2f} ms at {} Bd, got {}", most,
+                            bytes, 1000 / most, w.baud, w.rate));
   }
 
   Taken m_channels{"channel"}, m_bits{"bit"};

@@ -9,6 +9,7 @@
 #include <trocar/attempt/hand_names.hpp>
 #include <trocar/attempt/sources.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/core/tick.hpp>
 
 namespace trocar::attempt {
@@ -163,9 +164,9 @@ void BoxSource::wait_for_first() {
   while (!m_leader.bridge().any()) {
     if (devices::box_now() > until)
       throw core::EnvironmentLacks(
-          fmt::format("no box answers at {}: is it switched on, and are baud rate and protocol those of its file? "
-                      "`trocar box monitor {}` shows the received data",
-                      m_port, m_port));
+          tr("no box answers at {}: is it switched on, and are baud rate and protocol those of its file? "
+             "`trocar box monitor {}` shows the received data",
+             m_port, m_port));
     if (m_thread) {
       take_live();
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -251,15 +252,14 @@ void BoxSource::note_news(const sim::State& state) {
   const devices::BoxCounts c = counts();
   const double rate = m_thread ? m_thread->status().rate : m_link->settings().rate;
   if (m_leader.bridge().freshness() == BoxFreshness::frozen) {
-    news.warning =
-        open ? fmt::format("The box at {} does not answer: the instruments do not move.", m_port)
-             : fmt::format("The box at {} is disconnected: plug it in again. The instruments do not move.", m_port);
+    news.warning = open ? tr("The box at {} does not answer: the instruments do not move.", m_port)
+                        : tr("The box at {} is disconnected: plug it in again. The instruments do not move.", m_port);
   } else {
     for (int h = 0; h < int(m_model.hands.size()); ++h)
       if (m_leader.waits_in_trocar(h) && state.tools[std::size_t(h)].instrument == m_leader.instrument(h))
-        news.hint = fmt::format("{}: withdraw the instrument to insert the new one", hand_name(m_model, h));
+        news.hint = tr("{}: withdraw the instrument to insert the new one", hand_name(m_model, h));
   }
-  news.text = fmt::format("box: {:.0f} blocks a second, {:.1f} % lost", rate, 100 * c.missed_share());
+  news.text = tr("box: {:.0f} blocks a second, {:.1f} % lost", rate, 100 * c.missed_share());
   const std::lock_guard lock(m_lock);
   m_news = std::move(news);
 }

@@ -6,6 +6,7 @@
 #include <trocar/attempt/hand_pilot.hpp>
 #include <trocar/attempt/haptics/haptic_hand.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 
@@ -166,7 +167,7 @@ int haptic_hand_of(const sim::Model& model, const std::string& name, const std::
   if (const int hand = model.hand_index(name); hand >= 0) return hand;
   std::string known;
   for (const sim::HandModel& h : model.hands) known += (known.empty() ? "" : ", ") + h.name;
-  throw core::BadInput({{{option, 0, 0}, fmt::format("expected one of {}, got '{}'", known, name)}});
+  throw core::BadInput({{{option, 0, 0}, tr("expected one of {}, got '{}'", known, name)}});
 }
 
 }  // namespace trocar::attempt

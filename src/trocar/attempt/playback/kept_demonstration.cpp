@@ -7,6 +7,7 @@
 #include <trocar/attempt/playback/kept_demonstration.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/sim/recording/recording.hpp>
 #include <trocar/training/exercise/exercise_hash.hpp>
 
@@ -71,8 +72,7 @@ void keep_demonstration(const Lesson& lesson, const fs::path& recorded) {
   const fs::path file = demonstration_path(lesson);
   std::error_code error;
   fs::rename(recorded, file, error);
-  if (error)
-    throw core::EnvironmentLacks(fmt::format("cannot store the demonstration {}: {}", file.string(), error.message()));
+  if (error) throw core::EnvironmentLacks(tr("cannot store the demonstration {}: {}", file.string(), error.message()));
   const std::string begins = stem(lesson);
   constexpr std::size_t kRest = 16 + 4;  // hash and ending
   for (const fs::directory_entry& other : fs::directory_iterator(file.parent_path(), error)) {

@@ -12,6 +12,7 @@
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/attempt/rehearsal/rehearsal.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/training/expert/performer.hpp>
 
 namespace trocar::attempt {
@@ -77,12 +78,12 @@ class Attempt {
       if (!report.fine()) fail("the physics failed");
       if (m_state.tick % kLookEvery == 0) look();
       if (m_state.tick % kTellEvery == 0)
-        fmt::print(stderr, "rehearsal: {:.0f} s, \"{}\" ({:.0f} s simulated)\n", now(), m_performer.goal(),
-                   m_board->seconds);
+        fmt::print(
+            stderr, "{}",
+            tr("rehearsal: {:.0f} s, \"{}\" ({:.0f} s simulated)\n", now(), m_performer.goal(), m_board->seconds));
     }
     look();
-    if (!m_monitor->score().passed)
-      fail(fmt::format("{:.0f} points are below the pass mark", m_monitor->score().total));
+    if (!m_monitor->score().passed) fail(tr("{:.0f} points are below the pass mark", m_monitor->score().total));
     m_board->came_off = true;
     m_board->score = m_monitor->score().total;
     keep("");
@@ -111,7 +112,7 @@ class Attempt {
       waitpid(copy, &status, 0);
       if (WIFEXITED(status) && WEXITSTATUS(status) == kCameOff) _exit(kCameOff);
       if (now() > m_board->back_to && choice > 0) break;
-      fmt::print(stderr, "rehearsal: {:.0f} s: again, from \"{}\"\n", now(), m_performer.goal());
+      fmt::print(stderr, "{}", tr("rehearsal: {:.0f} s: again, from \"{}\"\n", now(), m_performer.goal()));
     }
     _exit(kFailed);
   }
@@ -148,8 +149,8 @@ class Attempt {
   }
 
   [[noreturn]] void fail(const std::string& why) {
-    fmt::print(stderr, "rehearsal: {:.0f} s, \"{}\": {} (of {:.0f} s)\n", now(), m_performer.goal(), why,
-               m_board->seconds);
+    fmt::print(stderr, "{}",
+               tr("rehearsal: {:.0f} s, \"{}\": {} (of {:.0f} s)\n", now(), m_performer.goal(), why, m_board->seconds));
     std::fflush(nullptr);
     const double* const failed = m_board->failed_at.data();
     const auto before = std::count_if(failed, failed + m_board->failures,

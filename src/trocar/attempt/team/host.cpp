@@ -14,6 +14,7 @@
 #include <trocar/attempt/team/message.hpp>
 #include <trocar/attempt/team/sealed_link.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/sim/recording/recording.hpp>
 
 namespace trocar::attempt {
@@ -42,9 +43,9 @@ int listening_at(const std::string& address, int port) {
     const std::string why = std::strerror(errno);
     if (socket >= 0) close(socket);
     throw core::EnvironmentLacks(
-        fmt::format("cannot listen at {}:{} ({}): give this machine's address and a port that is "
-                    "free, port 0 finds one",
-                    address, port, why));
+        tr("cannot listen at {}:{} ({}): give this machine's address and a port that is "
+           "free, port 0 finds one",
+           address, port, why));
   }
   return socket;
 }
@@ -89,7 +90,7 @@ struct TeamHost::Desk {
         if (&other != &seat && other.shown.duty.overlaps(seat.shown.duty))
           throw core::BadInput(
               {{{"--team", 0, 0},
-                fmt::format("expected participants with different roles, got {} and {}", other.shown.role, role)}});
+                tr("expected participants with different roles, got {} and {}", other.shown.role, role)}});
     }
     listener = listening_at(plan.address, plan.port);
     update_ready();
@@ -164,10 +165,10 @@ struct TeamHost::Desk {
     const auto at =
         std::find_if(seats.begin(), seats.end(), [&](const Seat& s) { return s.shown.role == hello->role; });
     if (hello->version != TROCAR_VERSION)
-      return refuse(fmt::format("the host runs Trocar {}, this is {}: both versions must be equal", TROCAR_VERSION,
-                                hello->version));
-    if (at == seats.end()) return refuse(fmt::format("this session has no role {}", hello->role));
-    if (at->shown.here) return refuse(fmt::format("the role {} is already taken", hello->role));
+      return refuse(
+          tr("the host runs Trocar {}, this is {}: both versions must be equal", TROCAR_VERSION, hello->version));
+    if (at == seats.end()) return refuse(tr("this session has no role {}", hello->role));
+    if (at->shown.here) return refuse(tr("the role {} is already taken", hello->role));
     if (hello->ticks > made) return refuse("it is ahead of the host: restart it");
     at->link = std::move(link);
     at->heard = Clock::now();
@@ -263,7 +264,7 @@ struct TeamHost::Desk {
         why = fmt::format(fmt::runtime(made == 0 ? "the {} has not connected yet" : "the {} is disconnected"),
                           seat.shown.role);
       else if (seat.catching_up && why.empty())
-        why = fmt::format("the {} is {:.1f} s behind", seat.shown.role, double(lag) * sim::kTick);
+        why = tr("the {} is {:.1f} s behind", seat.shown.role, double(lag) * sim::kTick);
     }
     waiting = why;
     is_ready.store(why.empty(), std::memory_order_release);

@@ -14,6 +14,7 @@
 #include <trocar/attempt/team/member.hpp>
 #include <trocar/attempt/team/sealed_link.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/devices/tcp_client.hpp>
 #include <trocar/sim/recording/recording.hpp>
 
@@ -84,7 +85,7 @@ struct TeamMember::Desk {
       return true;
     }
     if (Clock::now() - lost_at > (introduced ? kPatience : kFirstPatience))
-      finish(fmt::format("no host answers at {}:{} ({})", plan.address, plan.port, why));
+      finish(tr("no host answers at {}:{} ({})", plan.address, plan.port, why));
     return false;
   }
 
@@ -172,7 +173,7 @@ TeamMember::TeamMember(const MemberPlan& plan) : m_desk(std::make_unique<Desk>(p
   std::unique_lock hold(m_desk->lock);
   m_desk->changed.wait(hold, [this] { return m_desk->introduced || !m_desk->ended.empty(); });
   if (!m_desk->introduced)
-    throw core::EnvironmentLacks(fmt::format(
+    throw core::EnvironmentLacks(tr(
         "{}: ask the host of the exercise for address, port and token (`trocar train EXERCISE --team {}` shows them)",
         m_desk->ended, plan.role));
 }
@@ -184,8 +185,8 @@ const std::string& TeamMember::role() const { return m_desk->plan.role; }
 
 void TeamMember::begin(const Lesson& lesson) {
   if (lesson.model.hash != m_desk->attempt.model_hash)
-    throw core::EnvironmentLacks(fmt::format(
-        "{} differs from the host's (another hash of the compiled scene): both need the same files", lesson.name));
+    throw core::EnvironmentLacks(
+        tr("{} differs from the host's (another hash of the compiled scene): both need the same files", lesson.name));
   m_desk->duty = duty_of(m_desk->plan.role, lesson.model, "--role");
   m_desk->wish = lesson.model.start;
 }

@@ -7,6 +7,7 @@
 #include <trocar/attempt/hand_names.hpp>
 #include <trocar/attempt/tracker/tracked_source.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
 
 namespace trocar::attempt {
@@ -59,7 +60,7 @@ TrackedSource::TrackedSource(InputSource& own, const sim::Model& model, const Tr
     for (const Led& other : m_led)
       if (duty.overlaps(other.duty))
         throw core::BadInput(
-            {{{m_plan.file, 0, 0}, fmt::format("expected tools with different targets, got {} twice", tool.role)}});
+            {{{m_plan.file, 0, 0}, tr("expected tools with different targets, got {} twice", tool.role)}});
     m_led.push_back({&tool, duty, first_of(duty), TrackedTool(m_plan, tool)});
   }
 }
@@ -67,12 +68,12 @@ TrackedSource::TrackedSource(InputSource& own, const sim::Model& model, const Tr
 /// What the tracker does not see now, in words.
 std::string TrackedSource::missing() const {
   const std::string place = m_tracker.place();
-  if (!m_tracker.status().connected) return fmt::format("the tracker at {} has disconnected", place);
+  if (!m_tracker.status().connected) return tr("the tracker at {} has disconnected", place);
   const std::int64_t now = steady_now();
   for (const Led& led : m_led) {
     const auto seen = m_tracker.pose(led.tool->transform);
-    if (!seen) return fmt::format("the tracked tool {} has not been seen yet", led.tool->transform);
-    if (seen->at + kUnseen < now) return fmt::format("the tracked tool {} is not visible", led.tool->transform);
+    if (!seen) return tr("the tracked tool {} has not been seen yet", led.tool->transform);
+    if (seen->at + kUnseen < now) return tr("the tracked tool {} is not visible", led.tool->transform);
   }
   return {};
 }
@@ -121,7 +122,7 @@ std::optional<DeviceNews> TrackedSource::device() const {
   if (const std::optional<DeviceNews> own = m_own.device()) return own;
   DeviceNews news;
   const devices::TrackerThread::Status status = m_tracker.status();
-  news.text = fmt::format("tracker: {} tools, {} messages", m_led.size(), status.messages);
+  news.text = tr("tracker: {} tools, {} messages", m_led.size(), status.messages);
   for (const Led& led : m_led)
     if (const auto seen = m_tracker.pose(led.tool->transform)) news.acquired = std::max(news.acquired, seen->at);
   return news;

@@ -5,6 +5,7 @@
 
 #include <trocar/attempt/tracker/tracker_file.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/schema.hpp>
 
 namespace trocar::attempt {
@@ -65,7 +66,7 @@ TrackerPlan::Tool read_tool(const JsonObject& o) {
   for (const JsonObject& g : o.objects("grip")) {
     tool.grip = TrackerPlan::Grip{g.text("sensor"), g.integer("index", 0), g.number("open", 0), g.number("closed", 1)};
     if (tool.grip->open == tool.grip->closed)
-      g.fault("closed", fmt::format("expected another value than \"open\", got {}", tool.grip->closed));
+      g.fault("closed", tr("expected another value than \"open\", got {}", tool.grip->closed));
   }
   return tool;
 }
@@ -81,12 +82,11 @@ TrackerPlan read(const scene::JsonDocument& document, std::vector<core::Fault>& 
       std::stoi(port) <= 65535 && colon > 0)
     plan.address = server.substr(0, colon), plan.port = std::stoi(port);
   else if (o.has("server"))
-    o.fault("server", fmt::format("expected ADDRESS:PORT as 127.0.0.1:18944, got \"{}\"", server));
+    o.fault("server", tr("expected ADDRESS:PORT as 127.0.0.1:18944, got \"{}\"", server));
   const Vec3d x = direction_of(o.text("x_points", "left")), y = direction_of(o.text("y_points", "head"));
   if (dot(x, y) != 0)
-    o.fault(o.has("y_points") ? "y_points" : "x_points",
-            fmt::format("expected directions square to each other, got {} and {}", o.text("x_points", "left"),
-                        o.text("y_points", "head")));
+    o.fault(o.has("y_points") ? "y_points" : "x_points", tr("expected directions square to each other, got {} and {}",
+                                                            o.text("x_points", "left"), o.text("y_points", "head")));
   plan.axes = Mat3d::from_columns(x, y, cross(x, y));
   plan.scale = o.number("scale", 1);
   if (o.has("origin_mm")) plan.origin = 1e-3 * o.vec3("origin_mm");

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/devices/box/pseudo_terminal.hpp>
 
 namespace trocar::devices {
@@ -25,18 +26,17 @@ PseudoTerminal::PseudoTerminal(const std::string& link) {
   char name[128];
   if (!m_master || grantpt(master) != 0 || unlockpt(master) != 0 || ptsname_r(master, name, sizeof name) != 0)
     throw core::EnvironmentLacks(
-        fmt::format("no pseudo-terminal ({}): /dev/ptmx and /dev/pts have to be there", std::strerror(errno)));
+        tr("no pseudo-terminal ({}): /dev/ptmx and /dev/pts have to be there", std::strerror(errno)));
   m_name = name;
   // Echo is on and lines are edited by default; what is set here stays as long as the master is open.
   const Descriptor slave(::open(name, O_RDWR | O_NOCTTY | O_CLOEXEC));
   if (!slave || !make_raw(slave.get(), 0))
-    throw core::EnvironmentLacks(fmt::format("{}: {}: the pseudo-terminal cannot be used", name, std::strerror(errno)));
+    throw core::EnvironmentLacks(tr("{}: {}: the pseudo-terminal cannot be used", name, std::strerror(errno)));
   if (link.empty()) return;
   fs::remove(link, error);
   fs::create_symlink(m_name, link, error);
   if (error)
-    throw core::EnvironmentLacks(
-        fmt::format("{}: {}: choose a name in a folder that may be written", link, error.message()));
+    throw core::EnvironmentLacks(tr("{}: {}: choose a name in a folder that may be written", link, error.message()));
   m_link = link;
 }
 

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/devices/box/serial_port.hpp>
 
 namespace trocar::devices {
@@ -42,19 +43,18 @@ std::string remedy(const std::string& path, int error) {
     case ENOENT:
     case ENXIO:
     case ENODEV:
-      return fmt::format(
+      return tr(
           "no port {}: plug the box in, or see with `ls /dev/ttyUSB* /dev/ttyACM* /dev/ttyS*` what it is "
           "called; `trocar box simulate {}` makes a simulated one",
           path, path);
     case EACCES:
     case EPERM:
-      return fmt::format(
-          "{} may not be opened: join the group that owns it (sudo usermod -aG dialout $USER, then log in again)",
-          path);
+      return tr("{} may not be opened: join the group that owns it (sudo usermod -aG dialout $USER, then log in again)",
+                path);
     case EBUSY:
-      return fmt::format("{} is in use: end the other program that reads it", path);
+      return tr("{} is in use: end the other program that reads it", path);
     default:
-      return fmt::format("{}: {}: expected a serial port", path, std::strerror(error));
+      return tr("{}: {}: expected a serial port", path, std::strerror(error));
   }
 }
 

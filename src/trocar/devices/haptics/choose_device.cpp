@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/devices/haptics/choose_device.hpp>
 #include <trocar/devices/haptics/haply_device.hpp>
 #include <trocar/devices/haptics/seam_device.hpp>
@@ -32,7 +33,7 @@ std::unique_ptr<HapticDevice> choose_haptic_device(const std::string& name, cons
   if (name == "haply") return std::make_unique<HaplyDevice>();
   if (kind == "haply" && port > 0) return std::make_unique<HaplyDevice>(port);
   if (kind == "seam" && port > 0) return std::make_unique<SeamDevice>(port);
-  throw core::BadInput({{{option, 0, 0}, fmt::format("expected {}, got '{}'", kHapticDevices, name)}});
+  throw core::BadInput({{{option, 0, 0}, tr("expected {}, got '{}'", kHapticDevices, name)}});
 }
 
 }  // namespace trocar::devices

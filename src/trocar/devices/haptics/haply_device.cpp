@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/devices/haptics/haply_device.hpp>
 #include <trocar/devices/haptics/haply_messages.hpp>
 
@@ -35,9 +36,9 @@ void HaplyDevice::open() {
   const std::string what = fmt::format("haply:{}", m_port);
   if (const std::string fault = m_socket.connect(m_port, "/", m_patience); !fault.empty())
     throw core::EnvironmentLacks(
-        fmt::format("{}: no Inverse Service on port {} of this machine ({}): start it (systemctl start "
-                    "haply-inverse-service), or name its port",
-                    what, m_port, fault));
+        tr("{}: no Inverse Service on port {} of this machine ({}): start it (systemctl start "
+           "haply-inverse-service), or name its port",
+           what, m_port, fault));
   const auto until =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(m_patience));
   std::optional<HaplyState> state;
@@ -47,9 +48,9 @@ void HaplyDevice::open() {
   }
   if (!state) {
     close();
-    throw core::EnvironmentLacks(fmt::format(
-        "{}: the Inverse Service knows of no Inverse3: plug it in, switch it on and calibrate it, then try again",
-        what));
+    throw core::EnvironmentLacks(
+        tr("{}: the Inverse Service knows of no Inverse3: plug it in, switch it on and calibrate it, then try again",
+           what));
   }
   m_device = state->device;
   m_capabilities.turns = state->turns;

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/devices/haptics/seam_device.hpp>
 #include <trocar/devices/haptics/seam_protocol.hpp>
 
@@ -47,8 +48,8 @@ void SeamDevice::bind() {
       getsockname(m_socket, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
     close();
     throw core::EnvironmentLacks(
-        fmt::format("seam:{}: cannot listen on port {} of this machine: close the program that does, or take another",
-                    m_port, m_port));
+        tr("seam:{}: cannot listen on port {} of this machine: close the program that does, or take another", m_port,
+           m_port));
   }
   m_port = ntohs(address.sin_port);
 }
@@ -62,9 +63,9 @@ void SeamDevice::open() {
       const int port = m_port;
       close();
       throw core::EnvironmentLacks(
-          fmt::format("seam:{}: no device has sent data on 127.0.0.1:{} for {:g} s: start the program that drives it "
-                      "(docs/guides/haptics.md), then try again",
-                      port, port, m_patience));
+          tr("seam:{}: no device has sent data on 127.0.0.1:{} for {:g} s: start the program that drives it "
+             "(docs/guides/haptics.md), then try again",
+             port, port, m_patience));
     }
     std::this_thread::sleep_for(kListenAgain);
   }

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/devices/tcp_client.hpp>
 #include <trocar/devices/tracker/tracker_thread.hpp>
 
@@ -46,9 +47,9 @@ TrackerThread::TrackerThread(std::string address, int port) : m_address(std::mov
   m_socket = connect_tcp(m_address, m_port, why);
   if (m_socket < 0)
     throw core::EnvironmentLacks(
-        fmt::format("no server at {} ({}): start the tracker's server (OpenIGTLink), or correct its address in the "
-                    "file's \"server\"",
-                    place(), why));
+        tr("no server at {} ({}): start the tracker's server (OpenIGTLink), or correct its address in the "
+           "file's \"server\"",
+           place(), why));
   m_status.connected = true, m_status.connections = 1;
   m_thread = std::thread([this] { loop(); });
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/gmsh_parts.hpp>
 
 namespace trocar::geometry {
@@ -148,7 +149,7 @@ void read_node_blocks(GmshParts& g) {
     g.version == 40 ? nodes_one_by_one(g, b.count, parameters) : tags_then_points(g, b.count, parameters);
   }
   if (g.nodes.size() - before != all && g.in.faults() == 0)
-    g.in.fault(at, fmt::format("expected {} nodes in the blocks, got {}", all, g.nodes.size() - before));
+    g.in.fault(at, tr("expected {} nodes in the blocks, got {}", all, g.nodes.size() - before));
 }
 
 void read_element_blocks(GmshParts& g) {
@@ -163,8 +164,7 @@ void read_element_blocks(GmshParts& g) {
     done += b.count;
     elements_of(g, b, int(width));
   }
-  if (done != all && g.in.faults() == 0)
-    g.in.fault(at, fmt::format("expected {} elements in the blocks, got {}", all, done));
+  if (done != all && g.in.faults() == 0) g.in.fault(at, tr("expected {} elements in the blocks, got {}", all, done));
 }
 
 }  // namespace trocar::geometry

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/gmsh_parts.hpp>
 
 namespace trocar::geometry {
@@ -37,7 +38,7 @@ bool GmshParts::more(const char* things, std::size_t done, std::size_t announced
   in.begin_record();
   const std::string_view next = in.peek_word();
   if (!next.empty() && next[0] != '$') return true;
-  in.fault(in.at(), fmt::format("expected {} {}, got {} after {}", announced, things, in.shown(in.at()), done));
+  in.fault(in.at(), tr("expected {} {}, got {} after {}", announced, things, in.shown(in.at()), done));
   return false;
 }
 
@@ -56,7 +57,7 @@ bool GmshParts::tet(const GmshType& type, int width, std::int64_t region) {
   }
   if (type.nodes > 4) left_out.middle_nodes(type.nodes);
   if (region < std::numeric_limits<int>::min() || region > std::numeric_limits<int>::max()) {
-    in.fault(cell.at, fmt::format("expected a region of 32 bits, got {}", region));
+    in.fault(cell.at, tr("expected a region of 32 bits, got {}", region));
     return true;
   }
   cells.push_back(cell);
@@ -66,13 +67,13 @@ bool GmshParts::tet(const GmshType& type, int width, std::int64_t region) {
 
 bool GmshParts::other(std::int64_t type) {
   const GmshType* t = gmsh_type(type);
-  left_out.cell(t ? t->name : fmt::format("elements of type {}", type));
+  left_out.cell(t ? t->name : tr("elements of type {}", type));
   return false;
 }
 
 const GmshType& GmshParts::known_type(std::size_t at, std::int64_t type) {
   const GmshType* t = gmsh_type(type);
-  if (!t) in.lose(at, fmt::format("expected an element type from 1 to 31, 92 or 93, got {}", type));
+  if (!t) in.lose(at, tr("expected an element type from 1 to 31, 92 or 93, got {}", type));
   return *t;
 }
 
@@ -82,7 +83,7 @@ void GmshParts::resolve() {
   std::stable_sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.tag < b.tag; });
   for (std::size_t i = 1; i < nodes.size(); ++i)
     if (nodes[i].tag == nodes[i - 1].tag)
-      in.fault(nodes[i].at, fmt::format("expected every node's number once, got {} again", nodes[i].tag));
+      in.fault(nodes[i].at, tr("expected every node's number once, got {} again", nodes[i].tag));
   for (const Cell& cell : cells) {
     std::array<int, 4> corners{};
     for (int k = 0; k < 4; ++k) corners[k] = index_of(cell.tags[k], cell.at);
@@ -95,7 +96,7 @@ int GmshParts::index_of(std::int64_t tag, std::size_t at) {
   const auto found = std::lower_bound(nodes.begin(), nodes.end(), tag,
                                       [](const Node& node, std::int64_t wanted) { return node.tag < wanted; });
   if (found != nodes.end() && found->tag == tag) return found->index;
-  in.fault(at, fmt::format("expected the number of a node that is there, got {}", tag));
+  in.fault(at, tr("expected the number of a node that is there, got {}", tag));
   return 0;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/gmsh_parts.hpp>
 
 namespace trocar::geometry {
@@ -41,7 +42,7 @@ bool old_element(GmshParts& g, std::int64_t type) {
   const std::size_t at = g.in.at();
   if (!g.in.integer(nodes, 4, "the number of nodes")) return false;
   if (nodes == t->nodes) return g.tet(*t, 4, physical);
-  g.in.fault(at, fmt::format("expected {} nodes of an element of type {}, got {}", t->nodes, type, nodes));
+  g.in.fault(at, tr("expected {} nodes of an element of type {}, got {}", t->nodes, type, nodes));
   return false;
 }
 
@@ -54,7 +55,7 @@ bool tagged_element(GmshParts& g, std::int64_t type) {
   std::int64_t tags = 0;
   if (!g.in.integer(tags, 4, "the number of tags")) return false;
   if (tags < 0) {
-    g.in.fault(at, fmt::format("expected the number of tags, got {}", tags));
+    g.in.fault(at, tr("expected the number of tags, got {}", tags));
     return false;
   }
   std::int64_t region = 0;
@@ -82,11 +83,11 @@ void packed_elements(GmshParts& g, std::size_t count) {
     g.in.integer(tags, 4, "the number of tags");
     const GmshType& t = g.known_type(at, type);
     if (tags < 0 || tags > std::int64_t(g.in.left() / 4))
-      g.in.lose(at, fmt::format("expected the number of tags, got {}", tags));
+      g.in.lose(at, tr("expected the number of tags, got {}", tags));
     const std::size_t bytes = 4 * (1 + std::size_t(tags) + std::size_t(t.nodes));
     const std::size_t most = std::min(count - done, g.in.left() / bytes);
     if (follow < 1 || std::uint64_t(follow) > most)
-      g.in.lose(at, fmt::format("expected 1 to {} elements of type {}, got {}", most, type, follow));
+      g.in.lose(at, tr("expected 1 to {} elements of type {}, got {}", most, type, follow));
     for (std::int64_t i = 0; i < follow; ++i) packed_element(g, t, tags, bytes);
     done += std::size_t(follow);
   }

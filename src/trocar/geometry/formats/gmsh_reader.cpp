@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/gmsh_parts.hpp>
 
 namespace trocar::geometry {
@@ -43,7 +44,7 @@ class GmshReader {
     const std::size_t at = m_in.at();
     const std::string name(m_in.word());
     if (name[0] != '$') {
-      m_in.fault(at, fmt::format("expected a section such as $Nodes, got {}", in_quotes(name)));
+      m_in.fault(at, tr("expected a section such as $Nodes, got {}", in_quotes(name)));
       do m_in.skip_line();
       while (m_in.left() > 0 && m_in.peek_word().substr(0, 1) != "$");
       return;
@@ -75,9 +76,9 @@ class GmshReader {
   /// Sections of version 1 need no header; the others come after one of their version.
   void need(std::size_t at, const std::string& name, int version) {
     if (version == 10 && m_parts.version == 0) m_parts.version = 10;
-    if (m_parts.version == 0) m_in.lose(at, fmt::format("expected $MeshFormat in front of {}, got none", name));
+    if (m_parts.version == 0) m_in.lose(at, tr("expected $MeshFormat in front of {}, got none", name));
     if ((version == 10) != (m_parts.version == 10) || m_parts.version < version)
-      m_in.lose(at, fmt::format("expected a section of format version {}, got {}", m_parts.version / 10, name));
+      m_in.lose(at, tr("expected a section of format version {}, got {}", m_parts.version / 10, name));
   }
 
   void end_section(const std::string& name) {
@@ -85,10 +86,10 @@ class GmshReader {
     m_in.skip_space();
     const std::size_t at = m_in.at();
     if (is_read(name) && m_in.peek_word() != end)
-      m_in.fault(at, fmt::format("expected {}, got {}", in_quotes(end), m_in.shown(at)));
+      m_in.fault(at, tr("expected {}, got {}", in_quotes(end), m_in.shown(at)));
     const std::size_t found = m_in.all().find(end, at);
     if (found == std::string_view::npos)
-      m_in.lose(m_in.all().size(), fmt::format("expected {}, got the end of the file", in_quotes(end)));
+      m_in.lose(m_in.all().size(), tr("expected {}, got the end of the file", in_quotes(end)));
     m_in.go_to(found + end.size());
   }
 
@@ -100,17 +101,16 @@ class GmshReader {
     const double number = core::is_decimal(version) ? core::to_double(version) : 0.0;
     for (const int known : {20, 21, 22, 40, 41})
       if (10 * number > known - 0.5 && 10 * number < known + 0.5) m_parts.version = known;
-    if (m_parts.version == 0)
-      m_in.lose(at, fmt::format("expected version 2.0 to 2.2, 4.0 or 4.1, got {}", in_quotes(version)));
+    if (m_parts.version == 0) m_in.lose(at, tr("expected version 2.0 to 2.2, 4.0 or 4.1, got {}", in_quotes(version)));
     std::int64_t type = 0, size = 0;
     m_in.begin_value();
     at = m_in.at();
     if (!m_in.integer(type, 4, "the file type, 0 (text) or 1 (binary)")) m_in.finish();
-    if (type != 0 && type != 1) m_in.lose(at, fmt::format("expected file type 0 (text) or 1 (binary), got {}", type));
+    if (type != 0 && type != 1) m_in.lose(at, tr("expected file type 0 (text) or 1 (binary), got {}", type));
     m_in.begin_value();
     at = m_in.at();
     if (!m_in.integer(size, 4, "the size of a number, 8")) m_in.finish();
-    if (size != 8) m_in.lose(at, fmt::format("expected numbers of 8 bytes, got {}", size));
+    if (size != 8) m_in.lose(at, tr("expected numbers of 8 bytes, got {}", size));
     m_in.skip_line();
     if (type == 1) byte_order();
   }
@@ -121,7 +121,7 @@ class GmshReader {
     std::int64_t one = 0;
     m_in.set_form(MeshSource::Form::binary);
     m_in.integer(one, 4, "the number 1");
-    if (one != 1 && one != 0x01000000) m_in.lose(at, fmt::format("expected the number 1 as 4 bytes, got {}", one));
+    if (one != 1 && one != 0x01000000) m_in.lose(at, tr("expected the number 1 as 4 bytes, got {}", one));
     m_parts.form = one == 1 ? MeshSource::Form::binary : MeshSource::Form::binary_swapped;
   }
 };

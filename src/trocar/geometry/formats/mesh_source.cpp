@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/mesh_source.hpp>
 
 namespace trocar::geometry {
@@ -77,7 +78,7 @@ void MeshSource::begin_record() {
 
 void MeshSource::end_record() {
   if (binary() || !m_by_line) return;
-  if (word_on_line()) fault(m_at, fmt::format("expected the end of the line, got {}", shown(m_at)));
+  if (word_on_line()) fault(m_at, tr("expected the end of the line, got {}", shown(m_at)));
   skip_line();
 }
 
@@ -94,8 +95,8 @@ std::string MeshSource::shown(std::size_t at) const {
 
 bool MeshSource::number_word(std::string_view& text, std::size_t& at, const char* what) {
   if (!value_follows()) {
-    if (left() == 0) lose(m_at, fmt::format("expected {}, got the end of the file", what));
-    fault(m_at, fmt::format("expected {}, got {}", what, shown(m_at)));
+    if (left() == 0) lose(m_at, tr("expected {}, got the end of the file", what));
+    fault(m_at, tr("expected {}, got {}", what, shown(m_at)));
     return false;
   }
   at = m_at;
@@ -105,7 +106,7 @@ bool MeshSource::number_word(std::string_view& text, std::size_t& at, const char
 
 const unsigned char* MeshSource::take(int width, const char* what) {
   if (left() < std::size_t(width))
-    lose(m_at, fmt::format("expected {} of {} bytes, got the end of the file after {}", what, width, left()));
+    lose(m_at, tr("expected {} of {} bytes, got the end of the file after {}", what, width, left()));
   const auto* from = reinterpret_cast<const unsigned char*>(m_bytes.data()) + m_at;
   m_at += std::size_t(width);
   return from;
@@ -143,7 +144,7 @@ bool MeshSource::integer(std::int64_t& value, int width, const char* what) {
   if (number)
     value = *number;
   else
-    fault(at, fmt::format("expected {}, got {}", what, in_quotes(text)));
+    fault(at, tr("expected {}, got {}", what, in_quotes(text)));
   return number.has_value();
 }
 
@@ -156,14 +157,14 @@ bool MeshSource::real(double& value, int width, const char* what) {
     const bool swapped = m_form == Form::binary_swapped;
     value = width == 8 ? from_bytes<double>(bytes, swapped) : double(from_bytes<float>(bytes, swapped));
     if (std::isfinite(value)) return true;
-    fault(at, fmt::format("expected {}, got {}", what, value));
+    fault(at, tr("expected {}, got {}", what, value));
     value = 0;
     return false;
   }
   if (!number_word(text, at, what)) return false;
   if (core::is_decimal(text)) value = core::to_double(text);
   if (core::is_decimal(text) && std::isfinite(value)) return true;
-  fault(at, fmt::format("expected {}, got {}", what, in_quotes(text)));
+  fault(at, tr("expected {}, got {}", what, in_quotes(text)));
   value = 0;
   return false;
 }
@@ -172,17 +173,17 @@ std::size_t MeshSource::count(const char* things, std::size_t least, int width) 
   begin_value();
   const std::size_t from = m_at;
   std::int64_t value = 0;
-  if (!integer(value, width, fmt::format("the number of {}", things).c_str())) finish();
+  if (!integer(value, width, tr("the number of {}", things).c_str())) finish();
   const std::size_t most = left() / least;
-  if (value < 0) lose(from, fmt::format("expected the number of {}, got {}", things, value));
+  if (value < 0) lose(from, tr("expected the number of {}, got {}", things, value));
   if (std::uint64_t(value) > most)
-    lose(from, fmt::format("expected at most {} {}, for which the {} bytes that follow have room, got {} announced",
-                           most, things, left(), value));
+    lose(from, tr("expected at most {} {}, for which the {} bytes that follow have room, got {} announced", most,
+                  things, left(), value));
   return std::size_t(value);
 }
 
 void MeshSource::skip_bytes(std::uint64_t bytes, const char* what) {
-  if (bytes > left()) lose(m_at, fmt::format("expected {} bytes of {}, got {}", bytes, what, left()));
+  if (bytes > left()) lose(m_at, tr("expected {} bytes of {}, got {}", bytes, what, left()));
   m_at += std::size_t(bytes);
 }
 
@@ -215,7 +216,7 @@ void MeshSource::tell_all() const {
         line_start = at + 1;
       }
     const core::Location place{m_file, line, int(fault.at - line_start) + 1};
-    told.push_back({place, fault.binary ? fmt::format("at byte {}: {}", fault.at, fault.message) : fault.message});
+    told.push_back({place, fault.binary ? tr("at byte {}: {}", fault.at, fault.message) : fault.message});
   }
   throw core::BadInput(std::move(told));
 }

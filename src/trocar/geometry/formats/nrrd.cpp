@@ -13,6 +13,7 @@
 #include <zlib.h>
 
 #include <trocar/core/decimal.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/mesh_source.hpp>
 #include <trocar/geometry/formats/nrrd.hpp>
 #include <trocar/geometry/formats/vtk_values.hpp>
@@ -177,13 +178,13 @@ class HeaderReader {
 
   void require(bool there, const char* field) {
     if (!there && std::find(m_seen.begin(), m_seen.end(), field) == m_seen.end())
-      m_in.fault(m_end, fmt::format("expected the field '{}', got none", field));
+      m_in.fault(m_end, tr("expected the field '{}', got none", field));
   }
 
   void magic() {
     const std::string_view first = m_in.line();
     if (first.size() == 8 && first.substr(0, 7) == "NRRD000" && first[7] >= '1' && first[7] <= '5') return;
-    m_in.lose(0, fmt::format("expected NRRD0001 to NRRD0005, got {}", in_quotes(first)));
+    m_in.lose(0, tr("expected NRRD0001 to NRRD0005, got {}", in_quotes(first)));
   }
 
   /// False at the empty line that ends the header.
@@ -194,8 +195,7 @@ class HeaderReader {
     if (text.empty()) return false;
     if (text[0] == '#') return true;
     const std::size_t colon = text.find(':');
-    if (colon == std::string_view::npos)
-      m_in.lose(place(text), fmt::format("expected 'field: value', got {}", in_quotes(text)));
+    if (colon == std::string_view::npos) m_in.lose(place(text), tr("expected 'field: value', got {}", in_quotes(text)));
     if (text.substr(colon, 2) == ":=") return true;  // notes of other programs
     m_value = text.substr(colon + 1);
     while (!m_value.empty() && (m_value[0] == ' ' || m_value[0] == '\t')) m_value.remove_prefix(1);
@@ -231,7 +231,7 @@ class HeaderReader {
     for (const Known& known : kKnown) {
       if (name != known.name) continue;
       if (std::find(m_seen.begin(), m_seen.end(), name) != m_seen.end())
-        return m_in.fault(at, fmt::format("expected the field '{}' once, got it again", name));
+        return m_in.fault(at, tr("expected the field '{}' once, got it again", name));
       m_seen.push_back(name);
       return (this->*known.read)();
     }
@@ -241,8 +241,7 @@ class HeaderReader {
     const std::string name = lower(m_value.substr(0, 40));
     for (const TypeName& t : kTypeNames)
       if (name == t.name) m_header.type = t.type;
-    if (!m_header.type)
-      m_in.fault(m_at, fmt::format("expected a type from int8 to uint32, float or double, got {}", got()));
+    if (!m_header.type) m_in.fault(m_at, tr("expected a type from int8 to uint32, float or double, got {}", got()));
   }
 
   void dimension() {
@@ -250,7 +249,7 @@ class HeaderReader {
     if (number == 3)
       m_header.dimension = 3;
     else
-      m_in.fault(m_at, fmt::format("expected dimension 3, got {}", got()));
+      m_in.fault(m_at, tr("expected dimension 3, got {}", got()));
   }
 
   void sizes() {
@@ -262,8 +261,7 @@ class HeaderReader {
       const std::string_view word = words.word();
       const auto number = core::to_integer(word);
       if (!number || *number < 1) return expected_at(at, "a size of at least 1", word);
-      if (std::uint64_t(*number) > room)
-        return m_in.fault(at, fmt::format("expected at most {} voxels, got more", m_most));
+      if (std::uint64_t(*number) > room) return m_in.fault(at, tr("expected at most {} voxels, got more", m_most));
       size = int(*number);
       room /= std::size_t(size);
     }
@@ -275,14 +273,14 @@ class HeaderReader {
     if (name == "raw") m_header.encoding = Encoding::raw;
     if (name == "gzip" || name == "gz") m_header.encoding = Encoding::gzip;
     if (name == "ascii" || name == "text" || name == "txt") m_header.encoding = Encoding::ascii;
-    if (!m_header.encoding) m_in.fault(m_at, fmt::format("expected encoding raw, gzip or ascii, got {}", got()));
+    if (!m_header.encoding) m_in.fault(m_at, tr("expected encoding raw, gzip or ascii, got {}", got()));
   }
 
   void endian() {
     const std::string name = lower(m_value.substr(0, 40));
     if (name == "little") m_header.endian = Endian::little;
     if (name == "big") m_header.endian = Endian::big;
-    if (!m_header.endian) m_in.fault(m_at, fmt::format("expected little or big, got {}", got()));
+    if (!m_header.endian) m_in.fault(m_at, tr("expected little or big, got {}", got()));
   }
 
   void space() {
@@ -290,9 +288,9 @@ class HeaderReader {
     for (const SpaceName& s : kSpaces)
       if (name == s.name) m_header.to_ours = s.to_ours;
     if (!m_header.to_ours)
-      m_in.fault(m_at, fmt::format("expected left-posterior-superior, right-anterior-superior or "
-                                   "left-anterior-superior, got {}",
-                                   got()));
+      m_in.fault(m_at, tr("expected left-posterior-superior, right-anterior-superior or "
+                          "left-anterior-superior, got {}",
+                          got()));
   }
 
   void space_dimension() {
@@ -307,11 +305,10 @@ class HeaderReader {
     if (!ends(words)) return;
     for (const Vec3d& column : columns)
       if (!(length(column) >= kLeastStep && length(column) <= kMostStep))
-        return m_in.fault(m_at,
-                          fmt::format("expected directions of a length from 1e-4 to 1e4, got {}", length(column)));
+        return m_in.fault(m_at, tr("expected directions of a length from 1e-4 to 1e4, got {}", length(column)));
     const double box = length(columns[0]) * length(columns[1]) * length(columns[2]);
     if (!(std::fabs(dot(columns[0], cross(columns[1], columns[2]))) > 1e-3 * box))
-      return m_in.fault(m_at, fmt::format("expected three directions that span a voxel, got {}", got()));
+      return m_in.fault(m_at, tr("expected three directions that span a voxel, got {}", got()));
     m_header.directions = Mat3d::from_columns(columns[0], columns[1], columns[2]);
   }
 
@@ -322,7 +319,7 @@ class HeaderReader {
       const std::size_t at = words.at();
       if (!number(words, s[k])) return;
       if (!(s[k] >= kLeastStep && s[k] <= kMostStep))
-        return m_in.fault(at, fmt::format("expected a spacing from 1e-4 to 1e4, got {}", s[k]));
+        return m_in.fault(at, tr("expected a spacing from 1e-4 to 1e4, got {}", s[k]));
     }
     if (ends(words)) m_header.spacings = s;
   }
@@ -349,18 +346,18 @@ class HeaderReader {
     ends(words);
   }
 
-  void data_file() { m_in.fault(m_at, fmt::format("expected the data in this file, got it in {}", got())); }
+  void data_file() { m_in.fault(m_at, tr("expected the data in this file, got it in {}", got())); }
   void skip() {
-    if (m_value != "0") m_in.fault(m_at, fmt::format("expected the data right after the header (0), got {}", got()));
+    if (m_value != "0") m_in.fault(m_at, tr("expected the data right after the header (0), got {}", got()));
   }
 
   void expected_at(std::size_t at, const char* what, std::string_view word) {
-    m_in.fault(at, fmt::format("expected {}, got {}", what, word.empty() ? m_in.shown(at) : in_quotes(word)));
+    m_in.fault(at, tr("expected {}, got {}", what, word.empty() ? m_in.shown(at) : in_quotes(word)));
   }
 
   bool ends(Words& words) {
     if (words.end()) return true;
-    m_in.fault(words.at(), fmt::format("expected the end of the line after three, got {}", m_in.shown(words.at())));
+    m_in.fault(words.at(), tr("expected the end of the line after three, got {}", m_in.shown(words.at())));
     return false;
   }
 
@@ -413,10 +410,10 @@ std::string unpacked(MeshSource& in, std::size_t wanted) {
   const std::size_t at = from + (packed.size() - stream.avail_in);
   if (status == Z_DATA_ERROR || status == Z_NEED_DICT) in.lose(at, "expected gzip data, got damaged ones");
   if (status == Z_MEM_ERROR) in.lose(at, "expected memory for gzip, got none");
-  if (out.size() > wanted) in.lose(at, fmt::format("expected {} bytes unpacked, got more", wanted));
+  if (out.size() > wanted) in.lose(at, tr("expected {} bytes unpacked, got more", wanted));
   if (status != Z_STREAM_END)
-    in.lose(at, fmt::format("expected {} bytes unpacked, got the end of the file after {}", wanted, out.size()));
-  if (out.size() < wanted) in.lose(at, fmt::format("expected {} bytes unpacked, got {}", wanted, out.size()));
+    in.lose(at, tr("expected {} bytes unpacked, got the end of the file after {}", wanted, out.size()));
+  if (out.size() < wanted) in.lose(at, tr("expected {} bytes unpacked, got {}", wanted, out.size()));
   return out;
 }
 
@@ -495,7 +492,7 @@ class DataReader {
     const std::size_t wanted = m_count * sizeof(Read), from = m_in.at();
     const bool packed = *m_header.encoding == Encoding::gzip;
     if (!packed && m_in.left() != wanted)
-      m_in.lose(from, fmt::format("expected {} bytes of voxels, got {}", wanted, m_in.left()));
+      m_in.lose(from, tr("expected {} bytes of voxels, got {}", wanted, m_in.left()));
     const std::string bytes = packed ? unpacked(m_in, wanted) : std::string();
     const char* data = packed ? bytes.data() : m_in.all().data() + from;
     const std::uint16_t one = 1;
@@ -512,7 +509,7 @@ class DataReader {
   template <class Read, class Kept>
   void from_text(std::vector<Kept>& values) {
     if (m_count > m_in.left() / 2 + 1)
-      m_in.lose(m_in.at(), fmt::format("expected {} values, got {} bytes", m_count, m_in.left()));
+      m_in.lose(m_in.at(), tr("expected {} values, got {} bytes", m_count, m_in.left()));
     values.resize(m_count);
     for (std::size_t i = 0; i < m_count; ++i) {
       m_in.skip_space();
@@ -520,8 +517,7 @@ class DataReader {
     }
     m_in.skip_space();
     if (m_in.left() > 0)
-      m_in.fault(m_in.at(),
-                 fmt::format("expected the end of the file after {} values, got {}", m_count, m_in.shown(m_in.at())));
+      m_in.fault(m_in.at(), tr("expected the end of the file after {} values, got {}", m_count, m_in.shown(m_in.at())));
   }
 
   template <class Read, class Kept>
@@ -538,12 +534,12 @@ class DataReader {
       fits = value >= std::int64_t(std::numeric_limits<Read>::min()) &&
              value <= std::int64_t(std::numeric_limits<Read>::max()) && keep(static_cast<Read>(value), kept);
     }
-    if (!fits) m_in.fault(at, fmt::format("expected a number that the type holds, got {}", m_in.shown(at)));
+    if (!fits) m_in.fault(at, tr("expected a number that the type holds, got {}", m_in.shown(at)));
   }
 
   std::string bad_value(std::size_t voxel, const std::string& value) const {
     const char* what = *m_header.type >= Type::real32 ? "a finite number" : "a whole number up to 16777216";
-    return fmt::format("expected {}, got {} in voxel {}", what, value, voxel);
+    return tr("expected {}, got {} in voxel {}", what, value, voxel);
   }
 };
 
@@ -563,7 +559,7 @@ void place(const Header& header, Voxels& voxels) {
 Voxels read_nrrd(std::string_view bytes, const std::string& file, std::size_t most_voxels) {
   MeshSource in(bytes, file);
   if (bytes.size() > kMaxMeshBytes)
-    in.lose(0, fmt::format("expected at most {} MiB, got {} bytes", kMaxMeshBytes >> 20, bytes.size()));
+    in.lose(0, tr("expected at most {} MiB, got {} bytes", kMaxMeshBytes >> 20, bytes.size()));
   const Header header = HeaderReader(in, most_voxels).read();
   Voxels voxels;
   place(header, voxels);

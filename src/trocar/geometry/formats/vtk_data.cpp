@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/vtk_data.hpp>
 
 namespace trocar::geometry {
@@ -13,7 +14,7 @@ void VtkData::metadata() {  // up to an empty line
 void VtkData::begin(bool of_cells, std::size_t wanted, std::size_t at) {
   const std::int64_t count = m_values.whole(kVtkInt, "the number of values");
   if (count < 0 || std::uint64_t(count) != wanted)
-    m_values.in.lose(at, fmt::format("expected data of {} {}, got {}", wanted, of_cells ? "cells" : "points", count));
+    m_values.in.lose(at, tr("expected data of {} {}, got {}", wanted, of_cells ? "cells" : "points", count));
   m_values.in.skip_line();
   m_of_cells = of_cells;
   m_tuples = wanted;
@@ -34,11 +35,10 @@ void VtkData::scalars() {
   if (!type) return stop(name);
   const std::int64_t components = m_values.in.word_on_line() ? m_values.whole(kVtkInt, "the number of components") : 1;
   if (components < 1 || components > 4)
-    m_values.in.lose(m_values.in.at(), fmt::format("expected 1 to 4 components, got {}", components));
+    m_values.in.lose(m_values.in.at(), tr("expected 1 to 4 components, got {}", components));
   m_values.in.skip_line();
   if (m_values.word() != "lookup_table")
-    m_values.in.lose(m_values.in.at(),
-                     fmt::format("expected LOOKUP_TABLE of the scalars {}, got none", in_quotes(name)));
+    m_values.in.lose(m_values.in.at(), tr("expected LOOKUP_TABLE of the scalars {}, got none", in_quotes(name)));
   array(name, *type, std::uint64_t(components), m_tuples);
 }
 
@@ -68,7 +68,7 @@ void VtkData::array(const std::string& name, const VtkType& type, std::uint64_t 
     const std::size_t at = m_values.place();
     const std::int64_t region = m_values.whole(type, "a region");
     m_regions.push_back(int(region));
-    if (region != m_regions.back()) m_values.in.fault(at, fmt::format("expected a region of 32 bits, got {}", region));
+    if (region != m_regions.back()) m_values.in.fault(at, tr("expected a region of 32 bits, got {}", region));
   }
   m_values.end();
 }

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/tet_reader.hpp>
 #include <trocar/geometry/formats/vtk_data.hpp>
 #include <trocar/geometry/formats/vtk_lists.hpp>
@@ -56,7 +57,7 @@ class VtkReader {
     if (word == "point_data" || word == "cell_data") return data_of(word == "cell_data", at);
     if (word == "field") return m_data.field();
     if (m_have_points && !m_types.empty()) return m_data.attribute(word);
-    m_in.lose(at, fmt::format("expected POINTS, CELLS or CELL_TYPES, got {}", m_in.shown(at)));
+    m_in.lose(at, tr("expected POINTS, CELLS or CELL_TYPES, got {}", m_in.shown(at)));
   }
 
   // The mesh.
@@ -69,7 +70,7 @@ class VtkReader {
     if (type.whole) m_in.lose(at, "expected POINTS of type float or double, got another one");
     m_values.begin();
     if (m_in.binary() && count > m_in.left() / (3 * std::size_t(type.width)))
-      m_in.lose(m_in.at(), fmt::format("expected {} points, got {} bytes", count, m_in.left()));
+      m_in.lose(m_in.at(), tr("expected {} points, got {} bytes", count, m_in.left()));
     m_out.mesh.points.resize(count);
     for (Vec3d& p : m_out.mesh.points) read_point(m_in, type.width, m_scale, p);
     m_values.end();
@@ -97,8 +98,8 @@ class VtkReader {
     const std::size_t cells = m_cells.count();
     if (!m_have_points || m_cells.empty() || m_types.size() != cells) {
       m_in.finish();
-      m_in.lose(0, fmt::format("expected POINTS, CELLS and as many CELL_TYPES, got {} points, {} cells, {} types",
-                               m_out.mesh.points.size(), cells, m_types.size()));
+      m_in.lose(0, tr("expected POINTS, CELLS and as many CELL_TYPES, got {} points, {} cells, {} types",
+                      m_out.mesh.points.size(), cells, m_types.size()));
     }
     m_in.set_form(m_values.form);
     for (std::size_t c = 0; c < cells; ++c) cell(c);
@@ -111,10 +112,9 @@ class VtkReader {
     const VtkCell* type = vtk_cell(m_types[c]);
     const bool fits = !type || (type->exactly ? nodes == type->nodes : nodes >= type->nodes);
     if (!fits)
-      return m_in.fault(m_cells.place(c),
-                        fmt::format("expected {}{} nodes of a cell of type {}, got {}",
-                                    type->exactly ? "" : "at least ", type->nodes, type->type, nodes));
-    if (!type || !type->is_tet) return m_left_out.cell(type ? type->name : fmt::format("cells of type {}", m_types[c]));
+      return m_in.fault(m_cells.place(c), tr("expected {}{} nodes of a cell of type {}, got {}",
+                                             type->exactly ? "" : "at least ", type->nodes, type->type, nodes));
+    if (!type || !type->is_tet) return m_left_out.cell(type ? type->name : tr("cells of type {}", m_types[c]));
     if (nodes > 4) m_left_out.middle_nodes(int(nodes));
     std::array<int, 4> corners{};
     for (int k = 0; k < 4; ++k) corners[k] = corner(c, k);
@@ -125,8 +125,7 @@ class VtkReader {
   int corner(std::size_t c, int k) {
     const std::int64_t count = std::int64_t(m_out.mesh.points.size()), node = m_cells.point(c, k);
     if (node >= 0 && node < count) return int(node);
-    m_in.fault(m_cells.place(c, k),
-               fmt::format("expected the number of a point from 0 to {}, got {}", count - 1, node));
+    m_in.fault(m_cells.place(c, k), tr("expected the number of a point from 0 to {}, got {}", count - 1, node));
     return 0;
   }
 };

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/vtk_values.hpp>
 
 namespace trocar::geometry {
@@ -70,7 +71,7 @@ const VtkType& VtkValues::type() {
   in.skip_space();
   const std::size_t at = in.at();
   const VtkType* found = find_type();
-  if (!found) in.lose(at, fmt::format("expected a type such as float or int, got {}", in.shown(at)));
+  if (!found) in.lose(at, tr("expected a type such as float or int, got {}", in.shown(at)));
   return *found;
 }
 
@@ -78,7 +79,7 @@ const VtkType& VtkValues::index_type() {
   in.skip_space();
   const std::size_t at = in.at();
   const VtkType& found = type();
-  if (!found.whole) in.lose(at, fmt::format("expected a type of whole numbers, got {}", found.name));
+  if (!found.whole) in.lose(at, tr("expected a type of whole numbers, got {}", found.name));
   return found;
 }
 
@@ -121,14 +122,13 @@ std::string read_vtk_header(VtkValues& values, const char* dataset, const char* 
   if (form == "binary")
     values.form = MeshSource::Form::binary_swapped;
   else if (form != "ascii")
-    in.lose(at, fmt::format("expected ASCII or BINARY, got {}", in.shown(at)));
+    in.lose(at, tr("expected ASCII or BINARY, got {}", in.shown(at)));
   in.skip_space();
   at = in.at();
-  if (values.word() != "dataset") in.lose(at, fmt::format("expected DATASET, got {}", in.shown(at)));
+  if (values.word() != "dataset") in.lose(at, tr("expected DATASET, got {}", in.shown(at)));
   in.skip_space();
   at = in.at();
-  if (values.word() != lower(dataset))
-    in.lose(at, fmt::format("expected {}, as {} need, got {}", dataset, who, in.shown(at)));
+  if (values.word() != lower(dataset)) in.lose(at, tr("expected {}, as {} need, got {}", dataset, who, in.shown(at)));
   in.skip_line();
   return fmt::format("VTK {}, {}", core::is_decimal(version) ? version.substr(0, 8) : "legacy",
                      values.binary() ? "binary" : "text");

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/nurbs/knots.hpp>
 
 namespace trocar::geometry::nurbs {
@@ -14,9 +15,9 @@ constexpr double kPeriodSlack = 1e-12;
 
 std::string order_fault(const std::vector<double>& values) {
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i])) return fmt::format("knot {} is not a number", i);
+    if (!std::isfinite(values[i])) return tr("knot {} is not a number", i);
     if (i > 0 && values[i] < values[i - 1])
-      return fmt::format("knot {} = {} lies below knot {} = {}", i, values[i], i - 1, values[i - 1]);
+      return tr("knot {} = {} lies below knot {} = {}", i, values[i], i - 1, values[i - 1]);
   }
   return {};
 }
@@ -24,26 +25,26 @@ std::string order_fault(const std::vector<double>& values) {
 std::string end_fault(const Knots& k) {
   for (int i = 1; i <= k.degree; ++i) {
     if (k.values[i] != k.values[0])
-      return fmt::format("the first {} knots of a clamped spline are equal; knot {} is {}, not {}", k.degree + 1, i,
-                         k.values[i], k.values[0]);
+      return tr("the first {} knots of a clamped spline are equal; knot {} is {}, not {}", k.degree + 1, i, k.values[i],
+                k.values[0]);
     const std::size_t last = k.values.size() - 1;
     if (k.values[last - i] != k.values[last])
-      return fmt::format("the last {} knots of a clamped spline are equal; knot {} is {}, not {}", k.degree + 1,
-                         last - i, k.values[last - i], k.values[last]);
+      return tr("the last {} knots of a clamped spline are equal; knot {} is {}, not {}", k.degree + 1, last - i,
+                k.values[last - i], k.values[last]);
   }
   return {};
 }
 
 std::string period_fault(const Knots& k) {
   if (!(k.values[k.degree - 1] < k.values[k.degree]))
-    return fmt::format("the repeats of a periodic spline's first knot stand inside of its domain; knot {} is {}, too",
-                       k.degree - 1, k.values[k.degree]);
+    return tr("the repeats of a periodic spline's first knot stand inside of its domain; knot {} is {}, too",
+              k.degree - 1, k.values[k.degree]);
   const int n = k.points();
   const double slack = kPeriodSlack * std::max({k.extent(), std::fabs(k.values.front()), std::fabs(k.values.back())});
   for (int i = 0; i + n < static_cast<int>(k.values.size()); ++i)
     if (!(std::fabs(k.values[i + n] - k.values[i] - k.extent()) <= slack))
-      return fmt::format("knot {} = {} is not one period of {} behind knot {} = {}", i + n, k.values[i + n], k.extent(),
-                         i, k.values[i]);
+      return tr("knot {} = {} is not one period of {} behind knot {} = {}", i + n, k.values[i + n], k.extent(), i,
+                k.values[i]);
   return {};
 }
 
@@ -52,12 +53,12 @@ std::string repeat_fault(const Knots& k) {
   for (int i = first; i < k.functions(); ++i) {
     if (k.values[i] != k.values[first]) first = i;
     if (i - first + 1 > k.degree)
-      return fmt::format("knot {} is repeated more than {} times, the degree", k.values[i], k.degree);
+      return tr("knot {} is repeated more than {} times, the degree", k.values[i], k.degree);
   }
   if (!k.periodic && k.values[k.degree + 1] == k.start())
-    return fmt::format("the first knot is repeated more than {} times", k.degree + 1);
+    return tr("the first knot is repeated more than {} times", k.degree + 1);
   if (!k.periodic && k.values[k.functions() - 1] == k.end())
-    return fmt::format("the last knot is repeated more than {} times", k.degree + 1);
+    return tr("the last knot is repeated more than {} times", k.degree + 1);
   return {};
 }
 
@@ -65,10 +66,10 @@ std::string repeat_fault(const Knots& k) {
 
 std::string fault_in(const Knots& k) {
   if (k.degree < 1 || k.degree > kHighestDegree)
-    return fmt::format("a degree from 1 to {} expected, got {}", kHighestDegree, k.degree);
+    return tr("a degree from 1 to {} expected, got {}", kHighestDegree, k.degree);
   const int least = k.periodic ? 3 * k.degree + 2 : 2 * k.degree + 2;
   if (static_cast<int>(k.values.size()) < least)
-    return fmt::format("at least {} knots expected for degree {}, got {}", least, k.degree, k.values.size());
+    return tr("at least {} knots expected for degree {}, got {}", least, k.degree, k.values.size());
   if (std::string fault = order_fault(k.values); !fault.empty()) return fault;
   if (!(k.extent() > 0.0)) return "the knots span no domain";
   if (std::string fault = k.periodic ? period_fault(k) : end_fault(k); !fault.empty()) return fault;
@@ -136,8 +137,8 @@ Knots clamped_uniform(int degree, int points) {
   const int spans = points - degree;
   for (int i = 1; i < spans; ++i) inside.push_back(i / double(spans));
   if (spans < 1)
-    throw std::invalid_argument(fmt::format(
-        "clamped_uniform: at least {} control points expected for degree {}, got {}", degree + 1, degree, points));
+    throw std::invalid_argument(
+        tr("clamped_uniform: at least {} control points expected for degree {}, got {}", degree + 1, degree, points));
   return clamped(degree, 0.0, inside, 1.0);
 }
 
@@ -160,7 +161,7 @@ Knots periodic(int degree, const std::vector<double>& round, double period) {
   const int n = static_cast<int>(round.size());
   if (n < degree + 1)
     throw std::invalid_argument(
-        fmt::format("periodic: at least {} control points expected for degree {}, got {}", degree + 1, degree, n));
+        tr("periodic: at least {} control points expected for degree {}, got {}", degree + 1, degree, n));
   Knots knots{degree, true, {}};
   for (int i = -degree; i <= n + degree; ++i) {
     const int turns = i < 0 ? -1 : i / n;

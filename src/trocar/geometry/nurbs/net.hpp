@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/vec3.hpp>
 
 namespace trocar::geometry::nurbs {
@@ -14,14 +15,14 @@ namespace trocar::geometry::nurbs {
 /// What is wrong with control points and weights of which `count` are expected; empty: nothing.
 inline std::string fault_in_net(const std::vector<Vec3d>& points, const std::vector<double>& weights, int count) {
   if (static_cast<int>(points.size()) != count)
-    return fmt::format("the knots ask for {} control points, got {}", count, points.size());
+    return tr("the knots ask for {} control points, got {}", count, points.size());
   if (!weights.empty() && weights.size() != points.size())
-    return fmt::format("a weight for each of {} control points expected, got {}", count, weights.size());
+    return tr("a weight for each of {} control points expected, got {}", count, weights.size());
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (!finite(points[i])) return fmt::format("control point {} is not a number", i);
+    if (!finite(points[i])) return tr("control point {} is not a number", i);
   for (std::size_t i = 0; i < weights.size(); ++i)
     if (!(weights[i] > 0.0) || !std::isfinite(weights[i]))
-      return fmt::format("weight {} above 0 expected, got {}", i, weights[i]);
+      return tr("weight {} above 0 expected, got {}", i, weights[i]);
   return {};
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/nurbs/row.hpp>
 #include <trocar/numerics/banded.hpp>
 
@@ -100,7 +101,7 @@ std::vector<std::vector<double>> elevation_columns(const Knots& lower, const std
 Row elevated(const Row& row, int times) {
   if (row.knots.degree + times > kHighestDegree)
     throw std::invalid_argument(
-        fmt::format("elevated: degree {} asked for, {} is the highest", row.knots.degree + times, kHighestDegree));
+        tr("elevated: degree {} asked for, {} is the highest", row.knots.degree + times, kHighestDegree));
   Row result = row;
   for (int k = 0; k < times; ++k) result = elevated_once(result);
   return result;

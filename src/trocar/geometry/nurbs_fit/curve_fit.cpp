@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/nurbs/basis.hpp>
 #include <trocar/geometry/nurbs/closest.hpp>
 #include <trocar/geometry/nurbs_fit/curve_fit.hpp>
@@ -120,11 +121,10 @@ int fewest_control_points(const CurveFitOptions& o) {
 
 void require_options(std::span<const Vec3d> points, const CurveFitOptions& o) {
   if (o.degree < 1 || o.degree > kHighestDegree)
-    throw std::invalid_argument(
-        fmt::format("fit_curve: a degree from 1 to {} expected, got {}", kHighestDegree, o.degree));
+    throw std::invalid_argument(tr("fit_curve: a degree from 1 to {} expected, got {}", kHighestDegree, o.degree));
   if (static_cast<int>(points.size()) < fewest_control_points(o))
     throw std::invalid_argument(
-        fmt::format("fit_curve: at least {} points expected, got {}", fewest_control_points(o), points.size()));
+        tr("fit_curve: at least {} points expected, got {}", fewest_control_points(o), points.size()));
 }
 
 // The middles of spans with a point too far away, if there are points on both sides.
@@ -149,8 +149,8 @@ std::vector<double> knots_wanted(const CurveFit& fit, const std::vector<double>&
 CurveFit fit_curve(std::span<const Vec3d> points, int control_points, const CurveFitOptions& options) {
   require_options(points, options);
   if (control_points < fewest_control_points(options) || control_points > static_cast<int>(points.size()))
-    throw std::invalid_argument(fmt::format("fit_curve: from {} to {} control points expected, got {}",
-                                            fewest_control_points(options), points.size(), control_points));
+    throw std::invalid_argument(tr("fit_curve: from {} to {} control points expected, got {}",
+                                   fewest_control_points(options), points.size(), control_points));
   std::vector<double> parameters = parameters_by(Spacing::chord, points, "fit_curve", options.closed);
   return fit_over(knots_among(parameters, options.degree, control_points, options.closed), points, parameters, options);
 }

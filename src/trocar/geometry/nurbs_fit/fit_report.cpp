@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/nurbs/closest.hpp>
 #include <trocar/geometry/nurbs/closure.hpp>
 #include <trocar/geometry/nurbs/mesh.hpp>
@@ -27,10 +28,9 @@ FitReport residuals_of(const Surface& surface, std::span<const Vec3d> points) {
 }
 
 void require_cloud(std::span<const Vec3d> cloud, const char* who) {
-  if (cloud.size() < 16)
-    throw std::invalid_argument(fmt::format("{}: at least 16 points expected, got {}", who, cloud.size()));
+  if (cloud.size() < 16) throw std::invalid_argument(tr("{}: at least 16 points expected, got {}", who, cloud.size()));
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (!finite(cloud[i])) throw std::invalid_argument(fmt::format("{}: point {} is not a number", who, i));
+    if (!finite(cloud[i])) throw std::invalid_argument(tr("{}: point {} is not a number", who, i));
 }
 
 FitReport compare(const Surface& surface, const TriMesh& mesh) {

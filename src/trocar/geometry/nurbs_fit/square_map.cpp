@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/nurbs_fit/laplace.hpp>
 #include <trocar/geometry/nurbs_fit/square_map.hpp>
 #include <trocar/geometry/repair/rims.hpp>
@@ -19,7 +20,7 @@ std::vector<int> rim_of_sheet(const TriMesh& mesh) {
     throw std::invalid_argument("map_to_square: triangles that share an edge are turned against each other");
   std::vector<Rim> all = rims_of(mesh, EdgeTable(mesh));
   if (all.size() != 1)
-    throw std::invalid_argument(fmt::format("map_to_square: a mesh with one rim expected, got {}", all.size()));
+    throw std::invalid_argument(tr("map_to_square: a mesh with one rim expected, got {}", all.size()));
   const int euler = static_cast<int>(mesh.positions.size()) - edges.edges + static_cast<int>(mesh.triangles.size());
   if (euler != 1 || edges.crowded > 0)
     throw std::invalid_argument("map_to_square: a mesh in one piece and without handles expected");

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/nurbs_shapes/curve_makers.hpp>
 #include <trocar/geometry/nurbs_shapes/interpolate.hpp>
 #include <trocar/numerics/portable.hpp>
@@ -40,7 +41,7 @@ Curve polyline(std::span<const Vec3d> points) {
 Curve arc(Vec3d centre, Vec3d x, Vec3d y, double start, double end) {
   const double whole = end - start;
   if (!(whole > 0.0) || !(whole <= portable::two_pi * (1.0 + 1e-12)))
-    throw std::invalid_argument(fmt::format("arc: an angle above 0 and up to 2 pi expected, got {}", whole));
+    throw std::invalid_argument(tr("arc: an angle above 0 and up to 2 pi expected, got {}", whole));
   const int arcs = std::max(1, static_cast<int>(std::ceil(whole / (0.5 * portable::pi) - 1e-9)));
   const double half = 0.5 * whole / arcs, corner = portable::cos(half);
   const auto on_circle = [&](double angle, double radius) {

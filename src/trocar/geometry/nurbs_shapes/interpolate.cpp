@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/nurbs/basis.hpp>
 #include <trocar/geometry/nurbs_shapes/interpolate.hpp>
 
@@ -55,7 +56,7 @@ Knots averaged_knots(std::span<const double> parameters, int degree, bool start_
 Knots averaged_round(std::span<const double> parameters, double period, int degree) {
   const int n = static_cast<int>(parameters.size());
   if (n < degree + 1)
-    throw std::invalid_argument(fmt::format("Interpolation: more than {} points expected around, got {}", degree, n));
+    throw std::invalid_argument(tr("Interpolation: more than {} points expected around, got {}", degree, n));
   const int mean_of = degree % 2 == 1 ? 1 : degree;
   std::vector<double> round;
   for (int j = 0; j < n; ++j) {
@@ -82,13 +83,13 @@ std::vector<Vec3d> unflat(const std::vector<double>& numbers) {
 
 std::vector<double> parameters_by(Spacing spacing, std::span<const Vec3d> points, const char* who, bool closed) {
   const std::size_t n = points.size();
-  if (n < 2) throw std::invalid_argument(fmt::format("{}: at least 2 points expected, got {}", who, n));
+  if (n < 2) throw std::invalid_argument(tr("{}: at least 2 points expected, got {}", who, n));
   for (std::size_t i = 0; i < n; ++i)
-    if (!finite(points[i])) throw std::invalid_argument(fmt::format("{}: point {} is not a number", who, i));
+    if (!finite(points[i])) throw std::invalid_argument(tr("{}: point {} is not a number", who, i));
   std::vector<double> way{0.0};
   for (std::size_t i = 1; i < n + (closed ? 1 : 0); ++i) {
     const double chord = length(points[i % n] - points[i - 1]);
-    if (!(chord > 0.0)) throw std::invalid_argument(fmt::format("{}: points {} and {} coincide", who, i - 1, i % n));
+    if (!(chord > 0.0)) throw std::invalid_argument(tr("{}: points {} and {} coincide", who, i - 1, i % n));
     way.push_back(way.back() + (spacing == Spacing::chord ? chord : std::sqrt(chord)));
   }
   const double whole = way.back();
@@ -97,7 +98,7 @@ std::vector<double> parameters_by(Spacing spacing, std::span<const Vec3d> points
   if (!closed) way.back() = 1.0;
   for (std::size_t i = 1; i < n; ++i)
     if (!(way[i] > way[i - 1]))
-      throw std::invalid_argument(fmt::format("{}: points {} and {} coincide but for rounding", who, i - 1, i));
+      throw std::invalid_argument(tr("{}: points {} and {} coincide but for rounding", who, i - 1, i));
   return way;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/nurbs/curve_edit.hpp>
 #include <trocar/geometry/nurbs/surface_edit.hpp>
 #include <trocar/geometry/nurbs_shapes/interpolate.hpp>
@@ -51,7 +52,7 @@ std::vector<double> mean_ways(const std::vector<Curve>& sections, bool closed, d
   for (std::size_t s = 1; s < n + (closed ? 1 : 0); ++s) {
     double sum = 0.0;
     for (std::size_t i = 0; i < columns; ++i) sum += length(sections[s % n].points[i] - sections[s - 1].points[i]);
-    if (!(sum > 0.0)) throw std::invalid_argument(fmt::format("skinned: sections {} and {} coincide", s - 1, s % n));
+    if (!(sum > 0.0)) throw std::invalid_argument(tr("skinned: sections {} and {} coincide", s - 1, s % n));
     way.push_back(way.back() + sum / double(columns));
   }
   whole = way.back();
@@ -100,7 +101,7 @@ std::vector<Curve> compatible(const std::vector<Curve>& curves) {
 
 Surface skinned(const std::vector<Curve>& sections, const SkinOptions& options) {
   if (sections.size() < 2)
-    throw std::invalid_argument(fmt::format("skinned: at least 2 sections expected, got {}", sections.size()));
+    throw std::invalid_argument(tr("skinned: at least 2 sections expected, got {}", sections.size()));
   const std::vector<Curve> alike = compatible(sections);
   const Interpolation system = along_sections(alike, options);
   const int nu = alike[0].knots.points();

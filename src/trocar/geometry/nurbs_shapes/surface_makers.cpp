@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/nurbs/surface_edit.hpp>
 #include <trocar/geometry/nurbs_shapes/curve_makers.hpp>
 #include <trocar/geometry/nurbs_shapes/skin.hpp>
@@ -14,13 +15,13 @@ namespace {
 
 Vec3d unit(Vec3d axis, const char* who) {
   const Vec3d n = normalised(axis, Vec3d{});
-  if (!finite(axis) || n == Vec3d{}) throw std::invalid_argument(fmt::format("{}: an axis expected", who));
+  if (!finite(axis) || n == Vec3d{}) throw std::invalid_argument(tr("{}: an axis expected", who));
   return n;
 }
 
 void require_radius(double radius, const char* who) {
   if (!(radius > 0.0) || !std::isfinite(radius))
-    throw std::invalid_argument(fmt::format("{}: a radius above 0 expected, got {}", who, radius));
+    throw std::invalid_argument(tr("{}: a radius above 0 expected, got {}", who, radius));
 }
 
 // From one pole of the unit sphere's meridian to the other, exactly.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/curves/frames.hpp>
 #include <trocar/geometry/nurbs/curve_edit.hpp>
 #include <trocar/geometry/nurbs/surface_edit.hpp>
@@ -35,11 +36,11 @@ class Radii {
     if (m_values.size() == 1) m_values.resize(n, m_values[0]);
     if (closed && m_values.size() == n - 1) m_values.push_back(m_values[0]);
     if (m_values.size() != n)
-      throw std::invalid_argument(fmt::format("tube: one radius, or one at each of {} knots expected, got {}",
-                                              closed ? n - 1 : n, m_values.size()));
+      throw std::invalid_argument(
+          tr("tube: one radius, or one at each of {} knots expected, got {}", closed ? n - 1 : n, m_values.size()));
     for (std::size_t i = 0; i < n; ++i)
       if (!(m_values[i] > 0.0) || !std::isfinite(m_values[i]))
-        throw std::invalid_argument(fmt::format("tube: radius {} above 0 expected, got {}", i, m_values[i]));
+        throw std::invalid_argument(tr("tube: radius {} above 0 expected, got {}", i, m_values[i]));
     for (std::size_t i = 0; i < n; ++i) {
       const bool inside = i > 0 && i + 1 < n;
       if (inside)
@@ -67,7 +68,7 @@ Station station_at(const Curve& spine, const Radii& radii, std::size_t span, dou
   Station station{u, radii.at(span, u), 0.0, point(spine, u), {}};
   station.frame.tangent = tangent(spine, u);
   if (station.frame.tangent == Vec3d{})
-    throw std::invalid_argument(fmt::format("tube: the spine has no direction at parameter {}", u));
+    throw std::invalid_argument(tr("tube: the spine has no direction at parameter {}", u));
   return station;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/remesh/editable.hpp>
 #include <trocar/geometry/repair/degenerate.hpp>
 #include <trocar/geometry/repair/examine.hpp>
@@ -107,7 +108,7 @@ Repaired without_degenerate(const TriMesh& mesh, double height) {
   const int removed = twice + work.remove_all();
   if (removed > 0) out.mesh = work.taken();
   out.tell("without_degenerate", removed, "triangle without area removed", "triangles without area removed");
-  if (work.left() > 0) out.left.push_back(fmt::format("{} triangles without area remain", work.left()));
+  if (work.left() > 0) out.left.push_back(tr("{} triangles without area remain", work.left()));
   return out;
 }
 

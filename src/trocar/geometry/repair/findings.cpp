@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/repair/examine.hpp>
 
 namespace trocar::geometry {
@@ -17,8 +18,8 @@ std::string millimetres(double metres) { return fmt::format("{:.3g} mm", 1000 * 
 std::string holes_in_words(const Diagnosis& d) {
   double longest = 0;
   for (const Rim& rim : d.holes) longest = std::max(longest, rim.length);
-  return fmt::format("{}, {}, the longest {} around", counted(d.holes.size(), "hole", "holes"),
-                     counted(std::size_t(d.open_edges()), "open edge", "open edges"), millimetres(longest));
+  return tr("{}, {}, the longest {} around", counted(d.holes.size(), "hole", "holes"),
+            counted(std::size_t(d.open_edges()), "open edge", "open edges"), millimetres(longest));
 }
 
 std::string shells_in_words(const Diagnosis& d) {
@@ -29,8 +30,8 @@ std::string shells_in_words(const Diagnosis& d) {
     all += shell.area;
     cavities += shell.is_cavity;
   }
-  std::string words = fmt::format("{} separate shells, the largest with {:.3g} % of the area", d.shells.list.size(),
-                                  all > 0 ? 100 * largest / all : 0.0);
+  std::string words = tr("{} separate shells, the largest with {:.3g} % of the area", d.shells.list.size(),
+                         all > 0 ? 100 * largest / all : 0.0);
   if (cavities > 0) words += fmt::format(", {}", counted(std::size_t(cavities), "cavity", "cavities"));
   return words;
 }
@@ -63,14 +64,14 @@ std::vector<Finding> findings(const Diagnosis& d) {
   tell(MeshFault::inward, d.inward.size(), "shell that faces inwards", "shells that face inwards", "oriented");
   add(MeshFault::holes, d.holes.size(), holes_in_words(d), "with_holes_closed");
   add(MeshFault::crossings, d.crossings.size(),
-      fmt::format("{}{} that cross", d.all_crossings ? "" : "more than ",
-                  counted(d.crossings.size(), "pair of triangles", "pairs of triangles")),
+      tr("{}{} that cross", d.all_crossings ? "" : "more than ",
+         counted(d.crossings.size(), "pair of triangles", "pairs of triangles")),
       "resolved");
   add(MeshFault::several_shells, d.shells.list.size() > 1 ? d.shells.list.size() : 0, shells_in_words(d),
       "without_small_shells");
   add(MeshFault::slivers, d.slivers.size(),
-      fmt::format("{}, the least angle {:.2g} degrees", counted(d.slivers.size(), "thin triangle", "thin triangles"),
-                  d.least_angle),
+      tr("{}, the least angle {:.2g} degrees", counted(d.slivers.size(), "thin triangle", "thin triangles"),
+         d.least_angle),
       "remeshed");
   return out;
 }

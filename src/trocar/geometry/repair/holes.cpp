@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/remesh/patch_work.hpp>
 #include <trocar/geometry/repair/holes.hpp>
 #include <trocar/geometry/repair/rim_bridge.hpp>
@@ -43,7 +44,7 @@ class HoleClosing {
     m_out.tell("with_holes_closed", m_rings, "wall closed by a ring between its rims",
                "walls closed by rings between their rims");
     m_out.tell("with_holes_closed", m_lids, "hole closed", "holes closed");
-    if (m_lids > 0) m_out.changes.back().words += fmt::format(", the largest of {:.3g} cm2", 1e4 * m_largest);
+    if (m_lids > 0) m_out.changes.back().words += tr(", the largest of {:.3g} cm2", 1e4 * m_largest);
     return std::move(m_out);
   }
 
@@ -83,14 +84,14 @@ class HoleClosing {
     const auto is_sheet = [&](int s) { return !m_options.sheets && lids[s] > kSheetLids * area[s]; };
     for (int s = 0; s < int(area.size()); ++s)
       if (is_sheet(s))
-        m_out.left.push_back(fmt::format("a sheet of {:.3g} cm2 is left open: it encloses nothing", 1e4 * area[s]));
+        m_out.left.push_back(tr("a sheet of {:.3g} cm2 is left open: it encloses nothing", 1e4 * area[s]));
     for (std::size_t r = 0; r < m_rims.size(); ++r)
       if (is_sheet(joined.root(shell_of(m_rims[r])))) m_closed[r] = true;
   }
 
   void close(const Rim& rim) {
     if (!rim.is_loop || rim.vertices.size() < 3 || rim.vertices.size() > kLongestRim) {
-      m_out.left.push_back(fmt::format("a hole with {} corners is left open", rim.vertices.size()));
+      m_out.left.push_back(tr("a hole with {} corners is left open", rim.vertices.size()));
       return;
     }
     std::vector<int> loop(rim.vertices.rbegin(), rim.vertices.rend());  // the patch runs against the surface

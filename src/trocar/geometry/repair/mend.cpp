@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/repair/cleaned.hpp>
 #include <trocar/geometry/repair/degenerate.hpp>
 #include <trocar/geometry/repair/mend.hpp>
@@ -112,9 +113,9 @@ class MeshMending {
     }
     m_out.mesh = parted(fresh.mesh).mesh;
     m_out.was_refilled = true;
-    m_out.changes.push_back({"refilled", 1,
-                             fmt::format("rebuilt with cells of {:.3g} mm, largest deviation {:.3g} mm",
-                                         1000 * fresh.cell, 1000 * fresh.farthest)});
+    m_out.changes.push_back(
+        {"refilled", 1,
+         tr("rebuilt with cells of {:.3g} mm, largest deviation {:.3g} mm", 1000 * fresh.cell, 1000 * fresh.farthest)});
     return true;
   }
 

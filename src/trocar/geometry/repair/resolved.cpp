@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/random.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/repair/cleaned.hpp>
 #include <trocar/geometry/repair/crossing_cuts.hpp>
 #include <trocar/geometry/repair/cut_triangle.hpp>
@@ -220,7 +221,7 @@ Repaired resolved(const TriMesh& mesh) {
   std::optional<TriMesh> done = resolved_at_once(mesh, work_left);
   if (!done) done = resolved_by_shells(mesh, work_left);
   if (!done) {
-    out.left.push_back(fmt::format("{} pairs of triangles that cross could not be cut along their crossing", before));
+    out.left.push_back(tr("{} pairs of triangles that cross could not be cut along their crossing", before));
     return out;
   }
   out.mesh = std::move(*done);

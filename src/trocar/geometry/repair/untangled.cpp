@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/repair/cleaned.hpp>
 #include <trocar/geometry/repair/degenerate.hpp>
 #include <trocar/geometry/repair/holes.hpp>
@@ -112,7 +113,7 @@ Repaired untangled(const TriMesh& mesh) {
       out.tell("untangled", gone, "triangle at crossings removed", "triangles at crossings removed");
     }
   out.mesh = std::move(best.mesh);
-  if (!best.pairs.empty()) out.left.push_back(fmt::format("{} pairs of triangles still cross", best.pairs.size()));
+  if (!best.pairs.empty()) out.left.push_back(tr("{} pairs of triangles still cross", best.pairs.size()));
   return out;
 }
 

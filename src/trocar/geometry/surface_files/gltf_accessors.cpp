@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/gltf_accessors.hpp>
 #include <trocar/geometry/surface_files/surface_reader.hpp>
 
@@ -42,7 +43,7 @@ class GltfAccessor {
     m_components = components;
     const int type_item = m_json.member(m_item, "type");
     if (type_item < 0 || m_json.raw_text(type_item) != type)
-      return refuse(fmt::format("expected an accessor of type {}, got {}", type, m_json.shown(type_item)));
+      return refuse(tr("expected an accessor of type {}, got {}", type, m_json.shown(type_item)));
     m_type = component_type(m_item);
     const std::optional<std::size_t> count = m_gltf.whole(m_item, "count");
     if (!m_type || !count) return refuse("expected an accessor with componentType and count, got another one");
@@ -85,7 +86,7 @@ class GltfAccessor {
                              : bytes->size() < own        ? 0
                                                           : (bytes->size() - own) / stride + 1;
     if (count > room) {
-      refuse(fmt::format("expected at most {} items, for which its view has room, got {}", room, count));
+      refuse(tr("expected at most {} items, for which its view has room, got {}", room, count));
       return false;
     }
     for (std::size_t i = 0; i < count; ++i)
@@ -100,7 +101,7 @@ class GltfAccessor {
     const int where = m_json.member(sparse, "indices"), what = m_json.member(sparse, "values");
     const std::size_t some = m_gltf.whole(sparse, "count").value_or(0);
     if (where < 0 || what < 0 || some > count) {
-      m_gltf.fault(sparse, fmt::format("expected indices and values of at most {} items, got others", count));
+      m_gltf.fault(sparse, tr("expected indices and values of at most {} items, got others", count));
       return false;
     }
     const int where_view = m_gltf.named(where, "bufferView", "bufferViews"),
@@ -117,7 +118,7 @@ class GltfAccessor {
     m_type = own_type;
     m_components = own_components;
     if (!good || std::any_of(indices.begin(), indices.end(), [&](double i) { return i >= double(count); })) {
-      m_gltf.fault(sparse, fmt::format("expected whole numbers below {} as sparse indices, got others", count));
+      m_gltf.fault(sparse, tr("expected whole numbers below {} as sparse indices, got others", count));
       return false;
     }
     for (std::size_t i = 0; i < some; ++i)
@@ -144,8 +145,8 @@ std::optional<std::vector<Vec3d>> gltf_points(GltfDocument& gltf, int accessor) 
     points[i] = {(*values)[3 * i], (*values)[3 * i + 1], (*values)[3 * i + 2]};
   const auto bad = std::find_if(points.begin(), points.end(), [](Vec3d p) { return !finite(p); });
   if (bad == points.end()) return points;
-  gltf.fault(accessor, fmt::format("expected coordinates that are numbers, got {} {} {} as item {}", bad->x, bad->y,
-                                   bad->z, bad - points.begin()));
+  gltf.fault(accessor, tr("expected coordinates that are numbers, got {} {} {} as item {}", bad->x, bad->y, bad->z,
+                          bad - points.begin()));
   return std::nullopt;
 }
 
@@ -161,8 +162,7 @@ std::optional<std::vector<int>> gltf_indices(GltfDocument& gltf, int accessor, s
   indices.reserve(values->size());
   for (const double value : *values) {
     if (value >= double(vertices)) {
-      gltf.fault(accessor,
-                 fmt::format("expected indices below {}, got {} as item {}", vertices, value, indices.size()));
+      gltf.fault(accessor, tr("expected indices below {}, got {} as item {}", vertices, value, indices.size()));
       return std::nullopt;
     }
     indices.push_back(int(value));

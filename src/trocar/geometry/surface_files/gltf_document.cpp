@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/base64.hpp>
 #include <trocar/geometry/surface_files/gltf_document.hpp>
 
@@ -39,17 +40,17 @@ GltfDocument::Chunks GltfDocument::chunks_of(MeshSource& in) {
   };
   in.go_to(4);
   if (const std::int64_t version = whole("the version"); version != 2)
-    in.lose(4, fmt::format("expected glTF of version 2, got {}", version));
+    in.lose(4, tr("expected glTF of version 2, got {}", version));
   if (const std::int64_t length = whole("the length of the file"); std::uint64_t(length) != all.size())
-    in.lose(8, fmt::format("expected the file's length, {}, got {}", all.size(), length));
+    in.lose(8, tr("expected the file's length, {}, got {}", all.size(), length));
   Chunks chunks;
   for (int chunk = 0; in.left() > 0; ++chunk) {
     const std::size_t at = in.at();
     const std::int64_t length = whole("the length of a chunk"), type = whole("the type of a chunk");
     if (std::uint64_t(length) > in.left())
-      in.lose(at, fmt::format("expected a chunk of at most {} bytes, got {}", in.left(), length));
+      in.lose(at, tr("expected a chunk of at most {} bytes, got {}", in.left(), length));
     if ((chunk == 0) != (type == kJsonChunk))
-      in.lose(at + 4, fmt::format("expected JSON in the first chunk and nowhere else, got {:#010x}", type));
+      in.lose(at + 4, tr("expected JSON in the first chunk and nowhere else, got {:#010x}", type));
     if (chunk == 0) chunks.json = all.substr(in.at(), std::size_t(length));
     if (chunk == 1 && type == kBinaryChunk) chunks.binary = all.substr(in.at(), std::size_t(length));
     in.skip_bytes(std::uint64_t(length), "a chunk");
@@ -65,7 +66,7 @@ GltfDocument::GltfDocument(MeshSource& in, const FilesBeside& beside)
       m_chunks(chunks_of(in)),
       m_json(in, m_chunks.json) {
   if (m_json.kind(m_json.root()) != JsonItems::Kind::object)
-    in.lose(m_json.place(m_json.root()), fmt::format("expected an object, got {}", m_json.shown(m_json.root())));
+    in.lose(m_json.place(m_json.root()), tr("expected an object, got {}", m_json.shown(m_json.root())));
   for (const int item : list("buffers")) m_buffers.push_back({item, false, {}});
 }
 
@@ -74,7 +75,7 @@ const std::vector<int>& GltfDocument::list(std::string_view name) {
     if (known == name) return items;
   const int item = m_json.member(m_json.root(), name);
   if (item >= 0 && m_json.kind(item) != JsonItems::Kind::array)
-    m_in.lose(m_json.place(item), fmt::format("expected an array, got {}", m_json.shown(item)));
+    m_in.lose(m_json.place(item), tr("expected an array, got {}", m_json.shown(item)));
   m_lists.reserve(16);  // references stay good: there are fewer names than that
   m_lists.emplace_back(std::string(name), m_json.items(item));
   return m_lists.back().second;
@@ -88,7 +89,7 @@ std::optional<std::size_t> GltfDocument::whole(int object, std::string_view key)
   if (m_json.kind(item) == JsonItems::Kind::number && value >= 0 && value < most &&
       value == double(static_cast<std::uint64_t>(value)))
     return std::size_t(value);
-  fault(item, fmt::format("expected a whole number from 0 on, got {}", m_json.shown(item)));
+  fault(item, tr("expected a whole number from 0 on, got {}", m_json.shown(item)));
   return std::nullopt;
 }
 
@@ -97,7 +98,7 @@ int GltfDocument::named(int object, std::string_view key, std::string_view list_
   if (!number) return -1;
   const std::vector<int>& items = list(list_name);
   if (*number < items.size()) return items[*number];
-  fault(m_json.member(object, key), fmt::format("expected one of {} {}, got {}", items.size(), list_name, *number));
+  fault(m_json.member(object, key), tr("expected one of {} {}, got {}", items.size(), list_name, *number));
   return -1;
 }
 
@@ -113,8 +114,8 @@ std::optional<std::string_view> GltfDocument::view(int buffer_view, std::size_t 
   if (!bytes) return std::nullopt;
   if (from <= bytes->size() && length <= bytes->size() - from && offset <= length)
     return bytes->substr(from + offset, length - offset);
-  fault(buffer_view, fmt::format("expected a view within the buffer's {} bytes, got {} from {} on, read from {} on",
-                                 bytes->size(), length, from, offset));
+  fault(buffer_view, tr("expected a view within the buffer's {} bytes, got {} from {} on, read from {} on",
+                        bytes->size(), length, from, offset));
   return std::nullopt;
 }
 
@@ -125,7 +126,7 @@ std::optional<std::string_view> GltfDocument::buffer(int item) {
   found->bytes = load(item);
   const std::size_t length = whole(item, "byteLength").value_or(0);
   if (found->bytes && found->bytes->size() < length) {
-    fault(item, fmt::format("expected a buffer of {} bytes, got {}", length, found->bytes->size()));
+    fault(item, tr("expected a buffer of {} bytes, got {}", length, found->bytes->size()));
     found->bytes.reset();
   }
   return found->bytes;
@@ -146,16 +147,16 @@ std::optional<std::string_view> GltfDocument::load_uri(int uri) {
     constexpr std::string_view form = ";base64,";
     const std::size_t at = raw.substr(0, 200).find(form);
     if (at != raw.npos) bytes = from_base64(raw.substr(at + form.size()));
-    if (!bytes) fault(uri, fmt::format("expected data in base64, got {}", m_json.shown(uri)));
+    if (!bytes) fault(uri, tr("expected data in base64, got {}", m_json.shown(uri)));
   } else if (!m_beside) {
-    fault(uri, fmt::format("expected data in the file itself, got {}", m_json.shown(uri)));
+    fault(uri, tr("expected data in the file itself, got {}", m_json.shown(uri)));
   } else {
     bytes = m_beside(unescaped(m_json.text(uri)));
   }
   if (!bytes) return std::nullopt;
   m_own_bytes += bytes->size();
   if (m_own_bytes > 2 * kMaxMeshBytes)
-    m_in.lose(m_json.place(uri), fmt::format("expected at most {} bytes in buffers, got more", 2 * kMaxMeshBytes));
+    m_in.lose(m_json.place(uri), tr("expected at most {} bytes in buffers, got more", 2 * kMaxMeshBytes));
   m_own.push_back(std::make_unique<std::string>(std::move(*bytes)));
   return std::string_view(*m_own.back());
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/gltf_nodes.hpp>
 #include <trocar/numerics/quat.hpp>
 
@@ -46,7 +47,7 @@ class GltfNodes {
           value == double(std::size_t(value)))
         out.push_back(std::size_t(value));
       else
-        m_gltf.fault(item, fmt::format("expected one of {} nodes, got {}", m_nodes.size(), m_json.shown(item)));
+        m_gltf.fault(item, tr("expected one of {} nodes, got {}", m_nodes.size(), m_json.shown(item)));
     }
     return out;
   }
@@ -68,7 +69,7 @@ class GltfNodes {
   void visit(std::size_t number, const Affine& parent) {
     const int node = m_nodes[number];
     if (m_reached[number]) {
-      m_gltf.fault(node, fmt::format("expected every node in one place of the tree, got node {} again", number));
+      m_gltf.fault(node, tr("expected every node in one place of the tree, got node {} again", number));
       return;
     }
     m_reached[number] = true;
@@ -88,7 +89,7 @@ class GltfNodes {
                         return m_json.kind(v) == JsonItems::Kind::number;
                       });
     if (!good) {
-      m_gltf.fault(item, fmt::format("expected {} numbers as {}, got others", count, key));
+      m_gltf.fault(item, tr("expected {} numbers as {}, got others", count, key));
       return otherwise;
     }
     std::array<double, count> out;

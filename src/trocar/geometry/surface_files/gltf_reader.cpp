@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/gltf_accessors.hpp>
 #include <trocar/geometry/surface_files/gltf_nodes.hpp>
 #include <trocar/geometry/surface_files/surface_reader.hpp>
@@ -54,17 +55,17 @@ class GltfReader {
     const bool good = version >= 0 && m_json.raw_text(version).substr(0, 2) == "2." &&
                       (least < 0 || m_json.raw_text(least).substr(0, 2) == "2.");
     const int at = version < 0 ? m_json.root() : version;
-    if (!good) m_gltf.fault(at, fmt::format("expected an asset of version 2, got {}", m_json.shown(version)));
+    if (!good) m_gltf.fault(at, tr("expected an asset of version 2, got {}", m_json.shown(version)));
   }
 
   void check_extensions() {
     for (const int item : m_json.items(m_json.member(m_json.root(), "extensionsRequired"))) {
       const std::string_view name = m_json.raw_text(item);
       if (std::find(std::begin(kPacked), std::end(kPacked), name) != std::end(kPacked))
-        m_gltf.fault(item, fmt::format("expected a mesh that is not compressed, got one packed by {}: save it without",
-                                       in_quotes(name)));
+        m_gltf.fault(
+            item, tr("expected a mesh that is not compressed, got one packed by {}: save it without", in_quotes(name)));
       else if (!is_harmless(name))
-        m_gltf.fault(item, fmt::format("expected extensions that are known, got {} required", m_json.shown(item)));
+        m_gltf.fault(item, tr("expected extensions that are known, got {} required", m_json.shown(item)));
     }
   }
 
@@ -93,7 +94,7 @@ class GltfReader {
     bound_items(m_gltf.in(), ++m_primitives, "primitives");
     const std::size_t mode = m_gltf.whole(primitive, "mode").value_or(4);
     if (mode < 4) return m_left_out.add(mode == 0 ? "primitives of points" : "primitives of lines");
-    if (mode > 6) return m_gltf.fault(primitive, fmt::format("expected a mode from 0 to 6, got {}", mode));
+    if (mode > 6) return m_gltf.fault(primitive, tr("expected a mode from 0 to 6, got {}", mode));
     const int targets = m_json.member(primitive, "targets");
     if (targets >= 0) m_left_out.add("lists of morph targets");
     const int attributes = m_json.member(primitive, "attributes");
@@ -110,7 +111,7 @@ class GltfReader {
       indices = std::move(*given);
     }
     if (mode == 4 && indices.size() % 3 != 0)
-      return m_gltf.fault(primitive, fmt::format("expected three corners a triangle, got {} indices", indices.size()));
+      return m_gltf.fault(primitive, tr("expected three corners a triangle, got {} indices", indices.size()));
     bound_items(m_gltf.in(), mesh.positions.size() + points->size(), "vertices");
     bound_items(m_gltf.in(), mesh.triangles.size() + indices.size() / (mode == 4 ? 3 : 1), "triangles");
     const int shift = int(mesh.positions.size());

@@ -4,6 +4,7 @@
 
 #include <trocar/core/decimal.hpp>
 #include <trocar/core/json_grammar.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/json_items.hpp>
 
 namespace trocar::geometry {
@@ -30,8 +31,7 @@ JsonItems::JsonItems(MeshSource& in, std::string_view text)
 
 void JsonItems::lose(const char* expected) const {
   const std::size_t at = m_offset + m_at;
-  m_in.lose(
-      at, fmt::format("expected {}, got {}", expected, m_at < m_text.size() ? m_in.shown(at) : "the end of the JSON"));
+  m_in.lose(at, tr("expected {}, got {}", expected, m_at < m_text.size() ? m_in.shown(at) : "the end of the JSON"));
 }
 
 void JsonItems::skip_space() {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/surface_reader.hpp>
 
 namespace trocar::geometry {
@@ -81,7 +82,7 @@ class ObjSurface {
         m_polygons.corners.push_back(corner(word, word_at));
     }
     const std::size_t corners = m_polygons.corners.size() - std::size_t(m_polygons.start.back());
-    if (corners < 3) m_in.fault(at, fmt::format("expected at least 3 corners of a face, got {}", corners));
+    if (corners < 3) m_in.fault(at, tr("expected at least 3 corners of a face, got {}", corners));
     m_polygons.end_polygon(m_in, at);
   }
 
@@ -91,7 +92,7 @@ class ObjSurface {
     const std::int64_t count = std::int64_t(m_positions.size());
     if (number && *number > 0 && *number <= std::int64_t(kMostSurfaceItems)) return int(*number - 1);
     if (number && *number < 0 && -*number <= count) return int(count + *number);
-    m_in.fault(at, fmt::format("expected the number of a vertex, from 1 or back from -1, got {}", in_quotes(word)));
+    m_in.fault(at, tr("expected the number of a vertex, from 1 or back from -1, got {}", in_quotes(word)));
     return PolygonList::kTold;
   }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/ply_header.hpp>
 
 namespace trocar::geometry {
@@ -58,7 +59,7 @@ class PlyHeaderReader {
     } else if (word == "property") {
       property(at);
     } else {
-      m_in.lose(at, fmt::format("expected format, element, property or end_header, got {}", m_in.shown(at)));
+      m_in.lose(at, tr("expected format, element, property or end_header, got {}", m_in.shown(at)));
     }
     m_in.line();
   }
@@ -78,7 +79,7 @@ class PlyHeaderReader {
     else if (word == "binary_big_endian")
       m_header.form = MeshSource::Form::binary_swapped;
     else if (word != "ascii")
-      m_in.lose(at, fmt::format("expected ascii, binary_little_endian or binary_big_endian, got {}", m_in.shown(at)));
+      m_in.lose(at, tr("expected ascii, binary_little_endian or binary_big_endian, got {}", m_in.shown(at)));
   }
 
   void element() {
@@ -88,7 +89,7 @@ class PlyHeaderReader {
     element.count = m_in.count("items", 1);
     m_in.set_records_on_lines(false);
     if (m_header.elements.size() == kMostPlyItems)
-      m_in.lose(element.at, fmt::format("expected at most {} elements, got more", kMostPlyItems));
+      m_in.lose(element.at, tr("expected at most {} elements, got more", kMostPlyItems));
     m_header.elements.push_back(std::move(element));
   }
 
@@ -97,7 +98,7 @@ class PlyHeaderReader {
     const std::string_view word = next(at);
     for (const NamedPlyType& known : kPlyTypes)
       if (word == known.name) return known.type;
-    m_in.lose(at, fmt::format("expected a type such as float or uchar, got {}", m_in.shown(at)));
+    m_in.lose(at, tr("expected a type such as float or uchar, got {}", m_in.shown(at)));
   }
 
   void property(std::size_t at) {
@@ -116,7 +117,7 @@ class PlyHeaderReader {
     property.type = type();
     property.name = std::string(next(at).substr(0, 100));
     if (properties.size() == kMostPlyItems)
-      m_in.lose(at, fmt::format("expected at most {} properties of an element, got more", kMostPlyItems));
+      m_in.lose(at, tr("expected at most {} properties of an element, got more", kMostPlyItems));
     properties.push_back(std::move(property));
   }
 
@@ -129,10 +130,9 @@ class PlyHeaderReader {
       least += text ? 2 : std::size_t(p.is_list ? p.length.width : p.type.width);
     }
     if (least > 0 && element.count > (m_in.left() + 1) / least)
-      m_in.lose(element.at,
-                fmt::format("expected at most {} items, for which the {} bytes that follow have room, got {} "
-                            "announced",
-                            (m_in.left() + 1) / least, m_in.left(), element.count));
+      m_in.lose(element.at, tr("expected at most {} items, for which the {} bytes that follow have room, got {} "
+                               "announced",
+                               (m_in.left() + 1) / least, m_in.left(), element.count));
   }
 };
 

@@ -2,6 +2,7 @@
 // there is, is passed over.
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/ply_header.hpp>
 #include <trocar/geometry/surface_files/surface_reader.hpp>
 
@@ -63,8 +64,8 @@ class PlyReader {
   void item(const PlyElement& element, const std::vector<Use>& use) {
     m_in.begin_record();
     if (m_in.left() == 0 && !m_in.binary())
-      m_in.lose(m_in.at(), fmt::format("expected {} items of {}, got the end of the file", element.count,
-                                       in_quotes(element.name)));
+      m_in.lose(m_in.at(),
+                tr("expected {} items of {}, got the end of the file", element.count, in_quotes(element.name)));
     Vec3d point;
     for (std::size_t p = 0; p < use.size(); ++p) {
       const PlyProperty& property = element.properties[p];
@@ -102,7 +103,7 @@ class PlyReader {
     if (m_in.binary()) return m_in.skip_bytes(std::uint64_t(type.width) * count, "values");
     for (std::size_t i = 0; i < count; ++i) {
       if (!m_in.word_on_line())
-        return m_in.fault(m_in.at(), fmt::format("expected another value, got {}", m_in.shown(m_in.at())));
+        return m_in.fault(m_in.at(), tr("expected another value, got {}", m_in.shown(m_in.at())));
       m_in.word();
     }
   }
@@ -113,14 +114,12 @@ class PlyReader {
     const std::int64_t length = whole(property.length, "the length of a list");
     const std::size_t least = m_in.binary() ? std::size_t(property.type.width) : 1;
     if (length < 0 || std::uint64_t(length) > m_in.left() / least)
-      m_in.lose(at,
-                fmt::format("expected a list of at most {} values, for which the bytes that follow have room, got {}",
-                            m_in.left() / least, length));
+      m_in.lose(at, tr("expected a list of at most {} values, for which the bytes that follow have room, got {}",
+                       m_in.left() / least, length));
     if (use != Use::polygon && use != Use::strip) return pass(property.type, std::size_t(length));
     PolygonList& to = use == Use::strip ? m_strips : m_polygons;
     for (std::int64_t k = 0; k < length; ++k) corner(property.type, use, at);
-    if (use == Use::polygon && length < 3)
-      m_in.fault(at, fmt::format("expected at least 3 corners of a face, got {}", length));
+    if (use == Use::polygon && length < 3) m_in.fault(at, tr("expected at least 3 corners of a face, got {}", length));
     to.end_polygon(m_in, at);
   }
 
@@ -130,7 +129,7 @@ class PlyReader {
     const std::int64_t index = whole(type, "the number of a vertex");
     if (index == -1 && use == Use::strip) return m_strips.end_polygon(m_in, list_at);
     const bool good = index >= 0 && index <= std::int64_t(kMostSurfaceItems);
-    if (!good) m_in.fault(at, fmt::format("expected the number of a vertex, got {}", index));
+    if (!good) m_in.fault(at, tr("expected the number of a vertex, got {}", index));
     (use == Use::strip ? m_strips : m_polygons).corners.push_back(good ? int(index) : PolygonList::kTold);
   }
 
@@ -143,7 +142,7 @@ class PlyReader {
       if (bad == strip.end())
         add_strip(strip, mesh.triangles);
       else if (*bad >= count)
-        m_in.fault(m_strips.at[s], fmt::format("expected vertices from 0 to {} in a strip, got {}", count - 1, *bad));
+        m_in.fault(m_strips.at[s], tr("expected vertices from 0 to {} in a strip, got {}", count - 1, *bad));
     }
   }
 

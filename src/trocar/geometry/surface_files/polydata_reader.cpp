@@ -3,6 +3,7 @@
 // [VTK file formats: Simple legacy formats]
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/vtk_data.hpp>
 #include <trocar/geometry/formats/vtk_lists.hpp>
 #include <trocar/geometry/surface_files/surface_reader.hpp>
@@ -61,11 +62,11 @@ class PolydataReader {
       return m_data.begin(true, m_vertices.count() + m_lines.count() + m_polygons.count() + m_strips.count(), at);
     if (word == "field") return m_data.field();
     if (m_have_points) return m_data.attribute(word);
-    m_in.lose(at, fmt::format("expected POINTS, POLYGONS or TRIANGLE_STRIPS, got {}", m_in.shown(at)));
+    m_in.lose(at, tr("expected POINTS, POLYGONS or TRIANGLE_STRIPS, got {}", m_in.shown(at)));
   }
 
   void lists(VtkLists& of, std::size_t at) {
-    if (!of.empty()) m_in.lose(at, fmt::format("expected {} once, got them again", m_in.shown(at)));
+    if (!of.empty()) m_in.lose(at, tr("expected {} once, got them again", m_in.shown(at)));
     of.read();
   }
 
@@ -77,7 +78,7 @@ class PolydataReader {
     if (type.whole) m_in.lose(at, "expected POINTS of type float or double, got another one");
     m_values.begin();
     if (m_in.binary() && count > m_in.left() / (3 * std::size_t(type.width)))
-      m_in.lose(m_in.at(), fmt::format("expected {} points, got {} bytes", count, m_in.left()));
+      m_in.lose(m_in.at(), tr("expected {} points, got {} bytes", count, m_in.left()));
     bound_items(m_in, count, "vertices");
     m_part.mesh.positions.resize(count);
     for (Vec3d& p : m_part.mesh.positions) p = read_surface_point(m_in, type.width);
@@ -90,8 +91,7 @@ class PolydataReader {
     for (std::int64_t k = 0; k < lists.length(l); ++k) {
       const std::int64_t p = lists.point(l, k);
       const bool good = p >= 0 && p < count;
-      if (!good)
-        m_in.fault(lists.place(l, k), fmt::format("expected the number of a point from 0 to {}, got {}", count - 1, p));
+      if (!good) m_in.fault(lists.place(l, k), tr("expected the number of a point from 0 to {}, got {}", count - 1, p));
       to.corners.push_back(good ? int(p) : PolygonList::kTold);
     }
     to.end_polygon(m_in, lists.place(l));

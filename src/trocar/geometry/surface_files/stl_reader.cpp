@@ -6,6 +6,7 @@
 // Normals are not looked at: corners say the same.
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/surface_reader.hpp>
 
 namespace trocar::geometry {
@@ -30,12 +31,12 @@ void stl_binary(MeshSource& in, TriMesh& mesh) {
   const std::string_view bytes = in.all();
   in.set_form(MeshSource::Form::binary);
   if (bytes.size() < kStlHead)
-    in.lose(0, fmt::format("expected a head of {} bytes of a binary STL, or the word solid, got {} bytes", kStlHead,
-                           bytes.size()));
+    in.lose(0,
+            tr("expected a head of {} bytes of a binary STL, or the word solid, got {} bytes", kStlHead, bytes.size()));
   const std::uint64_t count = stl_announced(bytes), most = (bytes.size() - kStlHead) / kStlTriangle;
   if (!has_stl_size(bytes))
-    in.lose(80, fmt::format("expected {} triangles, which is what {} bytes are the size of, got {} announced", most,
-                            bytes.size(), count));
+    in.lose(80, tr("expected {} triangles, which is what {} bytes are the size of, got {} announced", most,
+                   bytes.size(), count));
   bound_items(in, count, "triangles");
   mesh.positions.reserve(3 * std::size_t(count));
   for (std::size_t t = 0; t < count; ++t) {
@@ -85,7 +86,7 @@ class StlText {
   void expect(std::string_view word) {
     m_in.skip_space();
     const std::size_t at = m_in.at();
-    if (!is_word(m_in.word(), word)) m_in.lose(at, fmt::format("expected '{}', got {}", word, m_in.shown(at)));
+    if (!is_word(m_in.word(), word)) m_in.lose(at, tr("expected '{}', got {}", word, m_in.shown(at)));
   }
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/files.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/polygons.hpp>
 #include <trocar/geometry/surface_files/surface_reader.hpp>
 
@@ -45,8 +46,7 @@ SurfaceFile read_known(MeshSource& in, const std::string& path, const std::strin
   if (first == "solid") return read_stl(in, name);
   if (looks_like_obj(in)) return read_obj(in, name);
   if (ends_like(path, ".stl")) return read_stl(in, name);  // one whose size is wrong
-  in.lose(in.at(),
-          fmt::format("expected {}, got {}", kSurfaceFormats, first.substr(0, 1) == "<" ? "XML" : in.shown(in.at())));
+  in.lose(in.at(), tr("expected {}, got {}", kSurfaceFormats, first.substr(0, 1) == "<" ? "XML" : in.shown(in.at())));
 }
 
 /// No way out of the folder.
@@ -66,8 +66,7 @@ std::size_t items_of(const SurfaceFile& file, bool vertices) {
 
 SurfaceFile read_surfaces(std::string_view bytes, const std::string& path, const FilesBeside& beside) {
   if (bytes.size() > kMaxMeshBytes)
-    throw core::BadInput(
-        {{{path, 1, 1}, fmt::format("expected at most {} bytes, got {}", kMaxMeshBytes, bytes.size())}});
+    throw core::BadInput({{{path, 1, 1}, tr("expected at most {} bytes, got {}", kMaxMeshBytes, bytes.size())}});
   MeshSource in(bytes, path);
   SurfaceFile file = read_known(in, path, std::filesystem::path(path).stem().string(), beside);
   in.finish();
@@ -123,12 +122,12 @@ TriMesh merged_equal(const TriMesh& mesh) {
 
 void bound_items(MeshSource& in, std::size_t count, const char* things) {
   if (count > kMostSurfaceItems)
-    in.lose(in.at(), fmt::format("expected at most {} {} of a surface, got {}", kMostSurfaceItems, things, count));
+    in.lose(in.at(), tr("expected at most {} {} of a surface, got {}", kMostSurfaceItems, things, count));
 }
 
 double checked_coordinate(MeshSource& in, std::size_t at, double value) {
   if (std::fabs(value) <= kMostSurfaceCoordinate) return value;
-  in.fault(at, fmt::format("expected a coordinate within {}, got {}", kMostSurfaceCoordinate, value));
+  in.fault(at, tr("expected a coordinate within {}, got {}", kMostSurfaceCoordinate, value));
   return 0;
 }
 
@@ -160,12 +159,11 @@ std::vector<std::array<int, 3>> cut_polygons(MeshSource& in, const std::vector<V
     if (bad == corners.end())
       cutter.cut(positions, corners, triangles);
     else if (std::find(corners.begin(), corners.end(), PolygonList::kTold) == corners.end())
-      in.fault(polygons.at[p], fmt::format("expected the number of a vertex from {} to {}, got {}", from,
-                                           count - 1 + from, std::int64_t(*bad) + from));
+      in.fault(polygons.at[p], tr("expected the number of a vertex from {} to {}, got {}", from, count - 1 + from,
+                                  std::int64_t(*bad) + from));
   }
   if (cutter.fans() > 0)
-    notes.push_back(
-        fmt::format("{} polygons that are not convex cut as fans, as they are too many or too long", cutter.fans()));
+    notes.push_back(tr("{} polygons that are not convex cut as fans, as they are too many or too long", cutter.fans()));
   return triangles;
 }
 
@@ -191,7 +189,7 @@ void SurfaceLeftOut::add(const std::string& kinds, std::int64_t count) {
 }
 
 void SurfaceLeftOut::tell(std::vector<std::string>& notes) const {
-  for (const auto& [kinds, count] : m_kinds) notes.push_back(fmt::format("{} {} left out", count, kinds));
+  for (const auto& [kinds, count] : m_kinds) notes.push_back(tr("{} {} left out", count, kinds));
 }
 
 }  // namespace trocar::geometry

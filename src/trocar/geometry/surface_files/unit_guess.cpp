@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/unit_guess.hpp>
 
 namespace trocar::geometry {
@@ -38,7 +39,7 @@ UnitGuess guess_unit(const Bounds& box) {
   std::vector<LengthUnit> units(std::begin(kLengthUnits), std::end(kLengthUnits));
   std::stable_sort(units.begin(), units.end(),
                    [&](const LengthUnit& a, const LengthUnit& b) { return oddness(longest, a) < oddness(longest, b); });
-  guess.words = fmt::format("longest side {:.4g}:", longest);
+  guess.words = tr("longest side {:.4g}:", longest);
   for (const LengthUnit& unit : units) {
     const double length = longest * unit.metres;
     guess.words += fmt::format("{} {} in {}", guess.words.back() == ':' ? "" : ",", length_in_words(length), unit.name);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surfaces/point_grid.hpp>
 #include <trocar/geometry/tets/tet_overlap.hpp>
 
@@ -100,10 +101,9 @@ CellOverlaps cell_overlaps(const TetMesh& mesh) {
 
 std::string in_words(const CellOverlaps& overlaps) {
   const Vec3d mm = 1e3 * overlaps.at;
-  return fmt::format(
-      "{}{} pair{} of cells that share no face lie{} in each other, the first at {:.1f}, {:.1f}, {:.1f} mm",
-      overlaps.pairs, overlaps.pairs >= kMostOverlaps ? " or more" : "", overlaps.pairs == 1 ? "" : "s",
-      overlaps.pairs == 1 ? "s" : "", mm.x, mm.y, mm.z);
+  return tr("{}{} pair{} of cells that share no face lie{} in each other, the first at {:.1f}, {:.1f}, {:.1f} mm",
+            overlaps.pairs, overlaps.pairs >= kMostOverlaps ? " or more" : "", overlaps.pairs == 1 ? "" : "s",
+            overlaps.pairs == 1 ? "s" : "", mm.x, mm.y, mm.z);
 }
 
 }  // namespace trocar::geometry

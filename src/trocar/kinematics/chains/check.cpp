@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/kinematics/chains/joints.hpp>
 
 namespace trocar::kinematics {
@@ -45,13 +46,13 @@ class Checking {
   void sizes() {
     if (m_d.links.empty()) tell(Part::mechanism, 0, "links", "expected at least one link, got none");
     if (int(m_d.links.size()) > kMostLinks)
-      tell(Part::mechanism, 0, "links", fmt::format("expected at most {} links, got {}", kMostLinks, m_d.links.size()));
+      tell(Part::mechanism, 0, "links", tr("expected at most {} links, got {}", kMostLinks, m_d.links.size()));
     if (int(m_coordinates.size()) > kMostCoordinates)
       tell(Part::mechanism, 0, "links",
-           fmt::format("expected at most {} coordinates, got {}", kMostCoordinates, m_coordinates.size()));
+           tr("expected at most {} coordinates, got {}", kMostCoordinates, m_coordinates.size()));
     if (int(m_d.closures.size()) > kMostClosures)
       tell(Part::mechanism, 0, "closures",
-           fmt::format("expected at most {} closures, got {}", kMostClosures, m_d.closures.size()));
+           tr("expected at most {} closures, got {}", kMostClosures, m_d.closures.size()));
   }
 
   template <class List>
@@ -60,9 +61,9 @@ class Checking {
     for (std::size_t i = 0; i < list.size(); ++i) {
       const std::string& name = list[i].name;
       if (reserved && name == reserved)
-        tell(part, int(i), "name", fmt::format("expected another name, as \"{}\" is the fixed frame's", name));
+        tell(part, int(i), "name", tr("expected another name, as \"{}\" is the fixed frame's", name));
       if (!seen.emplace(name, int(i)).second)
-        tell(part, int(i), "name", fmt::format("expected every name of {} once, got \"{}\" again", what, name));
+        tell(part, int(i), "name", tr("expected every name of {} once, got \"{}\" again", what, name));
     }
   }
 
@@ -78,7 +79,7 @@ class Checking {
       const NamedCoordinate& c = m_coordinates[i];
       if (!m_coordinate.emplace(c.name, int(i)).second)
         tell(c.link >= 0 ? Part::link : Part::motor, std::max(c.link, c.motor), "name",
-             fmt::format("expected every coordinate's name once, got \"{}\" again", c.name));
+             tr("expected every coordinate's name once, got \"{}\" again", c.name));
     }
   }
 
@@ -95,32 +96,30 @@ class Checking {
   }
   bool known_link(Part part, int index, const char* field, const std::string& name) {
     if (name == "ground" || m_link.count(name)) return true;
-    tell(part, index, field, fmt::format("expected a link ({}), got \"{}\"", link_names(), name));
+    tell(part, index, field, tr("expected a link ({}), got \"{}\"", link_names(), name));
     return false;
   }
   int known_coordinate(Part part, int index, const char* field, const std::string& name, int item = -1) {
     const auto at = m_coordinate.find(name);
     if (at != m_coordinate.end()) return at->second;
-    tell(part, index, field, fmt::format("expected a coordinate ({}), got \"{}\"", coordinate_names(), name), item);
+    tell(part, index, field, tr("expected a coordinate ({}), got \"{}\"", coordinate_names(), name), item);
     return -1;
   }
   void ends(Part part, int index, const NamedFrame& a, const NamedFrame& b) {
     const bool known = known_link(part, index, "a", a.link) && known_link(part, index, "b", b.link);
     if (known && a.link == b.link)
-      tell(part, index, "b", fmt::format("expected another link than the first, got \"{}\" twice", a.link));
+      tell(part, index, "b", tr("expected another link than the first, got \"{}\" twice", a.link));
   }
 
   void values(Part part, int index, const std::vector<double>& limits, const std::vector<double>& start, int count) {
     if (!limits.empty() && int(limits.size()) != 2 * count)
       tell(part, index, "limits",
-           fmt::format("expected low and high of {} coordinate{}, got {} numbers", count, count == 1 ? "" : "s",
-                       limits.size()));
+           tr("expected low and high of {} coordinate{}, got {} numbers", count, count == 1 ? "" : "s", limits.size()));
     else
       for (std::size_t k = 0; k + 1 < limits.size(); k += 2)
         if (!(limits[k] <= limits[k + 1])) tell(part, index, "limits", "expected low before high, got the reverse");
     if (!start.empty() && int(start.size()) != count)
-      tell(part, index, "start",
-           fmt::format("expected {} number{}, got {}", count, count == 1 ? "" : "s", start.size()));
+      tell(part, index, "start", tr("expected {} number{}, got {}", count, count == 1 ? "" : "s", start.size()));
   }
 
   void link(int i) {
@@ -145,10 +144,10 @@ class Checking {
       const int of = known_coordinate(Part::coupling, int(i), "coordinate", c.coordinate);
       if (of >= 0 && m_coordinates[std::size_t(of)].screwed)
         tell(Part::coupling, int(i), "coordinate",
-             fmt::format("expected a free coordinate, got \"{}\", which follows its screw's turn", c.coordinate));
+             tr("expected a free coordinate, got \"{}\", which follows its screw's turn", c.coordinate));
       if (!made.emplace(c.coordinate, int(i)).second)
         tell(Part::coupling, int(i), "coordinate",
-             fmt::format("expected every coordinate coupled once, got \"{}\" again", c.coordinate));
+             tr("expected every coordinate coupled once, got \"{}\" again", c.coordinate));
       for (std::size_t k = 0; k < c.terms.size(); ++k)
         known_coordinate(Part::coupling, int(i), "of", c.terms[k].of, int(k));
     }
@@ -163,7 +162,7 @@ class Checking {
                                        [&](const Coupling& c) { return c.coordinate == name; });
       if (coupled || m_coordinates[std::size_t(of)].screwed)
         tell(Part::actuator, int(i), "coordinate",
-             fmt::format("expected a free coordinate, got \"{}\", which follows others", name));
+             tr("expected a free coordinate, got \"{}\", which follows others", name));
     }
   }
 
@@ -175,7 +174,7 @@ class Checking {
       for (; at != "ground" && steps <= m_d.links.size(); ++steps) at = m_d.links[std::size_t(m_link[at])].parent;
       if (at != "ground")
         tell(Part::link, int(i), "parent",
-             fmt::format("expected parents up to the ground, got a cycle through \"{}\"", m_d.links[i].name));
+             tr("expected parents up to the ground, got a cycle through \"{}\"", m_d.links[i].name));
     }
     std::vector<std::vector<int>> needs(m_coordinates.size());
     for (std::size_t c = 0; c < m_coordinates.size(); ++c)
@@ -191,8 +190,8 @@ class Checking {
     for (std::size_t i = 0; i < m_d.couplings.size(); ++i)
       if (!good[std::size_t(m_coordinate[m_d.couplings[i].coordinate])])
         tell(Part::coupling, int(i), "coordinate",
-             fmt::format("expected couplings that end at a free coordinate, got a cycle through \"{}\"",
-                         m_d.couplings[i].coordinate));
+             tr("expected couplings that end at a free coordinate, got a cycle through \"{}\"",
+                m_d.couplings[i].coordinate));
   }
 
   const MechanismDescription& m_d;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/kinematics/inverse/inverse.hpp>
 #include <trocar/kinematics/loops/equations.hpp>
 
@@ -248,9 +249,9 @@ InverseReport inverse(const Mechanism& m, std::span<const Closure> goals, std::s
 
 std::string words(const Mechanism& m, const InverseReport& r) {
   if (r.reached())
-    return fmt::format("reached to {:.1e} m and {:.1e} rad, in {} attempt{}", r.last.metres, r.last.radians, r.attempts,
-                       r.attempts == 1 ? "" : "s");
-  return fmt::format("not reached in {} attempts: {}", r.attempts, words(m, r.last));
+    return tr("reached to {:.1e} m and {:.1e} rad, in {} attempt{}", r.last.metres, r.last.radians, r.attempts,
+              r.attempts == 1 ? "" : "s");
+  return tr("not reached in {} attempts: {}", r.attempts, words(m, r.last));
 }
 
 }  // namespace trocar::kinematics

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/kinematics/loops/close.hpp>
 #include <trocar/kinematics/loops/conditions.hpp>
 #include <trocar/kinematics/loops/equations.hpp>
@@ -187,28 +188,28 @@ std::string words(const Mechanism& m, const LoopReport& r) {
   std::string text;
   switch (r.status) {
     case LoopStatus::closed:
-      text = r.conditions == 0 ? "no loops" : fmt::format("closed to {:.1e} m and {:.1e} rad", r.metres, r.radians);
+      text = r.conditions == 0 ? "no loops" : tr("closed to {:.1e} m and {:.1e} rad", r.metres, r.radians);
       break;
     case LoopStatus::singular:
-      text = fmt::format("closed, and singular: at a dead point (smallest pivot {:.1e})", r.pivot);
+      text = tr("closed, and singular: at a dead point (smallest pivot {:.1e})", r.pivot);
       break;
     case LoopStatus::out_of_reach:
-      text = fmt::format("out of reach: the nearest pose is open by {:.3g} mm and {:.3g} degrees", 1e3 * r.metres,
-                         r.radians * 180 / portable::pi);
+      text = tr("out of reach: the nearest pose is open by {:.3g} mm and {:.3g} degrees", 1e3 * r.metres,
+                r.radians * 180 / portable::pi);
       break;
   }
   if (r.closed() && r.redundant() > 0)
-    text += fmt::format("; over-constrained but consistent: {} of {} conditions follow from the others", r.redundant(),
-                        r.conditions);
+    text += tr("; over-constrained but consistent: {} of {} conditions follow from the others", r.redundant(),
+               r.conditions);
   if (r.closed() && r.idle() > 0)
     text += fmt::format("; {}", r.idle() == 1 ? std::string("a degree of freedom is undetermined")
-                                              : fmt::format("{} degrees of freedom are undetermined", r.idle()));
+                                              : tr("{} degrees of freedom are undetermined", r.idle()));
   if (r.limit >= 0) {
     const auto i = std::size_t(r.limit);
     const bool angle = m.measures[i] == Measure::angle;
     const double by = angle ? 180 / portable::pi : 1e3;
-    text += fmt::format("; {} is beyond its limits ({:.4g} to {:.4g} {})", m.coordinates[i], by * m.low[i],
-                        by * m.high[i], angle ? "degrees" : "mm");
+    text += tr("; {} is beyond its limits ({:.4g} to {:.4g} {})", m.coordinates[i], by * m.low[i], by * m.high[i],
+               angle ? "degrees" : "mm");
   }
   return text;
 }

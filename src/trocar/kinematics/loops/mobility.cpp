@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/random.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/kinematics/loops/mobility.hpp>
 #include <trocar/numerics/singular_values.hpp>
 
@@ -69,13 +70,11 @@ Mobility mobility(const Mechanism& m, std::span<double> u, int poses, unsigned s
 
 std::string words(const Mobility& m) {
   if (m.poses == 0) return "no closed pose was found, so the mobility is not known";
-  std::string text =
-      fmt::format("mobility {} ({} coordinates, rank {}, {} poses)", m.mobility, m.coordinates, m.rank, m.poses);
+  std::string text = tr("mobility {} ({} coordinates, rank {}, {} poses)", m.mobility, m.coordinates, m.rank, m.poses);
   if (m.over_constrained())
-    text += fmt::format(
-        "; over-constrained but consistent: {} of {} conditions follow from the others, where counting says {}",
-        m.conditions - m.rank, m.conditions, m.counted);
-  if (m.singular_poses > 0) text += fmt::format("; {} of the poses singular", m.singular_poses);
+    text += tr("; over-constrained but consistent: {} of {} conditions follow from the others, where counting says {}",
+               m.conditions - m.rank, m.conditions, m.counted);
+  if (m.singular_poses > 0) text += tr("; {} of the poses singular", m.singular_poses);
   return text;
 }
 

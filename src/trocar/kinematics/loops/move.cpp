@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/kinematics/loops/close.hpp>
 
 namespace trocar::kinematics {
@@ -129,11 +130,11 @@ MoveReport move(const Mechanism& m, std::span<double> u, std::span<const Target>
 std::string words(const Mechanism& m, const MoveReport& r) {
   if (r.arrived()) return words(m, r.last);
   if (!r.last.closed()) return "does not begin at a closed pose: " + words(m, r.last);
-  return fmt::format("stopped after {:.4g} % of the way, {}", 100 * r.reached,
-                     r.singular ? fmt::format("singular: a dead point (smallest pivot {:.1e}), beyond which the loops "
-                                              "are out of reach or change their branch",
-                                              r.last.pivot)
-                                : "beyond which the loops are out of reach");
+  return tr("stopped after {:.4g} % of the way, {}", 100 * r.reached,
+            r.singular ? tr("singular: a dead point (smallest pivot {:.1e}), beyond which the loops "
+                            "are out of reach or change their branch",
+                            r.last.pivot)
+                       : "beyond which the loops are out of reach");
 }
 
 }  // namespace trocar::kinematics

@@ -6,6 +6,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/document/collect.hpp>
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/scene/files/library.hpp>
@@ -123,7 +124,7 @@ void write_collected(const fs::path& path, const std::string& bytes) {
   fs::create_directories(path.parent_path(), ignored);
   if (const std::string said = core::write_file(path, bytes.data(), bytes.size()); !said.empty())
     throw core::BadInput(
-        {{{path.generic_string(), 0, 0}, fmt::format("expected a file that can be written, got \"{}\"", said)}});
+        {{{path.generic_string(), 0, 0}, tr("expected a file that can be written, got \"{}\"", said)}});
 }
 
 }  // namespace

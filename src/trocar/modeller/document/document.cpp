@@ -6,6 +6,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/document/collect.hpp>
 #include <trocar/modeller/document/document.hpp>
 #include <trocar/modeller/document/home.hpp>
@@ -182,9 +183,9 @@ void Document::save(bool over) {
       file.on_disk = file.text;
     else
       faults.push_back({{path.generic_string(), 0, 0},
-                        fmt::format("expected a file that can be written, got \"{}\"; nothing is lost: save again "
-                                    "elsewhere or when that is mended",
-                                    said)});
+                        tr("expected a file that can be written, got \"{}\"; nothing is lost: save again "
+                           "elsewhere or when that is mended",
+                           said)});
   }
   if (!faults.empty()) throw core::BadInput(std::move(faults));
 }

@@ -8,6 +8,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/run_program.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/surface_file.hpp>
 #include <trocar/modeller/operations/cad_file.hpp>
 
@@ -80,11 +81,11 @@ std::vector<CadPart> read_cad_file(const fs::path& file, double within) {
       program,
       {fs::absolute(file).string(), "--into", folder.path().string(), "--within-mm", fmt::format("{}", within * 1e3)},
       kMostSaid);
-  if (!end.started) throw core::EnvironmentLacks(fmt::format("{} could not be started", program.string()));
+  if (!end.started) throw core::EnvironmentLacks(tr("{} could not be started", program.string()));
   if (end.status != 0)
-    refuse(fmt::format("expected a STEP or IGES file that can be read, got: {}",
-                       end.status == 2 && !end.output.empty() ? end.output.substr(0, end.output.find('\n'))
-                                                              : "its reader did not come to an end"));
+    refuse(tr("expected a STEP or IGES file that can be read, got: {}",
+              end.status == 2 && !end.output.empty() ? end.output.substr(0, end.output.find('\n'))
+                                                     : "its reader did not come to an end"));
   const Json said = Json::parse(end.output, nullptr, false);
   if (!said.is_object() || !said.contains("parts")) refuse("expected its parts, got nothing that can be understood");
   std::vector<CadPart> out;

@@ -28,7 +28,7 @@ constexpr double kCells = 700;  // of a body whose cells nobody has chosen
 void write_beside(const fs::path& path, const std::string& bytes) {
   if (const std::string said = core::write_file(path, bytes.data(), bytes.size()); !said.empty())
     throw core::BadInput(
-        {{{path.generic_string(), 0, 0}, fmt::format("expected a file that can be written, got \"{}\"", said)}});
+        {{{path.generic_string(), 0, 0}, tr("expected a file that can be written, got \"{}\"", said)}});
 }
 
 /// As a body. @throws core::BadInput with what keeps it open
@@ -65,7 +65,7 @@ const CadPart* chosen_part(const JsonObject& o, const std::vector<CadPart>& part
     list += fmt::format("{}{}, {}", i ? "; " : "", i + 1,
                         parts[i].nurbs ? "one closed NURBS" : fmt::format("{} faces", parts[i].faces));
   }
-  o.fault("part", fmt::format("expected the number of one of the file's parts: {}", list));
+  o.fault("part", tr("expected the number of one of the file's parts: {}", list));
   return nullptr;
 }
 
@@ -83,7 +83,7 @@ void put_surface(const JsonObject& o, Draft& draft, const geometry::TriMesh& mes
   const Vec3d centre = o.has("centre_mm") ? o.vec3("centre_mm") : middle * 1e3 + o.vec3("place_mm");
   scene::put(surface, "place_mm", point(centre));
   scene::put(solid, "surface", surface);
-  draft.say(fmt::format("{:.2f} mL in {} triangles", 1e6 * geometry::volume(mesh), mesh.triangles.size()));
+  draft.say(tr("{:.2f} mL in {} triangles", 1e6 * geometry::volume(mesh), mesh.triangles.size()));
 }
 
 /// Control points are where the file has them: what moves a body moves it afterwards.
@@ -137,9 +137,9 @@ void from_file(const JsonObject& o, Draft& draft) {
     if (!part) return;
     mesh = mended(path, part->mesh);
     if (o.text("as") == "nurbs" && !part->nurbs)
-      return o.fault("as", fmt::format("expected a part that is one closed NURBS, got one of {} faces: take it as a "
-                                       "surface, and fit_spline to that",
-                                       part->faces));
+      return o.fault("as", tr("expected a part that is one closed NURBS, got one of {} faces: take it as a "
+                              "surface, and fit_spline to that",
+                              part->faces));
     if (part->nurbs && o.text("as") != "surface")
       put_nurbs(o, draft, *part, solid);
     else

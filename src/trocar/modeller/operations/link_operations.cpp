@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/operations/body_mesh.hpp>
 #include <trocar/modeller/operations/kinds.hpp>
 #include <trocar/modeller/operations/places.hpp>
@@ -98,9 +99,8 @@ Operation bond() {
         for (const Vec3d& p : wall.positions)
           if (nearest_foot(organ, p).distance <= within) facing.push_back(p);
         if (facing.empty())
-          return o.fault(
-              "within_mm",
-              fmt::format("expected bodies that come within {:g} mm of each other, got none so near", within));
+          return o.fault("within_mm",
+                         tr("expected bodies that come within {:g} mm of each other, got none so near", within));
         std::vector<JsonValue> places;
         for (const Vec3d& middle : covered_by_balls(facing, radius)) {
           JsonValue ball = scene::json_object();
@@ -119,8 +119,8 @@ Operation bond() {
           draft.insert(pouch.file, pouch.path + "/bonds", there.items.size(), bonds);
         else
           draft.set(pouch.file, pouch.path + "/bonds", scene::json_array({bonds}));
-        draft.say(fmt::format("tied where {} of {} places of the wall are within {:g} mm", facing.size(),
-                              wall.positions.size(), within));
+        draft.say(tr("tied where {} of {} places of the wall are within {:g} mm", facing.size(), wall.positions.size(),
+                     within));
       }};
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/operations/brush.hpp>
 #include <trocar/modeller/operations/kinds.hpp>
 #include <trocar/modeller/operations/values.hpp>
@@ -97,7 +98,7 @@ Operation paint() {
         const std::string list = thing.path + within;
         if (within.empty() && o.text("what") == "bonds")
           return o.fault("what", "expected a pouch that has bonds (bond_facing makes some), got none");
-        if (within.empty()) return o.fault("of", fmt::format("expected a solid or a pouch, got a {}", thing.kind));
+        if (within.empty()) return o.fault("of", tr("expected a solid or a pouch, got a {}", thing.kind));
         const bool erase = o.flag("erase");
         const int balls = erase ? rub_out(o, draft, thing, list) : dab_on(o, draft, thing, list);
         draft.say(fmt::format("{} {} {}", balls, balls == 1 ? "ball" : "balls", erase ? "taken away" : "painted"));
@@ -144,7 +145,7 @@ std::string list_of_brush(const JsonValue& body, const std::string& kind, const 
   const scene::JsonMember* sets = body.find("bonds");
   for (std::size_t i = 0; sets && i < sets->value.items.size(); ++i) {
     const scene::JsonMember* name = sets->value.items[i].find("name");
-    if (bonds.empty() || (name && name->value.text == bonds)) return fmt::format("/bonds/{}/places", i);
+    if (bonds.empty() || (name && name->value.text == bonds)) return tr("/bonds/{}/places", i);
   }
   return "";
 }

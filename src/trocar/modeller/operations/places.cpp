@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/operations/places.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/json/json_edit.hpp>
@@ -14,7 +15,7 @@ using scene::JsonValue;
 const KindOfThing& kind_of(const std::string& kind) {
   for (const KindOfThing& k : kinds_of_things())
     if (kind == k.kind) return k;
-  throw core::BadInput({{{"", 0, 0}, fmt::format("expected a kind of thing, got \"{}\"", kind)}});
+  throw core::BadInput({{{"", 0, 0}, tr("expected a kind of thing, got \"{}\"", kind)}});
 }
 
 bool is_scene(const Draft& draft, const fs::path& file) {
@@ -42,7 +43,7 @@ void add_thing(Draft& draft, const std::string& kind, const JsonValue& value, co
   for (const Thing& thing : outline(document))
     if (thing.name == name && thing.kind == kind)
       throw core::BadInput({{{thing.file.generic_string(), thing.line, 1},
-                             fmt::format("expected a name that is free, got \"{}\", which is this {}", name, kind)}});
+                             tr("expected a name that is free, got \"{}\", which is this {}", name, kind)}});
   const std::string above = of_kind.in_organs && is_scene(draft, file) ? own_organ(draft, file) : "";
   const std::string list = scene::json_path(above, of_kind.list);
   const JsonValue there = draft.value(file, list);

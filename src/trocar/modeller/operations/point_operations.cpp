@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/operations/kinds.hpp>
 #include <trocar/modeller/operations/points.hpp>
 #include <trocar/modeller/operations/values.hpp>
@@ -35,7 +36,7 @@ std::string list_of(const JsonObject& o, const JsonValue& thing) {
   const std::string path = "/" + o.text("key");
   const JsonValue* list = scene::json_at(thing, path);
   if (list && list->kind == JsonValue::Kind::array) return path;
-  o.fault("key", fmt::format("expected a list of points that the thing has, got \"{}\"", o.text("key")));
+  o.fault("key", tr("expected a list of points that the thing has, got \"{}\"", o.text("key")));
   return {};
 }
 
@@ -53,8 +54,7 @@ Operation move_point() {
             if (list.empty()) return;
             const std::vector<PlacedPoint> all = points_in(value, list);
             const std::size_t item = std::size_t(o.integer("item"));
-            if (item >= all.size())
-              return o.fault("item", fmt::format("expected a number below {}, got {}", all.size(), item));
+            if (item >= all.size()) return o.fault("item", tr("expected a number below {}, got {}", all.size(), item));
             const Vec3d by = o.has("to_mm") ? o.vec3("to_mm") - all[item].at : o.vec3("by_mm");
             std::vector<std::pair<std::string, JsonValue>> values;
             for (const PlacedPoint& p : moved(all, item, by, o.number("soft_mm"), o.flag("symmetric")))
@@ -90,7 +90,7 @@ Operation insert_point() {
             const std::vector<JsonValue>& items = scene::json_at(value, path)->items;
             const std::size_t before = std::size_t(o.integer("before"));
             if (before > items.size() || items.size() < 2)
-              return o.fault("before", fmt::format("expected a number up to {}, got {}", items.size(), before));
+              return o.fault("before", tr("expected a number up to {}, got {}", items.size(), before));
             const std::size_t first = before == 0 ? 0 : before == items.size() ? before - 2 : before - 1;
             double share = o.number("share", 0.5);  // beyond the ends it goes on as far again
             if (before == 0) share = -share;
@@ -125,7 +125,7 @@ Operation hold() {
           [](const JsonObject& o, Draft& draft) {
             const Thing thing = draft.thing(o.text("of"));
             if (thing.kind != "solid" && thing.kind != "pouch")
-              return o.fault("of", fmt::format("expected a solid or a pouch, got a {}", thing.kind));
+              return o.fault("of", tr("expected a solid or a pouch, got a {}", thing.kind));
             JsonValue ball = scene::json_object();
             scene::put(ball, "centre_mm", point(o.vec3("centre_mm")));
             scene::put(ball, "radius_mm", number(o.number("radius_mm")));

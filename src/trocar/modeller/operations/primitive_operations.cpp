@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/materials/materials.hpp>
 #include <trocar/modeller/operations/kinds.hpp>
 #include <trocar/modeller/operations/places.hpp>
@@ -122,7 +123,7 @@ Operation along_line() {
         const JsonValue& radii = o.value().find("radii_mm")->value;
         const bool one = radii.kind == JsonValue::Kind::number;
         if (!one && radii.items.size() != line.size())
-          return o.fault("radii_mm", fmt::format("expected one radius or {}, got {}", line.size(), radii.items.size()));
+          return o.fault("radii_mm", tr("expected one radius or {}, got {}", line.size(), radii.items.size()));
         double length_all = 0;
         std::vector<JsonValue> sections;
         Vec3d x{0, 0, 0};

@@ -6,6 +6,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/nurbs/spline_bridge.hpp>
 #include <trocar/geometry/nurbs/surface_edit.hpp>
 #include <trocar/geometry/nurbs_fit/fit.hpp>
@@ -150,9 +151,8 @@ Operation remove_knot() {
             if (!less)
               return o.fault(
                   "at",
-                  fmt::format(
-                      "expected a knot without which the shape changes by at most {:g} mm, got {:.3f}, which it needs",
-                      tolerance, knot));
+                  tr("expected a knot without which the shape changes by at most {:g} mm, got {:.3f}, which it needs",
+                     tolerance, knot));
             put_spline(draft, thing, *less);
           }};
 }
@@ -213,20 +213,19 @@ Operation fit() {
             const nurbs::Fit made = best_fit(mesh, options);
             const double off = 1e3 * std::max(made.report.rms, made.report.back_rms);
             if (off > o.number("most_mm", 1))
-              return o.fault("most_mm",
-                             fmt::format("expected a fit within {:g} mm rms both ways, got {:.3f} mm: more control "
-                                         "points may help",
-                                         o.number("most_mm", 1), off));
+              return o.fault("most_mm", tr("expected a fit within {:g} mm rms both ways, got {:.3f} mm: more control "
+                                           "points may help",
+                                           o.number("most_mm", 1), off));
             JsonValue solid = scene::json_object();
             scene::put(solid, "name", scene::json_text(o.text("name")));
             scene::put(solid, "tissue", scene::json_text(o.text("tissue")));
             scene::put(solid, "nurbs", written(scene::shape_of(made.surface)));
             scene::put(solid, "cell_mm", number(o.number("cell_mm")));
             add_thing(draft, "solid", solid, "");
-            draft.say(fmt::format(
-                "fitted within {:.3f} mm rms, {:.2f} mm at most, back {:.3f} and {:.2f} mm, volume {:+.2f} %",
-                1e3 * made.report.rms, 1e3 * made.report.greatest, 1e3 * made.report.back_rms,
-                1e3 * made.report.back_greatest, 100 * (made.report.volume_of_fit / made.report.volume_of_mesh - 1)));
+            draft.say(tr("fitted within {:.3f} mm rms, {:.2f} mm at most, back {:.3f} and {:.2f} mm, volume {:+.2f} %",
+                         1e3 * made.report.rms, 1e3 * made.report.greatest, 1e3 * made.report.back_rms,
+                         1e3 * made.report.back_greatest,
+                         100 * (made.report.volume_of_fit / made.report.volume_of_mesh - 1)));
           }};
 }
 

@@ -30,7 +30,7 @@ std::vector<std::string> Scan::take_labels(const std::filesystem::path& path, co
     for (std::size_t i = 1; i < before.size(); ++i) lost += before[i] > 0 && after[i] == 0;
     notes.push_back(
         "the labels are on another grid than the scan and were laid on its grid by their place in the patient");
-    if (lost > 0) notes.push_back(fmt::format("{} labels lie outside of the scan and are gone", lost));
+    if (lost > 0) notes.push_back(tr("{} labels lie outside of the scan and are gone", lost));
   }
   volumes::name_all(file.labels);
   m_labels = std::move(file.labels);

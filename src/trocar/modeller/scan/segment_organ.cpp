@@ -31,7 +31,7 @@ volumes::LabelSurface surface_of_segment(const Scan& scan, const OrganWish& wish
                  "its largest part");
   if (std::fabs(made.ml / made.ml_of_label - 1) > wish.within)
     refuse_organ(scan.path(),
-                 fmt::format("expected a surface of the segment's {:.2f} mL, got {:.2f}", made.ml_of_label, made.ml));
+                 tr("expected a surface of the segment's {:.2f} mL, got {:.2f}", made.ml_of_label, made.ml));
   return made;
 }
 
@@ -77,7 +77,7 @@ SegmentOrgan make_organ(Document& document, const Scan& scan, const OrganWish& w
   std::error_code ignored;
   fs::create_directories(path.parent_path(), ignored);
   if (const std::string said = core::write_file(path, bytes.data(), bytes.size()); !said.empty())
-    refuse_organ(path, fmt::format("expected a file that can be written, got \"{}\"", said));
+    refuse_organ(path, tr("expected a file that can be written, got \"{}\"", said));
   document.change("organ from " + wish.segment, draft.texts());
   return out;
 }

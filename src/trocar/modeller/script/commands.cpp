@@ -5,6 +5,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/modeller/drive/export_body.hpp>
 #include <trocar/modeller/drive/places.hpp>
@@ -37,8 +38,8 @@ Command begin() {
             const fs::path file = whole_path(o.text("file"));
             std::error_code error;
             if (fs::exists(file, error))
-              return o.fault("file", fmt::format("expected a new file, got {}, which is there: open it instead",
-                                                 file.generic_string()));
+              return o.fault("file",
+                             tr("expected a new file, got {}, which is there: open it instead", file.generic_string()));
             session.put(begun(file, o.text("kind") == "organ", o.text("name", file.stem().string())));
           }};
 }
@@ -89,8 +90,8 @@ Command check() {
                                 {"memory_kB", std::round(1e-3 * double(r.bytes))}});
               if (r.off_mm >= 0) bodies.back()["off_mm"] = r.off_mm;
               if (o.flag("still") && r.off_mm > 0.5)
-                o.fault(o.at(), fmt::format("{} is not in equilibrium: it sagged {:.1f} mm in {:g} s", r.name, r.off_mm,
-                                            o.number("seconds", 1)));
+                o.fault(o.at(), tr("{} is not in equilibrium: it sagged {:.1f} mm in {:g} s", r.name, r.off_mm,
+                                   o.number("seconds", 1)));
             }
             for (const std::string& note : session.built().notes) {
               if (o.flag("still")) o.fault(o.at(), note);
@@ -168,9 +169,9 @@ Command use() {
           else if (const BodyId body = state.clips[std::size_t(i)].body(); body.exists())
             clipped.push_back(sim::name_of(model, body));
         for (int i = vessel_clips; i < state.vessel_clip_count; ++i)
-          clipped.push_back(fmt::format("{}, {:.0f} % of its width",
-                                        model.vessels.list[std::size_t(state.vessel_clips[std::size_t(i)].vessel)].name,
-                                        100 * state.vessel_clips[std::size_t(i)].cover));
+          clipped.push_back(tr("{}, {:.0f} % of its width",
+                               model.vessels.list[std::size_t(state.vessel_clips[std::size_t(i)].vessel)].name,
+                               100 * state.vessel_clips[std::size_t(i)].cover));
         for (int i = strand_cuts; i < state.cut_count; ++i)
           if (const int strand = state.cuts[std::size_t(i)].strand; strand >= 0)
             cut.push_back(model.strands[std::size_t(strand)].name);
@@ -254,7 +255,7 @@ Command export_body() {
         std::error_code ignored;
         if (file.has_parent_path()) fs::create_directories(file.parent_path(), ignored);
         if (const std::string said = core::write_file(file, bytes.data(), bytes.size()); !said.empty())
-          o.fault("file", fmt::format("expected a file that can be written, got \"{}\"", said));
+          o.fault("file", tr("expected a file that can be written, got \"{}\"", said));
       }};
 }
 

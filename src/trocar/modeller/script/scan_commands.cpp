@@ -6,6 +6,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/parallel.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/scan/segment_organ.hpp>
 #include <trocar/modeller/scan/segment_vessels.hpp>
 #include <trocar/modeller/script/command_kinds.hpp>
@@ -272,8 +273,8 @@ Command measure() {
                                       {"mean", s.mean},
                                       {"deviation", s.deviation}});
             if (s.mean < o.number("mean_from", -1e9) || s.mean > o.number("mean_to", 1e9))
-              o.fault("segment", fmt::format("expected a mean value from {:g} to {:g}, got {:.1f}",
-                                             o.number("mean_from"), o.number("mean_to"), s.mean));
+              o.fault("segment", tr("expected a mean value from {:g} to {:g}, got {:.1f}", o.number("mean_from"),
+                                    o.number("mean_to"), s.mean));
           }};
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/nurbs/closure.hpp>
 #include <trocar/geometry/nurbs/curve_length.hpp>
 #include <trocar/geometry/nurbs/mesh.hpp>
@@ -113,8 +114,8 @@ EvenSurface BodySurface::with_edges(double edge) const {
     return {std::move(even.mesh), std::move(along), {}};
   }
   throw std::invalid_argument(
-      fmt::format("a surface that loses its shape with triangles of {:.3g} to {:.3g} mm: shorter edges expected",
-                  1000 * edge, 1000 * finer / 0.6));
+      tr("a surface that loses its shape with triangles of {:.3g} to {:.3g} mm: shorter edges expected", 1000 * edge,
+         1000 * finer / 0.6));
 }
 
 geometry::TriMesh BodySurface::as_given(double edge) const { return m_spline ? with_edges(edge).mesh : m_mesh; }

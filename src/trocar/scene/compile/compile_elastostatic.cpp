@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/compile/compile_elastostatic.hpp>
 #include <trocar/scene/compile/compliance_cache.hpp>
 #include <trocar/scene/description/fibres.hpp>
@@ -137,9 +138,9 @@ bool there_is_room(const Solid& solid, const ComplianceReport& r, std::vector<co
     return true;
   }
   faults.push_back(
-      {solid.solver_at, fmt::format("expected an organ whose static solver fits into {}, got {} surface nodes of {}, "
-                                    "which take {}: make its cells larger, or let its solver be \"dynamic\"",
-                                    megabytes(kMostBytes), r.kept, r.nodes, megabytes(r.most_bytes))});
+      {solid.solver_at, tr("expected an organ whose static solver fits into {}, got {} surface nodes of {}, "
+                           "which take {}: make its cells larger, or let its solver be \"dynamic\"",
+                           megabytes(kMostBytes), r.kept, r.nodes, megabytes(r.most_bytes))});
   return false;
 }
 
@@ -220,9 +221,9 @@ void compile_organ(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
     const bool known = e.node >= 0 && std::size_t(e.node) < d.points.size();
     faults.push_back(
         {solid.solver_at,
-         fmt::format("expected '{}' to be held everywhere, as a static solver needs, got: {}{}; anchor that "
-                     "part, or let its solver be \"dynamic\"",
-                     solid.name, e.what(), known ? ", near " + in_mm(d.points[std::size_t(e.node)]) : std::string())});
+         tr("expected '{}' to be held everywhere, as a static solver needs, got: {}{}; anchor that "
+            "part, or let its solver be \"dynamic\"",
+            solid.name, e.what(), known ? ", near " + in_mm(d.points[std::size_t(e.node)]) : std::string())});
   } catch (const std::invalid_argument& e) {
     faults.push_back(
         {solid.solver_at, "expected '" + solid.name + "' to be an organ that suits a static solver, got: " + e.what()});

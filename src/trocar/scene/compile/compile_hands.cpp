@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/scene/compile/compile_hands.hpp>
 #include <trocar/scene/mechanisms/instrument_mechanism.hpp>
@@ -114,8 +115,8 @@ void compile_hands(const Description& d, sim::Model& model, std::vector<core::Fa
     if (!instrument || !port) continue;  // the reader has told
     const bool holds = !p.holds.empty();
     if (holds && !instrument->can().grip)
-      faults.push_back({p.at, fmt::format("expected an instrument that grips where one holds '{}', got '{}'", p.holds,
-                                          p.instrument)});
+      faults.push_back(
+          {p.at, tr("expected an instrument that grips where one holds '{}', got '{}'", p.holds, p.instrument)});
     model.start.tools[model.hands.size()] =
         sim::tool_input(kinematics::inverse(port->position, p.tip, p.roll), holds ? 1.0f : 0.0f);
     sim::HandModel& hand = model.hands.emplace_back();

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/scene/compile/compile_marks.hpp>
 
@@ -51,8 +52,8 @@ void lay(const MarkSetting& setting, const sim::Model& model, sim::MarkModel& ma
   if (!skin) return;  // the reader has told
   const SkinPlace at = nearest_on(*skin, setting.place);
   if (at.distance > kMarkReach)
-    faults.push_back({setting.at, fmt::format("expected a place within {:.0f} mm of \"{}\", got one {:.1f} mm away",
-                                              kMarkReach * 1000, setting.on, at.distance * 1000)});
+    faults.push_back({setting.at, tr("expected a place within {:.0f} mm of \"{}\", got one {:.1f} mm away",
+                                     kMarkReach * 1000, setting.on, at.distance * 1000)});
   mark.place = at.point;
   if (!(length(setting.normal) > 0)) mark.normal = at.normal;
   if (mark.body < 0) return;

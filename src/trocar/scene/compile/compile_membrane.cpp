@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/curves/polyline.hpp>
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/scene/compile/compile_membrane.hpp>
@@ -116,9 +117,9 @@ void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d grav
   const interactions::StrandBody& body = model.strand_bodies[size_t(out.strand)];
   const Grid g = grid_of(membrane, body);
   if (double(g.rows) * g.columns > kMostFoldNodes) {  // a fold far wider than long: only now is its width known
-    faults.push_back({membrane.spacing_at, fmt::format("membrane '{}': expected a spacing that gives at most {} nodes, "
-                                                       "got {:.3g}",
-                                                       membrane.name, kMostFoldNodes, double(g.rows) * g.columns)});
+    faults.push_back({membrane.spacing_at, tr("membrane '{}': expected a spacing that gives at most {} nodes, "
+                                              "got {:.3g}",
+                                              membrane.name, kMostFoldNodes, double(g.rows) * g.columns)});
     return;
   }
   out.from = g.arc.front();

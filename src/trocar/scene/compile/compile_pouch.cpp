@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/compile/body_surface.hpp>
 #include <trocar/scene/compile/compile_membrane.hpp>
 #include <trocar/scene/compile/compile_parts.hpp>
@@ -37,8 +38,7 @@ std::vector<std::uint8_t> nodes_within(const std::vector<Anchor>& places, const 
     for (size_t i = 0; i < positions.size(); ++i)
       if (length(positions[i] - place.centre) <= place.radius) within[i] = 1, any = true;
     if (!any)
-      faults.push_back(
-          {place.at, fmt::format("expected a place that holds at least one node of '{}', got none", pouch)});
+      faults.push_back({place.at, tr("expected a place that holds at least one node of '{}', got none", pouch)});
   }
   return within;
 }
@@ -73,10 +73,9 @@ std::vector<std::uint8_t> leave_to_hands(const Pouch& pouch, const Description& 
       hand.held.push_back(std::int32_t(i));
     }
     if (hand.held.empty() || hand.held.size() > size_t(interactions::kMaxHolds))
-      faults.push_back(
-          {placed.at, fmt::format("expected 1 to {} nodes of '{}' that are held in space within {} mm of the "
-                                  "tip, got {}",
-                                  interactions::kMaxHolds, pouch.name, 1000 * kJaws, hand.held.size())});
+      faults.push_back({placed.at, tr("expected 1 to {} nodes of '{}' that are held in space within {} mm of the "
+                                      "tip, got {}",
+                                      interactions::kMaxHolds, pouch.name, 1000 * kJaws, hand.held.size())});
   }
   return left;
 }
@@ -120,11 +119,11 @@ std::vector<interactions::BondSet> bonds_of(const Pouch& pouch, const tissue::Me
       set.bonds.push_back({std::int32_t(i), hold, area[i]});
     }
     if (set.bonds.empty())
-      faults.push_back({setting.at, fmt::format("expected a node of '{}' in the places of \"{}\" that is free and at "
-                                                "most {} mm from what it is tied to, got none",
-                                                pouch.name, setting.name, 1000 * setting.reach)});
+      faults.push_back({setting.at, tr("expected a node of '{}' in the places of \"{}\" that is free and at "
+                                       "most {} mm from what it is tied to, got none",
+                                       pouch.name, setting.name, 1000 * setting.reach)});
     if (model.bonds_index(setting.name) >= 0)
-      faults.push_back({setting.at, fmt::format("expected every name of bonds once, got \"{}\" again", setting.name)});
+      faults.push_back({setting.at, tr("expected every name of bonds once, got \"{}\" again", setting.name)});
     sets.push_back(std::move(set));
   }
   return sets;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile_hands.hpp>
 #include <trocar/sim/model/model.hpp>
@@ -98,8 +99,7 @@ void compile_sutures(const Description& d, sim::Model& model, std::vector<core::
     if (!s.hand.empty()) {
       const int hand = model.hand_index(s.hand);
       if (hand < 0 || !model.placed(std::size_t(hand)).can().grip) {
-        faults.push_back(
-            {s.at, fmt::format("expected the trocar of a hand whose instrument grips, got \"{}\"", s.hand)});
+        faults.push_back({s.at, tr("expected the trocar of a hand whose instrument grips, got \"{}\"", s.hand)});
         continue;
       }
       put_in_jaws(s, model, std::size_t(hand), m);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/tets/stuffing.hpp>
 #include <trocar/scene/compile/body_surface.hpp>
 #include <trocar/scene/compile/compile_parts.hpp>
@@ -21,11 +22,10 @@ constexpr int kLeastSpare = 512;
 /// What is thinner than a cell and a half is lost: some of it is reported, and much of it refused.
 void tell_loss(const Solid& solid, double kept, CompileReport* report) {
   constexpr double kTold = 0.95, kRefused = 0.6;  // of the shape's volume
-  const std::string words = fmt::format("cells of {:.3g} mm keep {:.0f} % of its volume", 1e3 * solid.cell, 100 * kept);
+  const std::string words = tr("cells of {:.3g} mm keep {:.0f} % of its volume", 1e3 * solid.cell, 100 * kept);
   if (kept < kRefused) throw std::invalid_argument(words + ": smaller ones expected");
   if (kept < kTold && report)
-    report->warnings.push_back(
-        {solid.at, fmt::format("'{}' has thin parts: {}, smaller ones more", solid.name, words)});
+    report->warnings.push_back({solid.at, tr("'{}' has thin parts: {}, smaller ones more", solid.name, words)});
 }
 
 /// Cells end in chords of a curved surface and lose what is beyond them: their outer nodes go outwards by as much as

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/curves/polyline.hpp>
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
@@ -179,9 +180,8 @@ sim::Bleeder bleeder_of(const BleederSetting& setting, const sim::Model& model, 
     const vessels::FlowSegment& segment = model.vessels.flow.segments[size_t(v)];
     const double lumen = 2 * (segment.radius + segment.taper * h.at);
     if (h.diameter > lumen)
-      faults.push_back(
-          {h.where, fmt::format("expected a hole at most as wide as '{}' at that point, {:.2g} mm, got {:.2g} mm",
-                                h.vessel, 1e3 * lumen, 1e3 * h.diameter)});
+      faults.push_back({h.where, tr("expected a hole at most as wide as '{}' at that point, {:.2g} mm, got {:.2g} mm",
+                                    h.vessel, 1e3 * lumen, 1e3 * h.diameter)});
   }
   return out;
 }
@@ -210,9 +210,9 @@ class Compiling {
         const int count = std::max(3, int(std::min(1e6, way / kVesselSpacing)) + 2);
         points += count;
         if (before <= kMostVesselPoints && points > kMostVesselPoints)
-          m_faults.push_back({vessel.at, fmt::format("expected vessels of at most {:g} points, {:g} mm apart, in a "
-                                                     "scene, got more with '{}'",
-                                                     kMostVesselPoints, 1e3 * kVesselSpacing, vessel.name)});
+          m_faults.push_back({vessel.at, tr("expected vessels of at most {:g} points, {:g} mm apart, in a "
+                                            "scene, got more with '{}'",
+                                            kMostVesselPoints, 1e3 * kVesselSpacing, vessel.name)});
         if (points > kMostVesselPoints) return;
         sim::Vessel out;
         out.name = vessel.name;
@@ -285,9 +285,9 @@ class Compiling {
     }
     const Vessel& vessel = *m_vessels[v];
     if (!vessel.rides_on.empty() && !carried)
-      m_faults.push_back({vessel.rides_at.front(),
-                          fmt::format("expected some of '{}' within {:g} mm of the bodies that carry it, got none",
-                                      vessel.name, 1e3 * vessel.reach)});
+      m_faults.push_back(
+          {vessel.rides_at.front(), tr("expected some of '{}' within {:g} mm of the bodies that carry it, got none",
+                                       vessel.name, 1e3 * vessel.reach)});
     follow_neighbours(path);
   }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile_warnings.hpp>
@@ -59,9 +60,9 @@ void warn_inside(const Inside& found, const core::Location& at, const std::strin
                  std::vector<core::Fault>& warnings) {
   if (found.name.empty()) return;
   warnings.push_back(
-      {at, fmt::format("expected the tip of '{}' outside of tissue, got one that begins {:.1f} mm inside "
-                       "'{}', at ({:.1f}, {:.1f}, {:.1f}) mm",
-                       what, 1e3 * found.depth, found.name, 1e3 * found.at.x, 1e3 * found.at.y, 1e3 * found.at.z)});
+      {at, tr("expected the tip of '{}' outside of tissue, got one that begins {:.1f} mm inside "
+              "'{}', at ({:.1f}, {:.1f}, {:.1f}) mm",
+              what, 1e3 * found.depth, found.name, 1e3 * found.at.x, 1e3 * found.at.y, 1e3 * found.at.z)});
 }
 
 /// Sub-steps of a solid organ as it was built; 0: there is none of this name.
@@ -83,8 +84,8 @@ void find_slivers(const Description& d, const Solid& solid, const sim::Model& mo
     now.substeps = substeps;  // with its anchors and fibres
     now.tick = tick_of(now.springs, substeps);
     if (const std::optional<Refill> refill = refill_of(solid.tets->mesh, tissue, now))
-      warnings.push_back({solid.at, fmt::format("the mesh '{}' of '{}' has {}", solid.tets->file, solid.name,
-                                                in_words(solid.tets->mesh, now, *refill))});
+      warnings.push_back({solid.at, tr("the mesh '{}' of '{}' has {}", solid.tets->file, solid.name,
+                                       in_words(solid.tets->mesh, now, *refill))});
   }
 }
 
@@ -92,8 +93,7 @@ void warn_mended(const ClosedShape& shape, const std::string& body, const core::
                  std::vector<core::Fault>& warnings) {
   if (!shape.surface) return;
   for (const std::string& warning : shape.surface->warnings)
-    warnings.push_back(
-        {at, fmt::format("the surface '{}' of '{}' has defects; {}", shape.surface->file, body, warning)});
+    warnings.push_back({at, tr("the surface '{}' of '{}' has defects; {}", shape.surface->file, body, warning)});
 }
 
 void find_tips(const Description& d, const sim::Model& model, std::vector<core::Fault>& warnings) {
@@ -123,7 +123,7 @@ void find_warnings(const Description& d, const sim::Model& model, std::vector<co
     if (!solid.tets) continue;
     for (const std::string& warning : solid.tets->warnings)
       warnings.push_back(
-          {solid.at, fmt::format("the mesh '{}' of '{}' has defects; {}", solid.tets->file, solid.name, warning)});
+          {solid.at, tr("the mesh '{}' of '{}' has defects; {}", solid.tets->file, solid.name, warning)});
     find_slivers(d, solid, model, warnings);
   }
   for (const Pouch& pouch : d.pouches) warn_mended(pouch.shape, pouch.name, pouch.at, warnings);

@@ -11,6 +11,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
 #include <trocar/core/hash.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/compile/compliance_cache.hpp>
 
 namespace trocar::scene {
@@ -57,7 +58,7 @@ std::string damage_in(const Header& h, const Header& wanted, std::size_t size, s
   if (h.order != wanted.order) return "it is from a machine with another number format";
   if (h.key.a != wanted.key.a || h.key.b != wanted.key.b || h.kept != wanted.kept || h.fields != wanted.fields)
     return "it belongs to another organ";
-  if (size != wanted_size) return fmt::format("it has {} bytes instead of {}", size, wanted_size);
+  if (size != wanted_size) return tr("it has {} bytes instead of {}", size, wanted_size);
   return "";
 }
 

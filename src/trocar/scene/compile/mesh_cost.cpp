@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/tets/stuffing.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile_parts.hpp>
@@ -56,7 +57,7 @@ std::string in_words(const geometry::TetMesh& mesh, const MeshCost& now, const R
   const auto time = [](double tick) {
     return tick < 1e-3 ? fmt::format("{:.0f} us", 1e6 * tick) : fmt::format("{:.2g} ms", 1e3 * tick);
   };
-  return fmt::format(
+  return tr(
       "slivers (cells of {:.2g} degrees): {} sub-steps, about {} a tick; \"refill_mm\": {:g} fills its surface with "
       "new cells: "
       "{} "

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/curves/frames.hpp>
 #include <trocar/geometry/nurbs/closure.hpp>
 #include <trocar/geometry/nurbs/curve_edit.hpp>
@@ -30,17 +31,17 @@ void require_count(const char* what, std::size_t expected, std::size_t got) {
 
 void require_few(const char* what, std::size_t got) {
   if (got > kMostCurvePoints)
-    throw std::invalid_argument(fmt::format("{} {}, at most {} expected", got, what, kMostCurvePoints));
+    throw std::invalid_argument(tr("{} {}, at most {} expected", got, what, kMostCurvePoints));
 }
 
 /// Closed around, `points` control points.
 nurbs::Knots turn_knots(const char* name, int degree, int points, const Doubles& knots) {
   if (points <= degree)
     throw std::invalid_argument(
-        fmt::format("{} control points around, at least {} expected for the degree {}", points, degree + 1, degree));
+        tr("{} control points around, at least {} expected for the degree {}", points, degree + 1, degree));
   if (knots.empty()) return nurbs::periodic_uniform(degree, points);
   require_count(name, std::size_t(points) + 1, knots.size());
-  if (!(knots.back() > knots.front())) throw std::invalid_argument(fmt::format("{} that do not ascend", name));
+  if (!(knots.back() > knots.front())) throw std::invalid_argument(tr("{} that do not ascend", name));
   return nurbs::periodic(degree, {knots.begin(), knots.end() - 1}, knots.back() - knots.front());
 }
 
@@ -78,7 +79,7 @@ int sections_to_a_span(const nurbs::Curve& line, const Doubles& ends, const Doub
 nurbs::Knots clamped_by(int degree, int points, const std::vector<double>& knots, const char* name) {
   if (points <= degree)
     throw std::invalid_argument(
-        fmt::format("{} control points, at least {} expected for the degree {}", points, degree + 1, degree));
+        tr("{} control points, at least {} expected for the degree {}", points, degree + 1, degree));
   if (knots.empty()) return nurbs::clamped_uniform(degree, points);
   require_count(name, std::size_t(points - degree) + 1, knots.size());
   const nurbs::Knots all = nurbs::clamped(degree, knots.front(), {knots.begin() + 1, knots.end() - 1}, knots.back());

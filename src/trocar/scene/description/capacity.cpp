@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/description/capacity.hpp>
 #include <trocar/tissue/tets/face_skin.hpp>
 
@@ -63,9 +64,9 @@ void check(const std::vector<Body>& bodies, const char* what, Extent& sum, std::
     sum = sum + extent_of(body);
     const auto limit = [&](double now, double then, double most, const char* unit) {
       if (then <= most && !(now <= most))
-        faults.push_back({body.at, fmt::format("expected bodies of at most {:g} {} in a scene, got about {:.3g} with "
-                                               "the {} '{}'",
-                                               most, unit, now, what, body.name)});
+        faults.push_back({body.at, tr("expected bodies of at most {:g} {} in a scene, got about {:.3g} with "
+                                      "the {} '{}'",
+                                      most, unit, now, what, body.name)});
     };
     limit(sum.nodes, before.nodes, kMostExtent.nodes, "lattice nodes");
     limit(sum.places, before.places, kMostExtent.places, "cells in the boxes around them");
@@ -78,8 +79,7 @@ template <class Thing>
 bool few(const std::vector<Thing>& things, const char* what, std::vector<core::Fault>& faults,
          const char* ending = "s") {
   if (things.size() <= kMostBodies) return true;
-  faults.push_back(
-      {things[kMostBodies].at, fmt::format("expected at most {} {}{}, got more", kMostBodies, what, ending)});
+  faults.push_back({things[kMostBodies].at, tr("expected at most {} {}{}, got more", kMostBodies, what, ending)});
   return false;
 }
 

@@ -2,6 +2,7 @@
 // them.
 #include <algorithm>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/description/capacity.hpp>
 #include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
@@ -11,13 +12,12 @@ namespace {
 
 void check_within(const JsonObject& o, const char* key, double whole) {
   if (o.has(key) && beyond(units::mm.read(o.number(key)), whole))
-    o.fault(key, fmt::format("expected an arc length on the strand (at most {:.1f} mm), got {}", whole * 1000,
-                             o.number(key)));
+    o.fault(key, tr("expected an arc length on the strand (at most {:.1f} mm), got {}", whole * 1000, o.number(key)));
 }
 
 void check_rises(const JsonObject& o) {
   if (o.has("from_mm") && o.has("to_mm") && !(o.number("from_mm") < o.number("to_mm")))
-    o.fault("to_mm", fmt::format("expected more than from_mm = {}, got {}", o.number("from_mm"), o.number("to_mm")));
+    o.fault("to_mm", tr("expected more than from_mm = {}, got {}", o.number("from_mm"), o.number("to_mm")));
 }
 
 const Table<StrandStation>& station() {
@@ -36,11 +36,10 @@ void check_strand_station(const JsonObject& o, Strand& s, Context&) {
   StrandStation& now = s.stations.back();
   const double last = s.stations.size() > 1 ? s.stations[s.stations.size() - 2].s : -1;
   if (o.has("s_mm") && now.s <= last)
-    o.fault("s_mm",
-            fmt::format("expected more than {} mm (stations go by rising s_mm), got {}", last * 1000, now.s * 1000));
+    o.fault("s_mm", tr("expected more than {} mm (stations go by rising s_mm), got {}", last * 1000, now.s * 1000));
   if (o.has("lumen_mm") && now.lumen >= now.radius)
     o.fault("lumen_mm",
-            fmt::format("expected less than the outer radius of {} mm, got {}", now.radius * 1000, now.lumen * 1000));
+            tr("expected less than the outer radius of {} mm, got {}", now.radius * 1000, now.lumen * 1000));
   check_within(o, "s_mm", curve_length(s.centreline));
   if (!o.has("s_mm")) now.s = last;  // the next one is compared with the last that is right
 }
@@ -62,7 +61,7 @@ void check_landmark(const JsonObject& o, Strand& s, Context&) {
   const Landmark& mark = s.landmarks.back();
   for (std::size_t i = 0; i + 1 < s.landmarks.size(); ++i)
     if (!mark.name.empty() && s.landmarks[i].name == mark.name)
-      o.fault("name", fmt::format("expected every landmark of a strand once, got \"{}\" again", mark.name));
+      o.fault("name", tr("expected every landmark of a strand once, got \"{}\" again", mark.name));
 }
 
 const Table<StrandEnd>& strand_end() {
@@ -84,8 +83,8 @@ void check_strand(const JsonObject& o, Strand& s, Context&) {
   if (!o.names("end")) s.end.at = s.at;
   const double whole = curve_length(s.centreline);
   if (o.has("spacing_mm") && whole / s.spacing > kMaxStrandNodes)
-    o.fault("spacing_mm", fmt::format("expected a spacing that gives at most {} nodes, got about {:.3g}",
-                                      kMaxStrandNodes, whole / s.spacing));
+    o.fault("spacing_mm",
+            tr("expected a spacing that gives at most {} nodes, got about {:.3g}", kMaxStrandNodes, whole / s.spacing));
 }
 
 /// A fold's border on its strand, the other one, and where it ends on a strand that may not be known yet.
@@ -116,8 +115,8 @@ void check_membrane(const JsonObject& o, Membrane& m, Context& c) {
   check_rises(o);
   check_apart(o, "base_mm", m.base);
   if ((m.to - m.from) / m.spacing > kMaxStrandNodes)
-    o.fault("spacing_mm", fmt::format("expected a spacing that gives at most {} columns, got about {:.3g}",
-                                      kMaxStrandNodes, (m.to - m.from) / m.spacing));
+    o.fault("spacing_mm", tr("expected a spacing that gives at most {} columns, got about {:.3g}", kMaxStrandNodes,
+                             (m.to - m.from) / m.spacing));
   c.reading->ends_on(m.strand, m.to, o.at("to_mm"));
 }
 
@@ -137,7 +136,7 @@ void check_contents(const JsonObject& o, Contents& c, Context&) {
   if (c.kind == Contents::nothing) c.kind = Contents::liquid;
   if (!o.has("density_kg_m3")) c.density = c.kind == Contents::liquid ? kWater : 0;
   if (o.has("bulk_kPa") && c.kind != Contents::liquid)
-    o.fault("bulk_kPa", fmt::format("expected a bulk modulus of a liquid only, got one of \"{}\"", o.text("kind")));
+    o.fault("bulk_kPa", tr("expected a bulk modulus of a liquid only, got one of \"{}\"", o.text("kind")));
 }
 
 const Table<Contents>& contents() {
@@ -169,7 +168,7 @@ void check_pouch(const JsonObject& o, Pouch& p, Context&) {
   const double nodes = extent_of(p).nodes;
   if (!(nodes <= kMaxPouchNodes))
     o.fault(p.spacing_at,
-            fmt::format("expected a spacing that gives at most {} nodes, got about {:.3g}", kMaxPouchNodes, nodes));
+            tr("expected a spacing that gives at most {} nodes, got about {:.3g}", kMaxPouchNodes, nodes));
 }
 
 }  // namespace

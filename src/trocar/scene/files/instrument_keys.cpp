@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <map>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
 #include <trocar/scene/mechanisms/mechanism_file.hpp>
@@ -136,11 +137,10 @@ void check_instrument(const JsonObject& o, Instrument& i, Context&) {
   if (i.parallel_gap > 0 && !o.has("opening_deg")) i.opening = 0;
   const std::string kind = o.text("kind");
   if (o.has("electrode") && o.has("kind") && !i.can().coagulate)
-    o.fault("electrode", fmt::format("expected an electrode only in a {}, got one in a {}",
-                                     kinds_that(&Abilities::coagulate), kind));
+    o.fault("electrode",
+            tr("expected an electrode only in a {}, got one in a {}", kinds_that(&Abilities::coagulate), kind));
   if (o.has("needle") && o.has("kind") && !i.can().inject)
-    o.fault("needle",
-            fmt::format("expected a needle only in a {}, got one in a {}", kinds_that(&Abilities::inject), kind));
+    o.fault("needle", tr("expected a needle only in a {}, got one in a {}", kinds_that(&Abilities::inject), kind));
   if (i.parallel_gap > 0 && i.opening > 0)
     o.fault("opening_deg", "expected 0 or nothing beside parallel_gap_mm (jaws turn or stay parallel), got an angle");
   if (o.has("mechanism") && o.has("opening_deg"))
@@ -148,13 +148,12 @@ void check_instrument(const JsonObject& o, Instrument& i, Context&) {
   if (o.has("handle") && !o.has("mechanism")) o.fault("handle", "expected a mechanism that it moves, got none");
   if (i.wrist.there && i.foot > 0) o.fault("wrist", "expected a rigid instrument with a foot, got one that bends");
   if (i.foot > 0 && o.has("kind") && !i.can().hook)
-    o.fault("foot_mm",
-            fmt::format("expected a foot only in a {}, got one in a {}", kinds_that(&Abilities::hook), kind));
+    o.fault("foot_mm", tr("expected a foot only in a {}, got one in a {}", kinds_that(&Abilities::hook), kind));
   if (i.foot > 0 && i.foot <= 0.5 * i.jaw_thickness)
     o.fault("foot_mm", "expected 0 or more than half of jaw_thickness_mm (the wire's radius), got no more than that");
   if (i.clips > 0 && o.has("kind") && !i.can().set_clips)
-    o.fault("clips", fmt::format("expected clips only in a {}, got {} in a {}", kinds_that(&Abilities::set_clips),
-                                 i.clips, kind));
+    o.fault("clips",
+            tr("expected clips only in a {}, got {} in a {}", kinds_that(&Abilities::set_clips), i.clips, kind));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/description/description.hpp>
 #include <trocar/scene/files/rows.hpp>
 
@@ -75,7 +76,7 @@ Row<T> degree_row(const std::string& meaning) {
             for (std::size_t k = 0; k < two.size(); ++k) {
               t.degree[k] = int(two[k]);
               if (two[k] != std::floor(two[k]))
-                o.fault(o.at("degree", k), fmt::format("expected a whole number for \"degree\", got {}", two[k]));
+                o.fault(o.at("degree", k), tr("expected a whole number for \"degree\", got {}", two[k]));
             }
           },
           [](const T& t, bool) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/core/user_folder.hpp>
 #include <trocar/scene/files/library.hpp>
 #include <trocar/scene/files/scene_folders.hpp>
@@ -140,8 +141,8 @@ std::vector<fs::path> Library::folders(const char* name) const {
 }
 
 std::string Library::refusal(const std::string& name) const {
-  return fmt::format("expected a file in {} or in a library of TROCAR_LIBRARY, got \"{}\"",
-                     m_folders.front().generic_string(), name);
+  return tr("expected a file in {} or in a library of TROCAR_LIBRARY, got \"{}\"", m_folders.front().generic_string(),
+            name);
 }
 
 }  // namespace trocar::scene

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/files/look_file.hpp>
 #include <trocar/scene/files/rows.hpp>
 
@@ -58,10 +59,10 @@ void check_surrounding(const JsonObject& o, Look& look, Context&) {
   const Surrounding& now = look.surroundings.back();
   const bool counted = now.generator == G::fat_tags || now.generator == G::adhesions || now.generator == G::curtains;
   if (o.has("generator") && o.has("count") && !counted)
-    o.fault("count", fmt::format("expected a count of what is counted only, got one of {}", o.text("generator")));
+    o.fault("count", tr("expected a count of what is counted only, got one of {}", o.text("generator")));
   for (std::size_t i = 0; i + 1 < look.surroundings.size(); ++i)
     if (o.has("generator") && look.surroundings[i].generator == now.generator)
-      o.fault("generator", fmt::format("expected every generator once, got \"{}\" again", o.text("generator")));
+      o.fault("generator", tr("expected every generator once, got \"{}\" again", o.text("generator")));
 }
 
 std::vector<Row<Look>> colour_rows() {
@@ -193,10 +194,9 @@ void MaterialFolders::inherit(const JsonObject& o, Look& look, Open& open) {
   if (m_files.count(base) == 0)
     o.fault("inherits", unknown_name("look", base, names()));
   else if (std::find(open.begin(), open.end(), base) != open.end())
-    o.fault("inherits",
-            fmt::format("expected materials that do not inherit each other in a cycle, got {}{}", chain, base));
+    o.fault("inherits", tr("expected materials that do not inherit each other in a cycle, got {}{}", chain, base));
   else if (open.size() >= kMostInherited)
-    o.fault("inherits", fmt::format("expected at most {} materials that inherit each other, got more", kMostInherited));
+    o.fault("inherits", tr("expected at most {} materials that inherit each other, got more", kMostInherited));
   else
     look = this->look(base, open);
 }

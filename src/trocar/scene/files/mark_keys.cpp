@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/files/keys.hpp>
 
 namespace trocar::scene {
@@ -30,7 +31,7 @@ void check_mark(const JsonObject& o, MarkSetting& m, Context&) {
   m.stripe = o.names("at_mm");
   if (m.stripe) m.size = o.has("width_mm") ? units::mm.read(o.number("width_mm")) : kUsualStripe;
   if (m.colour.empty()) m.colour = kMarkColours.front();
-  if (!readable(m.label)) o.fault("label", fmt::format("expected at most three digits, got \"{}\"", m.label));
+  if (!readable(m.label)) o.fault("label", tr("expected at most three digits, got \"{}\"", m.label));
   if (!m.stripe) return check_disc(o, m);
   for (const char* key : {"place_mm", "normal", "diameter_mm", "label", "look", "high_mm"})
     if (o.names(key)) o.fault(key, "expected no normal of a stripe (at_mm), got one");

@@ -1,6 +1,7 @@
 // Keys of what moves by itself in a scene (waves of hollow organs, breathing), and of how finely things are drawn.
 #include <algorithm>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/files/keys.hpp>
 
 namespace trocar::scene {
@@ -23,8 +24,8 @@ const Table<Station>& wave_station() {
 void check_wave_station(const JsonObject& o, WaveSetting& w, Context&) {
   const std::size_t n = w.stations.size();
   if (n > 1 && o.has("s_mm") && !(w.stations[n - 1].s > w.stations[n - 2].s))
-    o.fault("s_mm", fmt::format("expected more than the station before, {} mm, got {}", 1000 * w.stations[n - 2].s,
-                                1000 * w.stations[n - 1].s));
+    o.fault("s_mm", tr("expected more than the station before, {} mm, got {}", 1000 * w.stations[n - 2].s,
+                       1000 * w.stations[n - 1].s));
 }
 
 /// Two waves nearer to each other than this many widths would be one broad contraction.                    Our choice
@@ -35,9 +36,9 @@ void check_wave(const JsonObject& o, WaveSetting& w, Context&) {
   for (const Station& s : w.stations) {
     const double apart = s.speed * 60 / w.per_minute;
     if (!(w.width * kWidthsApart > apart)) continue;
-    o.fault("width_mm", fmt::format("expected at most half of the wavelength, {:.3g} mm ({} mm/s at {} per "
-                                    "minute), got {}",
-                                    1000 * apart, 1000 * s.speed, w.per_minute, 1000 * w.width));
+    o.fault("width_mm", tr("expected at most half of the wavelength, {:.3g} mm ({} mm/s at {} per "
+                           "minute), got {}",
+                           1000 * apart, 1000 * s.speed, w.per_minute, 1000 * w.width));
     return;
   }
 }
@@ -58,7 +59,7 @@ const Table<Carried>& carried() {
 void check_carried(const JsonObject& o, BreathingSetting& b, Context&) {
   for (std::size_t i = 0; i + 1 < b.carries.size(); ++i)
     if (o.has("body") && b.carries[i].body == b.carries.back().body)
-      o.fault("body", fmt::format("expected every body once, got \"{}\" again", b.carries.back().body));
+      o.fault("body", tr("expected every body once, got \"{}\" again", b.carries.back().body));
 }
 
 using Level = DetailSetting::Level;
@@ -83,18 +84,18 @@ void check_level(const JsonObject& o, DetailSetting& d, Context&) {
   const Level &now = d.levels.back(), &before = d.levels[d.levels.size() - 2];
   if (o.has("from_mm") && !(now.from > before.from))
     o.fault("from_mm",
-            fmt::format("expected more than the level before, {} mm, got {}", 1000 * before.from, o.number("from_mm")));
+            tr("expected more than the level before, {} mm, got {}", 1000 * before.from, o.number("from_mm")));
   if (o.has("error_mm") && now.error < before.error)
-    o.fault("error_mm", fmt::format("expected no less than the level before, {} mm, got {}", 1000 * before.error,
-                                    o.number("error_mm")));
+    o.fault("error_mm",
+            tr("expected no less than the level before, {} mm, got {}", 1000 * before.error, o.number("error_mm")));
   if (now.surface > before.surface)
-    o.fault("surface", fmt::format("expected no more than the level before, {}, got {}", before.surface, now.surface));
+    o.fault("surface", tr("expected no more than the level before, {}, got {}", before.surface, now.surface));
 }
 
 void check_detail(const JsonObject& o, DetailSetting& d, Context&) {
   if (o.has("of") && d.of.empty()) o.fault("of", "expected the name of something, got none");
   if (d.levels.size() > kMostLevels)
-    o.fault("levels", fmt::format("expected at most {} levels, got {}", kMostLevels, d.levels.size()));
+    o.fault("levels", tr("expected at most {} levels, got {}", kMostLevels, d.levels.size()));
 }
 
 }  // namespace

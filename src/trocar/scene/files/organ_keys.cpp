@@ -5,6 +5,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/description/fibres.hpp>
 #include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
@@ -83,12 +84,12 @@ void check_size(const JsonObject& o, const Solid& s) {
   }
   const double nodes = 1.3 * volume / (s.cell * s.cell * s.cell);
   if (o.has("cell_mm") && nodes > kMaxSolidNodes)
-    o.fault("cell_mm", fmt::format("expected a cell that fills the body with at most {} nodes, got about {:.3g}",
-                                   kMaxSolidNodes, nodes));
+    o.fault("cell_mm",
+            tr("expected a cell that fills the body with at most {} nodes, got about {:.3g}", kMaxSolidNodes, nodes));
   for (const auto& [key, edge] : {std::pair{"skin_edge_mm", s.skin_edge}, std::pair{"fine_edge_mm", s.fine_edge}})
     if (o.has(key) && 2.3 * skin / (edge * edge) > kMaxTriangles)
-      o.fault(key, fmt::format("expected an edge that gives at most {} triangles, got about {:.3g}", kMaxTriangles,
-                               2.3 * skin / (edge * edge)));
+      o.fault(key, tr("expected an edge that gives at most {} triangles, got about {:.3g}", kMaxTriangles,
+                      2.3 * skin / (edge * edge)));
 }
 
 bool is_lattice(const JsonObject& o, const Solid& s) {
@@ -107,8 +108,7 @@ void check_strokes(const JsonObject& o, const Solid& s) {
                        "expected points at least 0.01 mm from the one before, got the same place twice");
   }
   if (points > kMostStrokePoints)
-    o.fault("fibres_mm",
-            fmt::format("expected at most {} points of all strokes together, got {}", kMostStrokePoints, points));
+    o.fault("fibres_mm", tr("expected at most {} points of all strokes together, got {}", kMostStrokePoints, points));
 }
 
 /// Which way its fibres run is said once.
@@ -119,7 +119,7 @@ void check_fibres(const JsonObject& o, const Solid& s) {
   const char* said = nullptr;
   for (const char* key : {"fibre", "fibres_mm", "fibres_along"}) {
     if (!o.names(key)) continue;
-    if (said) o.fault(key, fmt::format("expected one of fibre, fibres_mm and fibres_along, got it beside {}", said));
+    if (said) o.fault(key, tr("expected one of fibre, fibres_mm and fibres_along, got it beside {}", said));
     said = key;
   }
   if (o.names("fibre") && !(length(s.fibre) > 1e-6)) o.fault("fibre", "expected a direction, got none");
@@ -157,8 +157,8 @@ void check_masses(const JsonObject& o, const Solid& s) {
   if (s.shape.nurbs->closing == NurbsShape::ring)
     o.fault("masses", "expected \"closed\": \"ends\" where masses are control points, got a ring");
   if ((s.shape.nurbs->degree[0] + 1) * (s.shape.nurbs->degree[1] + 1) > kMostCarriers)
-    o.fault("masses", fmt::format("expected degrees with at most {} control points per surface point, got {} and {}",
-                                  kMostCarriers, s.shape.nurbs->degree[0], s.shape.nurbs->degree[1]));
+    o.fault("masses", tr("expected degrees with at most {} control points per surface point, got {} and {}",
+                         kMostCarriers, s.shape.nurbs->degree[0], s.shape.nurbs->degree[1]));
 }
 
 constexpr double kUsualCell = 0.005;  // [m] to continue with where the file says none
@@ -196,13 +196,12 @@ void check_patch(const JsonObject& o, const Wall& w) {
   for (const char* key : {"net_mm", "weights", "degree", "knots_u", "knots_v"})
     if (o.names(key) && !o.has(key)) return;
   if (!w.weights.empty() && w.weights.size() != w.net.size())
-    o.fault("weights",
-            fmt::format("expected one for each of {} control points, got {}", w.net.size(), w.weights.size()));
+    o.fault("weights", tr("expected one for each of {} control points, got {}", w.net.size(), w.weights.size()));
   for (const auto& [key, way] : {std::pair{"knots_u", 0}, std::pair{"knots_v", 1}}) {
     try {
       if (o.has("net_mm")) knots_of(w, way);
     } catch (const std::invalid_argument& e) {
-      o.fault(o.names(key) ? key : "degree", fmt::format("expected knots that go with the net, got: {}", e.what()));
+      o.fault(o.names(key) ? key : "degree", tr("expected knots that go with the net, got: {}", e.what()));
     }
   }
 }
@@ -216,8 +215,8 @@ void check_wall(const JsonObject& o, Wall& w, Context&) {
     }
   check_patch(o, w);
   if (o.has("edge_mm") && 2.3 * surface / (w.edge * w.edge) > kMaxTriangles)
-    o.fault("edge_mm", fmt::format("expected an edge that gives at most {} triangles, got about {:.3g}", kMaxTriangles,
-                                   2.3 * surface / (w.edge * w.edge)));
+    o.fault("edge_mm", tr("expected an edge that gives at most {} triangles, got about {:.3g}", kMaxTriangles,
+                          2.3 * surface / (w.edge * w.edge)));
 }
 
 void read_net(const JsonObject& o, Wall& w, Context&) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/printable.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/files/look_file.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
@@ -63,15 +64,15 @@ void Reading::include(const fs::path& path, const core::Location& from, const Sh
     if (cycle) chain += name + " -> ";
   }
   if (cycle)
-    return refuse(fmt::format("expected files that do not include each other in a cycle, got {}{}", chain,
-                              path.generic_string()));
+    return refuse(
+        tr("expected files that do not include each other in a cycle, got {}{}", chain, path.generic_string()));
   if (m_open.size() >= kMaxIncludeDepth)
-    return refuse(fmt::format("expected at most {} files inside each other, got more", kMaxIncludeDepth));
-  if (++m_files > kMaxFiles) return refuse(fmt::format("expected at most {} files, got more", kMaxFiles));
+    return refuse(tr("expected at most {} files inside each other, got more", kMaxIncludeDepth));
+  if (++m_files > kMaxFiles) return refuse(tr("expected at most {} files, got more", kMaxFiles));
   const bool there = (m_memory && m_memory->text_of(path)) || (disk && fs::is_regular_file(path, error));
   if (!m_open.empty() && !there)
-    return refuse(fmt::format("expected the name of a file, got \"{}\" (there is no file {})",
-                              path.filename().generic_string(), path.generic_string()));
+    return refuse(tr("expected the name of a file, got \"{}\" (there is no file {})", path.filename().generic_string(),
+                     path.generic_string()));
   m_open.emplace_back(canonical, path.generic_string());
   const JsonDocument document = load_json(path, m_faults, m_memory);
   const bool is_like = shape.find(kLike) && document.root.find(kLike);
@@ -88,7 +89,7 @@ void Reading::include_named(const JsonObject& o, const core::Location& at, const
                             const fs::path& folder, const Shape& shape, const Read& read) {
   const fs::path named(name.text);
   if (named.empty() || named.is_absolute())
-    o.fault(at, fmt::format("expected a file name relative to this file, got {}", shown(name)));
+    o.fault(at, tr("expected a file name relative to this file, got {}", shown(name)));
   else if (const fs::path path = place_of(folder, named); m_library && !m_library->holds(path))
     o.fault(at, m_library->refusal(name.text));
   else

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/description/capacity.hpp>
 #include <trocar/scene/files/look_file.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
@@ -62,8 +63,8 @@ void check_unique(const char* what, const std::vector<NamedPlace>& things, std::
     for (std::size_t j = 0; j < i; ++j)
       if (!things[i].first.empty() && things[i].first == things[j].first) {
         const core::Location& first = things[j].second;
-        tell(faults, {things[i].second, fmt::format("expected every {} name once, got \"{}\" again (first in {}:{}:{})",
-                                                    what, things[i].first, first.file, first.line, first.column)});
+        tell(faults, {things[i].second, tr("expected every {} name once, got \"{}\" again (first in {}:{}:{})", what,
+                                           things[i].first, first.file, first.line, first.column)});
         break;
       }
 }
@@ -113,8 +114,8 @@ void Reading::check_variants() {
   const Description common = description;
   const std::vector<VariationSetting::Variant>& variants = common.variation->variants;
   if (!common.variant.empty() && !find_variant(*common.variation, common.variant))
-    tell(m_faults, {common.variation->at,
-                    fmt::format("expected the variant \"{}\" of the scene, got none of this name", common.variant)});
+    tell(m_faults,
+         {common.variation->at, tr("expected the variant \"{}\" of the scene, got none of this name", common.variant)});
   for (std::size_t i = 0; i < variants.size() && m_faults.empty(); ++i) {
     put_in(description, variants[i]);
     if (i < m_of_variants.size()) resolve(m_of_variants[i]);
@@ -131,7 +132,7 @@ void Reading::check_finding(const VariationSetting::Finding& finding) {
   for (const std::string& name : marks) {
     const auto is_it = [&](const MarkSetting& mark) { return mark.name == name; };
     if (std::none_of(description.marks.begin(), description.marks.end(), is_it))
-      tell(m_faults, {finding.at, fmt::format("expected a finding's mark to be one of the scene's, got \"{}\"", name)});
+      tell(m_faults, {finding.at, tr("expected a finding's mark to be one of the scene's, got \"{}\"", name)});
   }
 }
 
@@ -192,8 +193,8 @@ void Reading::check_vessel_names() {
     for (const Vessel& v : tree.vessels) {
       const auto [first, fresh] = seen.try_emplace(v.name, v.at);
       if (!fresh && first->second.file != v.at.file)
-        tell(m_faults, {v.at, fmt::format("expected every vessel name once, got \"{}\" again (first in {}:{}:{})",
-                                          v.name, first->second.file, first->second.line, first->second.column)});
+        tell(m_faults, {v.at, tr("expected every vessel name once, got \"{}\" again (first in {}:{}:{})", v.name,
+                                 first->second.file, first->second.line, first->second.column)});
     }
 }
 
@@ -210,19 +211,19 @@ void Reading::check_tool(const Placement& tool) {
   const double reach = is_scope ? description.scope.shaft_length : instrument->shaft_length + instrument->jaw_length;
   const double depth = length(tool.tip - port->position);
   if (!(depth >= 0.005 && depth <= reach))
-    tell(m_faults, {tool.at, fmt::format("expected a tip 5 to {:.0f} mm from the port \"{}\", got {:.1f} mm",
-                                         reach * 1000, tool.port, depth * 1000)});
+    tell(m_faults, {tool.at, tr("expected a tip 5 to {:.0f} mm from the port \"{}\", got {:.1f} mm", reach * 1000,
+                                tool.port, depth * 1000)});
   if (2 * radius > port->diameter * 1.000001)
-    tell(m_faults, {tool.at, fmt::format("expected a port of at least {} mm for this shaft, got \"{}\" of {} mm",
-                                         2000 * radius, tool.port, port->diameter * 1000)});
+    tell(m_faults, {tool.at, tr("expected a port of at least {} mm for this shaft, got \"{}\" of {} mm", 2000 * radius,
+                                tool.port, port->diameter * 1000)});
 }
 
 void Reading::check_sheet(const SheetEnd& sheet) {
   for (const Strand& strand : description.strands) {
     const double whole = curve_length(strand.centreline);
     if (strand.name == sheet.strand && beyond(sheet.to, whole))
-      tell(m_faults, {sheet.at, fmt::format("expected an arc length on \"{}\" (at most {:.1f} mm), got {}", strand.name,
-                                            whole * 1000, sheet.to * 1000)});
+      tell(m_faults, {sheet.at, tr("expected an arc length on \"{}\" (at most {:.1f} mm), got {}", strand.name,
+                                   whole * 1000, sheet.to * 1000)});
   }
 }
 
@@ -232,14 +233,14 @@ void Reading::check_mark(const MarkSetting& mark) {
   const auto strand = std::find_if(description.strands.begin(), description.strands.end(), named);
   const bool around = strand != description.strands.end();
   if (mark.stripe && !around)
-    tell(m_faults, {mark.at, fmt::format("expected a strand that the stripe goes around, got \"{}\"", mark.on)});
+    tell(m_faults, {mark.at, tr("expected a strand that the stripe goes around, got \"{}\"", mark.on)});
   if (!mark.stripe && around)
-    tell(m_faults, {mark.at, fmt::format("expected at_mm of a stripe on the strand \"{}\", got a disc", mark.on)});
+    tell(m_faults, {mark.at, tr("expected at_mm of a stripe on the strand \"{}\", got a disc", mark.on)});
   if (!mark.stripe || !around) return;
   const double whole = curve_length(strand->centreline);
   if (beyond(mark.s, whole))
-    tell(m_faults, {mark.at, fmt::format("expected an arc length on \"{}\" (at most {:.1f} mm), got {}", mark.on,
-                                         whole * 1000, mark.s * 1000)});
+    tell(m_faults, {mark.at, tr("expected an arc length on \"{}\" (at most {:.1f} mm), got {}", mark.on, whole * 1000,
+                                mark.s * 1000)});
 }
 
 /// Do its organ and its stations fit it?
@@ -247,23 +248,22 @@ void Reading::check_wave(const WaveSetting& wave) {
   for (const Solid& solid : description.solids) {
     if (solid.name != wave.solid || wave.solid.empty()) continue;
     if (solid.cuttable)
-      tell(m_faults, {wave.solid_at, fmt::format("expected a solid that is not cuttable, got \"{}\"", solid.name)});
+      tell(m_faults, {wave.solid_at, tr("expected a solid that is not cuttable, got \"{}\"", solid.name)});
     std::vector<Vec3d> line = wave.centreline;
     if (line.empty())
       for (const Section& s : solid.sections) line.push_back(s.centre);
     if (line.empty() && solid.shape.tube) line = solid.shape.tube->line;
     if (line.size() < 2) {
-      tell(
-          m_faults,
-          {wave.at, fmt::format("expected \"centreline_mm\" for \"{}\", which has no sections and is no tube, got none",
-                                solid.name)});
+      tell(m_faults,
+           {wave.at,
+            tr("expected \"centreline_mm\" for \"{}\", which has no sections and is no tube, got none", solid.name)});
       continue;
     }
     const double whole = curve_length(line);
     for (const WaveSetting::Station& s : wave.stations)
       if (beyond(s.s, whole))
-        tell(m_faults, {s.at, fmt::format("expected an arc length on the centre line (at most {:.1f} mm), got {}",
-                                          whole * 1000, s.s * 1000)});
+        tell(m_faults, {s.at, tr("expected an arc length on the centre line (at most {:.1f} mm), got {}", whole * 1000,
+                                 s.s * 1000)});
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <trocar/core/files.hpp>
 #include <trocar/core/printable.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/mesh_source.hpp>
 #include <trocar/geometry/repair/mend.hpp>
 #include <trocar/geometry/surface_files/surface_file.hpp>
@@ -59,7 +60,7 @@ std::string parts_to_choose(const geometry::SurfaceFile& file, const std::string
   std::string words = " (\"part\" takes one of:";
   for (std::size_t i = 0; i < std::min(kShown, file.parts.size()); ++i)
     words += (i == 0 ? " " : ", ") + core::printable(file.parts[i].name);
-  return words + (file.parts.size() > kShown ? fmt::format(", and {} more)", file.parts.size() - kShown) : ")");
+  return words + (file.parts.size() > kShown ? tr(", and {} more)", file.parts.size() - kShown) : ")");
 }
 
 /// Closed and outwards, mended where it may be; false, and a fault, where it cannot be.
@@ -67,14 +68,14 @@ bool become_closed(const JsonObject& o, const std::string& parts, SurfaceSource&
   const geometry::Diagnosis before = geometry::examine(source.mesh);
   if (before.is_body()) return true;
   if (!source.mend) {
-    o.fault("file", fmt::format("expected a closed surface, as mending is off, got: {}{}", faults_of(before), parts));
+    o.fault("file", tr("expected a closed surface, as mending is off, got: {}{}", faults_of(before), parts));
     return false;
   }
   geometry::MendedMesh mended = geometry::mend(source.mesh);
   if (!mended.after.is_body() || mended.mesh.triangles.empty()) {
     const std::string left = one_by_one(mended.left, [](const std::string& words) { return words; });
-    o.fault("file", fmt::format("expected a surface that can be mended to a closed one, got: {}{}",
-                                left.empty() ? faults_of(mended.after) : left, parts));
+    o.fault("file", tr("expected a surface that can be mended to a closed one, got: {}{}",
+                       left.empty() ? faults_of(mended.after) : left, parts));
     return false;
   }
   for (const geometry::Change& c : mended.changes) source.warnings.push_back("mended: " + c.words);
@@ -87,14 +88,13 @@ bool is_sensible(const JsonObject& o, const SurfaceSource& source) {
   const geometry::Bounds box = geometry::bounds(source.mesh.positions);
   for (int k = 0; k < 3; ++k)
     if (!(box.low[k] >= -kFar / 1000) || !(box.high[k] <= kFar / 1000)) {
-      o.fault("file",
-              fmt::format("expected coordinates within {} mm, got some from {:.4g} to {:.4g} mm (\"unit_mm\" is "
-                          "{:g})",
-                          kFar, 1000 * box.low[k], 1000 * box.high[k], 1000 * source.unit));
+      o.fault("file", tr("expected coordinates within {} mm, got some from {:.4g} to {:.4g} mm (\"unit_mm\" is "
+                         "{:g})",
+                         kFar, 1000 * box.low[k], 1000 * box.high[k], 1000 * source.unit));
       return false;
     }
   if (source.mesh.triangles.size() > std::size_t(kMaxTriangles)) {
-    o.fault("file", fmt::format("expected at most {} triangles, got {}", kMaxTriangles, source.mesh.triangles.size()));
+    o.fault("file", tr("expected at most {} triangles, got {}", kMaxTriangles, source.mesh.triangles.size()));
     return false;
   }
   return true;
@@ -107,7 +107,7 @@ std::string Reading::bytes_beside(const fs::path& folder, const std::string& nam
   const fs::path named(name);
   if (named.empty() || named.is_absolute()) refuse("expected the name of a file beside the one that names it");
   if (m_library && !m_library->holds(folder / named)) refuse(m_library->refusal(name));
-  if (++m_files > kMaxFiles) refuse(fmt::format("expected at most {} files, got more", kMaxFiles));
+  if (++m_files > kMaxFiles) refuse(tr("expected at most {} files, got more", kMaxFiles));
   const fs::path path = (folder / named).lexically_normal();
   if (!m_memory) return core::read_file(path, geometry::kMaxMeshBytes);
   const auto found = m_memory->find(path);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/files.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/nrrd.hpp>
 #include <trocar/geometry/formats/tet_files.hpp>
 #include <trocar/geometry/tets/stuffing.hpp>
@@ -23,17 +24,16 @@ void refill(TetSource& source) {
   const double after = geometry::volume(filled);
   source.warnings.clear();
   if (after < kKept * before || after > before / kKept)
-    source.warnings.push_back(
-        fmt::format("filled with new cells it has {:.3g} of {:.3g} ml: a smaller \"refill_mm\" keeps more", 1e6 * after,
-                    1e6 * before));
+    source.warnings.push_back(tr("filled with new cells it has {:.3g} of {:.3g} ml: a smaller \"refill_mm\" keeps more",
+                                 1e6 * after, 1e6 * before));
   source.mesh = std::move(filled);
 }
 
 void take(const JsonObject& o, TetSource source, Solid& s) {
   if (source.mesh.cells.empty()) return o.fault("file", "expected cells with a volume, got flat ones only");
   if (source.mesh.points.size() > std::size_t(kMaxSolidNodes) || source.mesh.cells.size() > std::size_t(kMaxSolidCells))
-    return o.fault("file", fmt::format("expected at most {} nodes and {} cells, got {} and {}", kMaxSolidNodes,
-                                       kMaxSolidCells, source.mesh.points.size(), source.mesh.cells.size()));
+    return o.fault("file", tr("expected at most {} nodes and {} cells, got {} and {}", kMaxSolidNodes, kMaxSolidCells,
+                              source.mesh.points.size(), source.mesh.cells.size()));
   for (Vec3d& p : source.mesh.points) p += source.place;
   s.tets = std::move(source);
 }
@@ -44,7 +44,7 @@ std::optional<std::string> Reading::bytes_of(const JsonObject& o, const fs::path
   const fs::path named(o.text(key));
   if (!o.has(key)) return {};
   if (named.empty() || named.is_absolute()) {
-    o.fault(key, fmt::format("expected a file name relative to this file, got \"{}\"", named.generic_string()));
+    o.fault(key, tr("expected a file name relative to this file, got \"{}\"", named.generic_string()));
     return {};
   }
   const fs::path path = place_of(folder, named);
@@ -57,12 +57,12 @@ std::optional<std::string> Reading::bytes_of(const JsonObject& o, const fs::path
 
 std::optional<std::string> Reading::bytes_at(const JsonObject& o, const fs::path& path, const char* key) {
   if (++m_files > kMaxFiles) {
-    o.fault(key, fmt::format("expected at most {} files, got more", kMaxFiles));
+    o.fault(key, tr("expected at most {} files, got more", kMaxFiles));
     return {};
   }
   if (const std::string* bytes = m_memory ? m_memory->text_of(path) : nullptr) return *bytes;
   if (!MemoryFiles::disk_too(m_memory)) {
-    o.fault(key, fmt::format("expected the name of a file, got \"{}\"", o.text(key)));
+    o.fault(key, tr("expected the name of a file, got \"{}\"", o.text(key)));
     return {};
   }
   try {
@@ -88,7 +88,7 @@ void Reading::mesh_of(const JsonObject& o, TetSource source, const fs::path& fol
     for (const core::Fault& f : e.faults()) tell(m_faults, f);
     return;
   } catch (const std::invalid_argument& e) {
-    return o.fault("refill_mm", fmt::format("expected cubes that fill the mesh's surface, got: {}", e.what()));
+    return o.fault("refill_mm", tr("expected cubes that fill the mesh's surface, got: {}", e.what()));
   }
   take(o, std::move(source), s);
 }
@@ -105,7 +105,7 @@ void Reading::voxels_of(const JsonObject& o, TetSource source, const fs::path& f
     for (const core::Fault& f : e.faults()) tell(m_faults, f);
     return;
   } catch (const std::invalid_argument& e) {
-    return o.fault("label", fmt::format("expected a label that can be filled with tetrahedra, got: {}", e.what()));
+    return o.fault("label", tr("expected a label that can be filled with tetrahedra, got: {}", e.what()));
   }
   take(o, std::move(source), s);
 }

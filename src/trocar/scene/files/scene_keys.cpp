@@ -2,6 +2,7 @@
 // the scope, fluids, current.
 #include <algorithm>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
@@ -35,12 +36,11 @@ constexpr double kLeastFailure = 0.05;  // organs carry some strain at rest
 void check_tissue(const JsonObject& o, Tissue& t, Context&) {
   // d sigma / d eps = E (1 + 2 p1 eps + 3 p2 eps^2) has no root  <=>  p1^2 < 3 p2
   if (t.p1 != 0 && !(t.p1 * t.p1 < 3 * t.p2))
-    o.fault("p1",
-            fmt::format("expected p1^2 < 3 p2 so that stress always rises with strain, got p1^2 = {} and 3 p2 = {}",
-                        t.p1 * t.p1, 3 * t.p2));
+    o.fault("p1", tr("expected p1^2 < 3 p2 so that stress always rises with strain, got p1^2 = {} and 3 p2 = {}",
+                     t.p1 * t.p1, 3 * t.p2));
   if (t.failure_strain > 0 && t.failure_strain < kLeastFailure)
-    o.fault("failure_strain", fmt::format("expected 0 for tissue that never tears, or at least {}, got {}",
-                                          kLeastFailure, t.failure_strain));
+    o.fault("failure_strain",
+            tr("expected 0 for tissue that never tears, or at least {}, got {}", kLeastFailure, t.failure_strain));
 }
 
 const Table<Port>& port() {
@@ -179,8 +179,7 @@ const Table<EnergySetting>& energy() {
        R::integer("awake", &E::awake, 8, 2048, "of them that can be warm at once, default {}")},
       [](const JsonObject& o, E& e, Context&) {
         if (e.awake > e.bricks)
-          o.fault("awake",
-                  fmt::format("expected no more than the {} bricks that are remembered, got {}", e.bricks, e.awake));
+          o.fault("awake", tr("expected no more than the {} bricks that are remembered, got {}", e.bricks, e.awake));
       }};
   return table;
 }
@@ -196,7 +195,7 @@ void check_details(const JsonObject& o, Description& d, Context&) {
     bool again = named(of, i, of[i]);
     for (std::size_t k = 0; k + 1 < d.detail.size(); ++k)
       again = again || named(d.detail[k].of, d.detail[k].of.size(), of[i]);
-    if (again) o.fault(o.at("of", i), fmt::format("expected everything once, got \"{}\" again", of[i]));
+    if (again) o.fault(o.at("of", i), tr("expected everything once, got \"{}\" again", of[i]));
   }
 }
 

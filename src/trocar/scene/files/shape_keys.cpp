@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/nurbs/closure.hpp>
 #include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
@@ -33,7 +34,7 @@ void check_closed(const JsonObject& o, const char* key, const Shaped& shape) {
   try {
     surface_of(shape);
   } catch (const std::invalid_argument& e) {
-    o.fault(key, fmt::format("expected a closed surface, got: {}", e.what()));
+    o.fault(key, tr("expected a closed surface, got: {}", e.what()));
   }
 }
 
@@ -42,8 +43,7 @@ void check_nurbs(const JsonObject& o, NurbsShape& s, Context&) {
     if (o.names(key) && !o.has(key)) return;
   if (!o.has("net_mm")) return;
   if (s.net.size() > std::size_t(kMostControlPoints))
-    return o.fault("net_mm",
-                   fmt::format("expected at most {} control points, got {}", kMostControlPoints, s.net.size()));
+    return o.fault("net_mm", tr("expected at most {} control points, got {}", kMostControlPoints, s.net.size()));
   check_closed(o, "net_mm", s);
 }
 
@@ -84,8 +84,7 @@ const Table<TubeShape::Station>& tube_station() {
                  "thickness of its wall, default: it is solid")},
       [](const JsonObject& o, TubeShape::Station& s, Context&) {
         if (o.has("wall_mm") && o.has("radius_mm") && !(s.wall < s.radius))
-          o.fault("wall_mm",
-                  fmt::format("expected a wall below the radius of {} mm, got {}", 1000 * s.radius, 1000 * s.wall));
+          o.fault("wall_mm", tr("expected a wall below the radius of {} mm, got {}", 1000 * s.radius, 1000 * s.wall));
       }};
   return table;
 }
@@ -126,7 +125,7 @@ void read_profile(const JsonObject& o, RevolvedShape& s, Context&) {
   const NumberTable table = o.table("profile_mm");
   if (!o.has("profile_mm")) return;
   if (table.columns != 2)
-    return o.fault("profile_mm", fmt::format("expected rows of 2 numbers, r and z, got rows of {}", table.columns));
+    return o.fault("profile_mm", tr("expected rows of 2 numbers, r and z, got rows of {}", table.columns));
   for (std::size_t i = 0; i < table.rows; ++i)
     s.profile.push_back({units::mm.read(table.values[2 * i]), units::mm.read(table.values[2 * i + 1])});
 }
@@ -143,9 +142,8 @@ void check_revolved(const JsonObject& o, RevolvedShape& s, Context&) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     const bool inside = i > 0 && i + 1 < p.size();
     if (p[i].r < 0 || (inside && !(p[i].r >= 1e-5)))
-      return o.fault(
-          o.at("profile_mm", i),
-          fmt::format("expected r {}, got {}", inside ? "above 0 between the ends" : "of at least 0", 1000 * p[i].r));
+      return o.fault(o.at("profile_mm", i),
+                     tr("expected r {}, got {}", inside ? "above 0 between the ends" : "of at least 0", 1000 * p[i].r));
     if (i > 0 && !(length(Vec3d{p[i].r - p[i - 1].r, 0, p[i].z - p[i - 1].z}) >= 1e-5))
       return o.fault(o.at("profile_mm", i),
                      "expected a point at least 0.01 mm from the one before, got the same place");
@@ -216,7 +214,7 @@ int check_one_shape(const JsonObject& o, std::initializer_list<const char*> shap
     if (o.names(key) && named == 2) o.fault(key, "expected one shape, got a second one");
     list += list.empty() ? key : fmt::format("{}{}", key == *(shapes.end() - 1) ? " or " : ", ", key);
   }
-  if (named == 0) o.fault(o.at(), fmt::format("expected a shape ({}), got none", list));
+  if (named == 0) o.fault(o.at(), tr("expected a shape ({}), got none", list));
   return named;
 }
 

@@ -1,6 +1,7 @@
 // Keys of what another seed makes of a scene.
 #include <algorithm>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/description/variant.hpp>
 #include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
@@ -13,12 +14,10 @@ using V = VariationSetting;
 
 void check_region(const JsonObject& o, V::Region& r, Context&) {
   if (o.names("around") == o.names("centre_mm"))
-    o.fault(o.at(),
-            fmt::format("expected either \"around\" or \"centre_mm\", got {}", o.names("around") ? "both" : "none"));
+    o.fault(o.at(), tr("expected either \"around\" or \"centre_mm\", got {}", o.names("around") ? "both" : "none"));
   if (r.begins >= r.whole)
-    o.fault("whole_mm", fmt::format("expected more than begins_mm = {}, got {}", 1000 * r.begins, 1000 * r.whole));
-  if (r.near >= r.far)
-    o.fault("far_mm", fmt::format("expected more than near_mm = {}, got {}", 1000 * r.near, 1000 * r.far));
+    o.fault("whole_mm", tr("expected more than begins_mm = {}, got {}", 1000 * r.begins, 1000 * r.whole));
+  if (r.near >= r.far) o.fault("far_mm", tr("expected more than near_mm = {}, got {}", 1000 * r.near, 1000 * r.far));
   if (o.has("axis") && !(length(r.axis) > 1e-6)) o.fault("axis", "expected a direction, got none");
   if (!(length(r.axis) > 1e-6)) r.axis = V::Region{}.axis;
 }
@@ -171,17 +170,17 @@ void check_variant_shares(const JsonObject& o, const V& v) {
     const auto same = [&](const V::Variant& other) { return other.name == v.variants[i].name; };
     const auto end = v.variants.begin() + std::ptrdiff_t(i);
     if (v.variants[i].name == kCommonAnatomy || std::any_of(v.variants.begin(), end, same))
-      o.fault(v.variants[i].at, fmt::format("expected a name of its own for every variant, and not \"{}\", got \"{}\"",
-                                            kCommonAnatomy, v.variants[i].name));
+      o.fault(v.variants[i].at, tr("expected a name of its own for every variant, and not \"{}\", got \"{}\"",
+                                   kCommonAnatomy, v.variants[i].name));
   }
-  if (sum > 1) o.fault("variants", fmt::format("expected shares of at most 1 in all, got {:.3g}", sum));
+  if (sum > 1) o.fault("variants", tr("expected shares of at most 1 in all, got {:.3g}", sum));
 }
 
 void check_variation(const JsonObject& o, V& v, Context&) {
   check_variant_shares(o, v);
   const auto counted = std::count_if(v.findings.begin(), v.findings.end(), [](const auto& f) { return f.share <= 0; });
   if (v.present > int(counted))
-    o.fault("present", fmt::format("expected at most as many as there are findings, {}, got {}", counted, v.present));
+    o.fault("present", tr("expected at most as many as there are findings, {}, got {}", counted, v.present));
 }
 
 }  // namespace

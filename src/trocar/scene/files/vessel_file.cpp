@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
 #include <trocar/scene/files/vessel_keys.hpp>
@@ -91,7 +92,7 @@ class VesselReading {
     if (!o.has("length_mm")) line.length = path;
     if (o.has("length_mm") && o.has("path_mm") && line.length < kTortuous * path)
       o.fault("length_mm",
-              fmt::format("expected at least its path's length, {:.4g} mm, got {:.4g}", 1e3 * path, 1e3 * line.length));
+              tr("expected at least its path's length, {:.4g} mm, got {:.4g}", 1e3 * path, 1e3 * line.length));
     line.vein = m_file.text("kind") == "veins";
     m_tree.graph.segments.push_back(line);
     m_tree.vessels.push_back(std::move(line));
@@ -116,7 +117,7 @@ class VesselReading {
     const auto brings = [&](const vessels::VesselSegment& s) { return s.to == line.node; };
     const auto it = std::find_if(segments.begin(), segments.end(), brings);
     if (it == segments.end())
-      return o.fault("node", fmt::format("expected a node that a vessel leads to, got \"{}\"", line.name_of_node));
+      return o.fault("node", tr("expected a node that a vessel leads to, got \"{}\"", line.name_of_node));
     const double beyond = line.pressure;
     if (line.flow_pressure <= beyond)
       return o.fault(o.at("at_mmHg"), "expected a pressure above that beyond the end, got one that is not");
@@ -131,8 +132,8 @@ class VesselReading {
     for (const Vessel& v : m_tree.vessels) {
       const auto [first, fresh] = seen.try_emplace(v.name, v.at);
       if (!fresh && !v.name.empty())
-        tell(m_faults, {v.at, fmt::format("expected every vessel name once, got \"{}\" again (first in line {})",
-                                          v.name, first->second.line)});
+        tell(m_faults, {v.at, tr("expected every vessel name once, got \"{}\" again (first in line {})", v.name,
+                                 first->second.line)});
     }
   }
 
@@ -148,10 +149,9 @@ class VesselReading {
         std::optional<Vec3d>& first = place[std::size_t(node)];
         if (!first) first = point;
         if (!(length(point - *first) <= kMeet))
-          m_vessels[i].fault("path_mm",
-                             fmt::format("expected it to meet the others at node \"{}\" within {} mm, got "
-                                         "{:.4g} mm between them",
-                                         m_tree.nodes[std::size_t(node)], 1e3 * kMeet, 1e3 * length(point - *first)));
+          m_vessels[i].fault("path_mm", tr("expected it to meet the others at node \"{}\" within {} mm, got "
+                                           "{:.4g} mm between them",
+                                           m_tree.nodes[std::size_t(node)], 1e3 * kMeet, 1e3 * length(point - *first)));
       }
     }
   }

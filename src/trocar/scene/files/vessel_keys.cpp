@@ -1,3 +1,4 @@
+#include <trocar/core/text.hpp>
 #include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/vessel_keys.hpp>
 
@@ -9,14 +10,14 @@ void check_wall(const JsonObject& o, VesselLine& line, Context&) {
   const bool both = o.names("modulus_kPa") && o.names("thickness_mm");
   const bool any = o.names("modulus_kPa") || o.names("thickness_mm") || o.names("poisson");
   if (o.names("wave_speed_m_s") ? any : !both)
-    o.fault(o.at(), fmt::format("expected either \"wave_speed_m_s\" or \"modulus_kPa\" and \"thickness_mm\", got {}",
-                                o.names("wave_speed_m_s") ? "both" : (any ? "one of the two" : "none")));
+    o.fault(o.at(), tr("expected either \"wave_speed_m_s\" or \"modulus_kPa\" and \"thickness_mm\", got {}",
+                       o.names("wave_speed_m_s") ? "both" : (any ? "one of the two" : "none")));
 }
 
 void check_end(const JsonObject& o, EndLine&, Context&) {
   const bool resists = o.names("near_mmHg_s_mL") || o.names("far_mmHg_s_mL");
   if (o.names("flow_mL_min") == resists)
-    o.fault(o.at(), fmt::format("expected either \"flow_mL_min\" or resistances, got {}", resists ? "both" : "none"));
+    o.fault(o.at(), tr("expected either \"flow_mL_min\" or resistances, got {}", resists ? "both" : "none"));
 }
 
 using vessels::VesselSource;

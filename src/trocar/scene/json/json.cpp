@@ -10,6 +10,7 @@
 #include <trocar/core/files.hpp>
 #include <trocar/core/json_grammar.hpp>
 #include <trocar/core/printable.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/json.hpp>
 
 namespace trocar::scene {
@@ -76,7 +77,7 @@ class Parser {
     }
     root = value(0);
     skip_space();
-    if (!m_lost && !at_end()) lost(m_place, fmt::format("expected the end of the file, got {}", here()));
+    if (!m_lost && !at_end()) lost(m_place, tr("expected the end of the file, got {}", here()));
     return root;
   }
   bool is_lost() const { return m_lost; }
@@ -127,7 +128,7 @@ class Parser {
       return shortened(m_text.substr(m_at, n));
     }
     if (peek() == '"') return "a string";
-    if (static_cast<unsigned char>(peek()) < 0x20) return fmt::format("control character 0x{:02x}", int(peek()));
+    if (static_cast<unsigned char>(peek()) < 0x20) return tr("control character 0x{:02x}", int(peek()));
     const int length = utf8_length(m_text, m_at);
     return fmt::format("'{}'", core::printable(m_text.substr(m_at, std::size_t(length))));
   }
@@ -137,7 +138,7 @@ class Parser {
       const int length = utf8_length(m_text, i);
       if (length == 0) {
         while (m_at < i) next();
-        lost(m_place, fmt::format("expected UTF-8 text, got the byte 0x{:02x}", static_cast<unsigned char>(m_text[i])));
+        lost(m_place, tr("expected UTF-8 text, got the byte 0x{:02x}", static_cast<unsigned char>(m_text[i])));
         return false;
       }
       i += std::size_t(length);
@@ -179,19 +180,19 @@ class Parser {
   JsonValue value_here(int depth) {
     const Place at = m_place;
     if (++m_values > kMaxJsonValues) {
-      lost(at, fmt::format("expected at most {} values in a file, got more", kMaxJsonValues));
+      lost(at, tr("expected at most {} values in a file, got more", kMaxJsonValues));
       return broken(at);
     }
     const char c = peek();
     if ((c == '{' || c == '[') && depth >= kMaxJsonDepth) {
-      lost(at, fmt::format("expected at most {} levels of nesting, got more", kMaxJsonDepth));
+      lost(at, tr("expected at most {} levels of nesting, got more", kMaxJsonDepth));
       return broken(at);
     }
     if (c == '{') return object(depth);
     if (c == '[') return array(depth);
     if (c == '"') return string();
     if (is_word(c)) return word();
-    lost(at, fmt::format("expected a value, got {}", here()));
+    lost(at, tr("expected a value, got {}", here()));
     return broken(at);
   }
 
@@ -213,7 +214,7 @@ class Parser {
       v.number = core::to_double(text);
       if (std::isfinite(v.number)) return v;
     }
-    const std::string message = fmt::format("expected {}, got {}", wanted_instead_of(text), shortened(text));
+    const std::string message = tr("expected {}, got {}", wanted_instead_of(text), shortened(text));
     if (at_end())
       lost(at, message);  // a file cut off inside a word: what follows from that is not worth telling
     else
@@ -234,13 +235,12 @@ class Parser {
     while (!m_lost) {
       if (at_end() || peek() == '\n') {
         const char* what = at_end() ? "the end of the file" : "the end of the line";
-        lost(m_place,
-             fmt::format("expected '\"' to close the string that began at {}:{}, got {}", at.line, at.column, what));
+        lost(m_place, tr("expected '\"' to close the string that began at {}:{}, got {}", at.line, at.column, what));
       } else if (peek() == '"') {
         next();
         return std::exchange(m_has_nul, false) ? broken(at) : v;
       } else if (static_cast<unsigned char>(peek()) < 0x20) {
-        lost(m_place, fmt::format("expected a character of a string, got control character 0x{:02x}", int(peek())));
+        lost(m_place, tr("expected a character of a string, got control character 0x{:02x}", int(peek())));
       } else if (peek() == '\\') {
         escape(v.text);
       } else {
@@ -261,8 +261,7 @@ class Parser {
       return unicode_escape(out, at);
     }
     const std::size_t which = at_end() ? names.npos : names.find(c);
-    if (which == names.npos)
-      return lost(at, fmt::format("expected an escape like \\n or \\u00e4, got \\ and {}", here()));
+    if (which == names.npos) return lost(at, tr("expected an escape like \\n or \\u00e4, got \\ and {}", here()));
     out.push_back(values[which]);
     next();
   }
@@ -306,18 +305,18 @@ class Parser {
     }
     if (peek() != ',') {
       if (at_end())
-        lost(m_place, fmt::format("expected '{}' to close the {} that began at {}:{}, got the end of the file", close,
-                                  what, begin.line, begin.column));
+        lost(m_place, tr("expected '{}' to close the {} that began at {}:{}, got the end of the file", close, what,
+                         begin.line, begin.column));
       else
-        lost(m_place, fmt::format("expected ',' or '{}' in the {} that began at {}:{}, got {}", close, what, begin.line,
-                                  begin.column, here()));
+        lost(m_place, tr("expected ',' or '{}' in the {} that began at {}:{}, got {}", close, what, begin.line,
+                         begin.column, here()));
       return false;
     }
     const Place comma = m_place;
     next();
     skip_space();
     if (m_lost || peek() != close) return !m_lost;
-    fault(comma, fmt::format("expected another item after ',', got '{}'", close));
+    fault(comma, tr("expected another item after ',', got '{}'", close));
     next();
     return false;
   }
@@ -333,8 +332,8 @@ class Parser {
     }
     do {
       if (at_end()) {
-        lost(m_place, fmt::format("expected ']' to close the array that began at {}:{}, got the end of the file",
-                                  begin.line, begin.column));
+        lost(m_place, tr("expected ']' to close the array that began at {}:{}, got the end of the file", begin.line,
+                         begin.column));
         break;
       }
       v.items.push_back(value(depth + 1));
@@ -359,9 +358,9 @@ class Parser {
   void member(JsonValue& object, Place begin, int depth) {
     const Place at = m_place;
     if (at_end())
-      return lost(at, fmt::format("expected '}}' to close the object that began at {}:{}, got the end of the file",
-                                  begin.line, begin.column));
-    if (peek() != '"') return lost(at, fmt::format("expected a key in double quotes, got {}", here()));
+      return lost(at, tr("expected '}}' to close the object that began at {}:{}, got the end of the file", begin.line,
+                         begin.column));
+    if (peek() != '"') return lost(at, tr("expected a key in double quotes, got {}", here()));
     JsonMember m;
     m.from = std::uint32_t(m_at);
     m.key = string().text;
@@ -369,20 +368,18 @@ class Parser {
     m.column = at.column;
     skip_space();
     if (m_lost) return;
-    if (peek() != ':')
-      return lost(m_place, fmt::format("expected ':' after the key \"{}\", got {}", shortened(m.key), here()));
+    if (peek() != ':') return lost(m_place, tr("expected ':' after the key \"{}\", got {}", shortened(m.key), here()));
     next();
     skip_space();
     if (m_lost) return;
     if (at_end())
-      return lost(m_place,
-                  fmt::format("expected a value for the key \"{}\", got the end of the file", shortened(m.key)));
+      return lost(m_place, tr("expected a value for the key \"{}\", got the end of the file", shortened(m.key)));
     m.value = value(depth + 1);
     if (const JsonMember* earlier = object.find(m.key))
-      return fault(at, fmt::format("expected every key once, got \"{}\" again (first at {}:{})", shortened(m.key),
-                                   earlier->line, earlier->column));
+      return fault(at, tr("expected every key once, got \"{}\" again (first at {}:{})", shortened(m.key), earlier->line,
+                          earlier->column));
     if (object.members.size() >= kMaxJsonKeys)
-      return lost(at, fmt::format("expected at most {} keys in an object, got more", kMaxJsonKeys));
+      return lost(at, tr("expected at most {} keys in an object, got more", kMaxJsonKeys));
     object.members.push_back(std::move(m));
   }
 };

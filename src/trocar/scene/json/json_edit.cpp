@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/json_edit.hpp>
 #include <trocar/scene/json/json_text.hpp>
 
@@ -12,7 +13,7 @@ namespace {
 using Kind = JsonValue::Kind;
 
 [[noreturn]] void refuse(std::string_view path, const char* why) {
-  throw std::invalid_argument(fmt::format("expected {}, got the path \"{}\"", why, path));
+  throw std::invalid_argument(tr("expected {}, got the path \"{}\"", why, path));
 }
 
 /// The last step of a path, its escapes resolved, and what is above it.

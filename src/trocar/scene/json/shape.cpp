@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/shape.hpp>
 
 namespace trocar::scene {
@@ -46,7 +47,7 @@ std::string shortened(const std::vector<std::string>& words) {
   if (once.size() <= kShownNames + 1) return joined(once);
   const std::size_t more = once.size() - kShownNames;
   once.resize(kShownNames);
-  return fmt::format("{} and {} more", joined(once), more);
+  return tr("{} and {} more", joined(once), more);
 }
 
 bool is_name(std::string_view text) {
@@ -123,7 +124,7 @@ class Check {
   bool wrong(const JsonValue& value, const std::string& expected) const {
     if (value.kind == Kind::broken) return false;  // told already
     tell(m_faults, {{m_file, value.line, value.column},
-                    fmt::format("expected {} for \"{}\", got {}", expected, m_key.name, shown(value))});
+                    tr("expected {} for \"{}\", got {}", expected, m_key.name, shown(value))});
     return false;
   }
 
@@ -147,8 +148,8 @@ class Check {
     if (std::find(m_key.choices.begin(), m_key.choices.end(), value.text) != m_key.choices.end()) return true;
     const std::string guess = nearest(value.text, m_key.choices);
     tell(m_faults, {{m_file, value.line, value.column},
-                    fmt::format("expected one of {} for \"{}\", got {}{}", joined(m_key.choices), m_key.name,
-                                shown(value), guess.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", guess))});
+                    tr("expected one of {} for \"{}\", got {}{}", joined(m_key.choices), m_key.name, shown(value),
+                       guess.empty() ? "" : tr(" (did you mean \"{}\"?)", guess))});
     return false;
   }
   bool name(const JsonValue& value) const {
@@ -158,9 +159,9 @@ class Check {
   bool vec3(const JsonValue& value) const {
     if (value.kind != Kind::array || value.items.size() != 3) {
       if (value.kind != Kind::array) return wrong(value, "an array of three numbers");
-      tell(m_faults, {{m_file, value.line, value.column},
-                      fmt::format("expected an array of three numbers for \"{}\", got {} items", m_key.name,
-                                  value.items.size())});
+      tell(m_faults,
+           {{m_file, value.line, value.column},
+            tr("expected an array of three numbers for \"{}\", got {} items", m_key.name, value.items.size())});
       return false;
     }
     bool good = true;
@@ -182,8 +183,8 @@ class Check {
     if (value.items.size() >= at_least && value.items.size() <= m_key.max_count) return good;
     const bool few = value.items.size() < at_least;
     tell(m_faults, {{m_file, value.line, value.column},
-                    fmt::format("expected at {} {} items for \"{}\", got {}", few ? "least" : "most",
-                                few ? at_least : m_key.max_count, m_key.name, value.items.size())});
+                    tr("expected at {} {} items for \"{}\", got {}", few ? "least" : "most",
+                       few ? at_least : m_key.max_count, m_key.name, value.items.size())});
     return false;
   }
   bool lines(const JsonValue& value) const {
@@ -201,9 +202,9 @@ class Check {
       bool good = list(line, item);
       if (columns == 0) columns = line.items.size();
       if (line.items.size() != columns) {
-        tell(m_faults, {{m_file, line.line, line.column},
-                        fmt::format("expected rows of {} {} for \"{}\", got a row of {}", columns, of, m_key.name,
-                                    line.items.size())});
+        tell(m_faults,
+             {{m_file, line.line, line.column},
+              tr("expected rows of {} {} for \"{}\", got a row of {}", columns, of, m_key.name, line.items.size())});
         good = false;
       }
       return good;
@@ -296,7 +297,7 @@ JsonObject::JsonObject(const JsonValue& value, const Shape& shape, const std::st
   if (value.kind == Kind::object)
     check_keys();
   else if (value.kind != Kind::broken)
-    fault(at(), fmt::format("expected {} in {{}}, got {}", article(shape.name), shown(value)));
+    fault(at(), tr("expected {} in {{}}, got {}", article(shape.name), shown(value)));
 }
 
 void JsonObject::check_keys() {
@@ -310,8 +311,7 @@ void JsonObject::check_keys() {
   }
   for (const Key& key : m_shape->keys)
     if (key.required && !m_value->find(key.name))
-      fault(at(),
-            fmt::format("expected the key \"{}\" ({}) in this {}, got none", key.name, key.meaning, m_shape->name));
+      fault(at(), tr("expected the key \"{}\" ({}) in this {}, got none", key.name, key.meaning, m_shape->name));
 }
 
 void JsonObject::check_unknown(const JsonMember& member) {
@@ -453,10 +453,10 @@ std::string unknown_name(std::string_view what, std::string_view word, const std
   JsonValue value;
   value.kind = Kind::string;
   value.text = std::string(word);
-  if (known.empty()) return fmt::format("expected {}, got {}; none is known", article(what), shown(value));
+  if (known.empty()) return tr("expected {}, got {}; none is known", article(what), shown(value));
   const std::string guess = nearest(word, known);
-  return fmt::format("expected a known {}, got {}{}; known: {}", what, shown(value),
-                     guess.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", guess), shortened(known));
+  return tr("expected a known {}, got {}{}; known: {}", what, shown(value),
+            guess.empty() ? "" : tr(" (did you mean \"{}\"?)", guess), shortened(known));
 }
 
 }  // namespace trocar::scene

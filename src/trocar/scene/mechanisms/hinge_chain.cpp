@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/mechanisms/hinge_chain.hpp>
 
 namespace trocar::scene {
@@ -103,7 +104,7 @@ class Chain {
       at = at * place;
       if (b.motion == kinematics::Motion::none) continue;
       const std::string& name = m_m.coordinates[std::size_t(b.coordinate)];
-      if (b.motion == kinematics::Motion::slide) return fmt::format("'{}', which slides", name);
+      if (b.motion == kinematics::Motion::slide) return tr("'{}', which slides", name);
       m_hinges.push_back({b.coordinate, name, at.p, at.r * b.axis, step});
       step = 0;
     }
@@ -121,20 +122,20 @@ class Chain {
   std::string order(double jaw_length, kinematics::Articulation& out) {
     const double ahead = m_tip.p.z - m_hinges.front().place.z;
     const double off = std::sqrt(m_tip.p.x * m_tip.p.x + m_tip.p.y * m_tip.p.y);
-    if (off > kBesideAxis) return fmt::format("a tip {} beside the shaft's axis", mm(off));
+    if (off > kBesideAxis) return tr("a tip {} beside the shaft's axis", mm(off));
     const Vec3d forwards{0, 0, ahead >= 0 ? 1.0 : -1.0}, x = m_tip.r.column(0);
     if (std::fabs(x.z) > kAslant) return "a tip whose x, where jaws open, is not square to the shaft";
     const Vec3d y = cross(-forwards, x);
     double last = 0;
     for (const StraightHinge& h : m_hinges) {
       const double beside = std::fabs(h.place.x * h.axis.y - h.place.y * h.axis.x), along = h.place.z * forwards.z;
-      if (std::fabs(h.axis.z) > kAslant) return fmt::format("'{}', which is not square to the shaft", h.name);
-      if (beside > kBesideAxis) return fmt::format("'{}', which is {} beside the shaft's axis", h.name, mm(beside));
+      if (std::fabs(h.axis.z) > kAslant) return tr("'{}', which is not square to the shaft", h.name);
+      if (beside > kBesideAxis) return tr("'{}', which is {} beside the shaft's axis", h.name, mm(beside));
       const double about_x = dot(h.axis, x), about_y = dot(h.axis, y);
       if (std::min(std::fabs(about_x), std::fabs(about_y)) > kAslant)
-        return fmt::format("'{}', which turns about neither x nor y of the tip", h.name);
-      if (along - last < -kBesideAxis) return fmt::format("'{}', which is behind the one before", h.name);
-      if (out.hinges == kinematics::kMaxHinges) return fmt::format("more than {} hinges", kinematics::kMaxHinges);
+        return tr("'{}', which turns about neither x nor y of the tip", h.name);
+      if (along - last < -kBesideAxis) return tr("'{}', which is behind the one before", h.name);
+      if (out.hinges == kinematics::kMaxHinges) return tr("more than {} hinges", kinematics::kMaxHinges);
       kinematics::Hinge& made = out.hinge[out.hinges++];
       made.before = std::max(0.0, forwards.z * h.step);
       made.across = std::fabs(about_y) > 0.5 ? 1 : 0;
@@ -143,11 +144,10 @@ class Chain {
     }
     out.after = forwards.z * m_last_step - jaw_length;
     if (out.after < -kBesideAxis)
-      return fmt::format("a tip {} after the last hinge, nearer than jaws of {}", mm(out.after + jaw_length),
-                         mm(jaw_length));
+      return tr("a tip {} after the last hinge, nearer than jaws of {}", mm(out.after + jaw_length), mm(jaw_length));
     out.after = std::max(0.0, out.after);
     if (out.links() > kinematics::kMaxLinks)
-      return fmt::format("{} straight pieces, more than {}", out.links(), kinematics::kMaxLinks);
+      return tr("{} straight pieces, more than {}", out.links(), kinematics::kMaxLinks);
     return "";
   }
 
@@ -158,16 +158,16 @@ class Chain {
     for (std::size_t i = 0; i < m_hinges.size(); ++i) {
       const auto q = std::size_t(m_hinges[i].coordinate);
       const Row row(m_m, int(q));
-      if (row.terms == 0 || m_m.offset[q] != 0) return fmt::format("'{}', which cannot be 0", m_hinges[i].name);
+      if (row.terms == 0 || m_m.offset[q] != 0) return tr("'{}', which cannot be 0", m_hinges[i].name);
       std::size_t joint = 0;
       double factor = 0;
       while (joint < rows.size() && (factor = row.times(rows[joint])) == 0) ++joint;
       if (joint == rows.size()) {
-        if (joint == std::size_t(kinematics::kMaxJoints)) return fmt::format("more than {} joints", joint);
+        if (joint == std::size_t(kinematics::kMaxJoints)) return tr("more than {} joints", joint);
         const bool one = row.terms == 1;
         const std::size_t limits = one ? std::size_t(m_m.independent[std::size_t(row.u)]) : q;
         if (!std::isfinite(m_m.low[limits]) || !std::isfinite(m_m.high[limits]))
-          return fmt::format("'{}' without limits", m_m.coordinates[limits]);
+          return tr("'{}' without limits", m_m.coordinates[limits]);
         out.low[joint] = m_m.low[limits], out.high[joint] = m_m.high[limits];
         leads.push_back(one ? row.ratio[std::size_t(row.u)] : 1.0);
         rows.push_back(row);
@@ -206,8 +206,8 @@ class Chain {
 }  // namespace
 
 std::string take_hinges(const Mechanism& m, double jaw_length, kinematics::Articulation& out) {
-  if (m.link("shaft") < 0) return fmt::format("links without a 'shaft' ({})", fmt::join(m.links, ", "));
-  if (m.frame("tip") < 0) return fmt::format("frames without a 'tip' ({})", fmt::join(m.frame_names, ", "));
+  if (m.link("shaft") < 0) return tr("links without a 'shaft' ({})", fmt::join(m.links, ", "));
+  if (m.frame("tip") < 0) return tr("frames without a 'tip' ({})", fmt::join(m.frame_names, ", "));
   kinematics::Articulation found;
   std::string why = Chain(m).find(jaw_length, found);
   if (why.empty()) out = found;

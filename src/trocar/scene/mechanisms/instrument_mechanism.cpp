@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/kinematics/loops/close.hpp>
 #include <trocar/scene/mechanisms/hinge_chain.hpp>
 #include <trocar/scene/mechanisms/instrument_mechanism.hpp>
@@ -135,15 +136,14 @@ std::string find_ways(LedLinkage& led, Ways& ways) {
     const auto opening = led.opening(handle);
     ways.poses.push_back(led.pose());
     const auto slope = opening ? closing_slope(led, handle) : std::nullopt;
-    if (!slope) return fmt::format("one that at handle {:.2f} is {}", handle, led.why());
+    if (!slope) return tr("one that at handle {:.2f} is {}", handle, led.why());
     ways.opening[k] = *opening;
     ways.slope[k] = *slope;
   }
   const double all = ways.opening[0] - ways.opening[interactions::kLinkageSteps];
   for (int k = 0; k <= interactions::kLinkageSteps; ++k)
     if (!(ways.slope[k] > kLeastSlope * all))
-      return fmt::format("one whose jaws do not close any more at handle {:.2f}",
-                         double(k) / interactions::kLinkageSteps);
+      return tr("one whose jaws do not close any more at handle {:.2f}", double(k) / interactions::kLinkageSteps);
   return "";
 }
 
@@ -157,13 +157,13 @@ void take_linkage(const Instrument& i, interactions::ToolModel& tool, std::vecto
   const char *first = sling ? "clamp" : "tip_upper", *second = sling ? "mouth" : "tip_lower";
   const int upper = m.frame(first), lower = m.frame(second);
   if (drive < 0) {
-    faults.push_back({i.linkage.at,
-                      fmt::format("expected a mechanism with an actuator '{}', got {}", i.handle, names_of(m.drives))});
+    faults.push_back(
+        {i.linkage.at, tr("expected a mechanism with an actuator '{}', got {}", i.handle, names_of(m.drives))});
     return;
   }
   if (upper < 0 || lower < 0) {
-    faults.push_back({i.linkage.at, fmt::format("expected a mechanism with frames {} and {}, got {}", first, second,
-                                                names_of(m.frame_names))});
+    faults.push_back({i.linkage.at, tr("expected a mechanism with frames {} and {}, got {}", first, second,
+                                       names_of(m.frame_names))});
     return;
   }
   const bool parallel = i.parallel_gap > 0;
@@ -176,9 +176,9 @@ void take_linkage(const Instrument& i, interactions::ToolModel& tool, std::vecto
   }
   constexpr int last = interactions::kLinkageSteps;
   if (!parallel && !sling && std::fabs(ways.opening[last]) > kNearlyShut) {
-    faults.push_back({i.linkage.at, fmt::format("expected jaws that meet when the handle is closed, got {:.1f} degrees "
-                                                "between them",
-                                                ways.opening[last] * 180 / portable::pi)});
+    faults.push_back({i.linkage.at, tr("expected jaws that meet when the handle is closed, got {:.1f} degrees "
+                                       "between them",
+                                       ways.opening[last] * 180 / portable::pi)});
     return;
   }
   tool.works = works_of(m, ways.poses, upper, lower, i.jaw_length);
@@ -209,11 +209,10 @@ void take_wrist(const Instrument& i, interactions::ToolModel& tool, std::vector<
   if (why.empty()) return;
   faults.push_back(
       {w.mechanism.at,
-       fmt::format(
-           "expected hinges between the link 'shaft' and the frame 'tip', along the shaft's axis and square to "
-           "it, at most {} joints, got {} (an arm that carries an instrument from outside belongs to the 'arms' "
-           "of a room)",
-           kinematics::kMaxJoints, why)});
+       tr("expected hinges between the link 'shaft' and the frame 'tip', along the shaft's axis and square to "
+          "it, at most {} joints, got {} (an arm that carries an instrument from outside belongs to the 'arms' "
+          "of a room)",
+          kinematics::kMaxJoints, why)});
 }
 
 }  // namespace trocar::scene

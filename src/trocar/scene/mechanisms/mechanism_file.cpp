@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/files.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/kinematics/chains/joints.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/mechanisms/mechanism_file.hpp>
@@ -96,9 +97,9 @@ class MechanismReading {
     else if (value.kind == JsonValue::Kind::string)
       r = read_quantity(value.text, d.parameters, measure, unit);
     else
-      r.fault = fmt::format("expected a number or a sum of parameters, got {}", shown(value));
+      r.fault = tr("expected a number or a sum of parameters, got {}", shown(value));
     const double in_file = r.fault.empty() ? value_of(r.quantity, d.parameters) / unit : 0;
-    if (!(std::fabs(in_file) <= most)) r.fault = fmt::format("expected at most {} either way, got {}", most, in_file);
+    if (!(std::fabs(in_file) <= most)) r.fault = tr("expected at most {} either way, got {}", most, in_file);
     if (!r.fault.empty()) {
       o.fault(at, r.fault);
       return {};
@@ -116,8 +117,8 @@ class MechanismReading {
     const JsonValue* v = value_at(o, key);
     if (!v) return out;
     if (v->kind != JsonValue::Kind::array || v->items.size() != 3) {
-      o.fault(key, fmt::format("expected three numbers or sums of parameters, got {}",
-                               v->kind == JsonValue::Kind::array ? fmt::format("{}", v->items.size()) : shown(*v)));
+      o.fault(key, tr("expected three numbers or sums of parameters, got {}",
+                      v->kind == JsonValue::Kind::array ? fmt::format("{}", v->items.size()) : shown(*v)));
       return out;
     }
     for (std::size_t k = 0; k < 3; ++k)
@@ -175,10 +176,9 @@ class MechanismReading {
     is("angle_deg", Measure::angle, kDegree);
     is("ratio", Measure::ratio, 1);
     if (said != 1)
-      o.fault(o.at(),
-              fmt::format("expected one of \"length_mm\", \"angle_deg\", \"ratio\", got {}", said ? "more" : "none"));
+      o.fault(o.at(), tr("expected one of \"length_mm\", \"angle_deg\", \"ratio\", got {}", said ? "more" : "none"));
     if (p.name.find('-') != p.name.npos || (!p.name.empty() && p.name[0] >= '0' && p.name[0] <= '9'))
-      o.fault("name", fmt::format("expected letters, digits and _, a letter first, got \"{}\"", p.name));
+      o.fault("name", tr("expected letters, digits and _, a letter first, got \"{}\"", p.name));
     const std::vector<double> between = o.numbers("between");
     if (between.size() == 2) {
       p.low = between[0] * unit;
@@ -202,7 +202,7 @@ class MechanismReading {
       };
       const auto wrong = [&](const char* key, std::size_t got, std::size_t wanted) {
         if (got == wanted || got == 0) return false;
-        o.fault(key, fmt::format("expected {} numbers, got {}", wanted, got));
+        o.fault(key, tr("expected {} numbers, got {}", wanted, got));
         return true;
       };
       if (wrong(deg_key, angles.size(), count(Measure::angle)) || wrong(mm_key, slides.size(), count(Measure::length)))
@@ -262,8 +262,8 @@ class MechanismReading {
       l.joint.pitch = mm(j, "pitch_mm");
       if (j.has("kind") && (l.joint.kind == JointKind::helical) != j.names("pitch_mm"))
         j.fault(j.at(j.names("pitch_mm") ? "pitch_mm" : "kind"),
-                fmt::format("expected \"pitch_mm\" of a helical joint and of no other, got {}",
-                            j.names("pitch_mm") ? "it of another" : "a helical joint without"));
+                tr("expected \"pitch_mm\" of a helical joint and of no other, got {}",
+                   j.names("pitch_mm") ? "it of another" : "a helical joint without"));
       values(j, measures_of(l.joint.kind), l.joint.limits, l.joint.start);
     }
     l.joint.place = placement(o);
@@ -282,7 +282,7 @@ class MechanismReading {
     s.kind = box ? ShapeKind::box : kind == "cylinder" ? ShapeKind::cylinder : ShapeKind::capsule;
     for (const char* key :
          box ? std::vector<const char*>{"edges_mm"} : std::vector<const char*>{"from_mm", "to_mm", "radius_mm"})
-      if (o.has("kind") && !o.names(key)) o.fault(o.at(), fmt::format("expected \"{}\" of a {}, got none", key, kind));
+      if (o.has("kind") && !o.names(key)) o.fault(o.at(), tr("expected \"{}\" of a {}, got none", key, kind));
     s.from = three_mm(o, box ? "middle_mm" : "from_mm");
     s.to = three_mm(o, box ? "edges_mm" : "to_mm");
     s.turn = three_deg(o, "turn_deg");
@@ -315,8 +315,8 @@ class MechanismReading {
       is("ratio_mm_deg", kMillimetre / kDegree);
       is("ratio_deg_mm", kDegree / kMillimetre);
       if (said != 1)
-        t.fault(t.at(), fmt::format("expected one of \"ratio\", \"ratio_mm_deg\", \"ratio_deg_mm\", got {}",
-                                    said ? "more" : "none"));
+        t.fault(t.at(),
+                tr("expected one of \"ratio\", \"ratio_mm_deg\", \"ratio_deg_mm\", got {}", said ? "more" : "none"));
       c.terms.push_back(std::move(term));
     }
     d.couplings.push_back(std::move(c));
@@ -329,7 +329,7 @@ class MechanismReading {
     const bool slide = o.names("at_0_mm") || o.names("at_1_mm");
     for (const char* key :
          slide ? std::vector<const char*>{"at_0_mm", "at_1_mm"} : std::vector<const char*>{"at_0_deg", "at_1_deg"})
-      if (!o.names(key)) o.fault(o.at(), fmt::format("expected \"{}\", got none", key));
+      if (!o.names(key)) o.fault(o.at(), tr("expected \"{}\", got none", key));
     a.at_0 = slide ? mm(o, "at_0_mm") : deg(o, "at_0_deg");
     a.at_1 = slide ? mm(o, "at_1_mm") : deg(o, "at_1_deg");
     d.actuators.push_back(std::move(a));
@@ -345,13 +345,12 @@ class MechanismReading {
     for (std::size_t i = 0; i < words.size(); ++i) {
       const auto found = std::find(std::begin(kDirectionWords), std::end(kDirectionWords), words[i]);
       if (found == std::end(kDirectionWords))
-        o.fault(o.at("directions", i), fmt::format("expected one of tx, ty, tz, rx, ry, rz, got \"{}\"", words[i]));
+        o.fault(o.at("directions", i), tr("expected one of tx, ty, tz, rx, ry, rz, got \"{}\"", words[i]));
       else
         c.directions |= 1u << (found - std::begin(kDirectionWords));
     }
     if (o.names("kind") == o.names("directions"))
-      o.fault(o.at(),
-              fmt::format("expected either \"kind\" or \"directions\", got {}", o.names("kind") ? "both" : "none"));
+      o.fault(o.at(), tr("expected either \"kind\" or \"directions\", got {}", o.names("kind") ? "both" : "none"));
     c.a = end(o, "a");
     c.b = end(o, "b");
     d.closures.push_back(std::move(c));
@@ -375,8 +374,7 @@ class MechanismReading {
     };
     const auto refuse = [](const JsonObject& o, const char* key, const std::string& name, bool slide) {
       if (o.names(key))
-        o.fault(key,
-                fmt::format("expected no \"{}\", as \"{}\" is {}, got one", key, name, slide ? "a slide" : "an angle"));
+        o.fault(key, tr("expected no \"{}\", as \"{}\" is {}, got one", key, name, slide ? "a slide" : "an angle"));
     };
     for (std::size_t i = 0; i < d.actuators.size(); ++i) {
       const bool slide = slides(d.actuators[i].coordinate);
@@ -395,8 +393,8 @@ class MechanismReading {
         const char* key = slide == of_slide ? "ratio" : slide ? "ratio_mm_deg" : "ratio_deg_mm";
         if (!terms[k].names(key))
           terms[k].fault(terms[k].at(),
-                         fmt::format("expected \"{}\", as \"{}\" is {} and \"{}\" {}, got another", key, c.coordinate,
-                                     slide ? "a slide" : "an angle", c.terms[k].of, of_slide ? "a slide" : "an angle"));
+                         tr("expected \"{}\", as \"{}\" is {} and \"{}\" {}, got another", key, c.coordinate,
+                            slide ? "a slide" : "an angle", c.terms[k].of, of_slide ? "a slide" : "an angle"));
       }
     }
   }

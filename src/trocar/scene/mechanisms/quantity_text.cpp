@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/scene/mechanisms/quantity_text.hpp>
 
@@ -31,7 +32,7 @@ class QuantityText {
 
   QuantityReading read() {
     if (m_text.size() > kLongestText) {
-      fail(fmt::format("at most {} characters, got {}", kLongestText, m_text.size()));
+      fail(tr("at most {} characters, got {}", kLongestText, m_text.size()));
       return std::move(m_out);
     }
     skip();
@@ -41,13 +42,13 @@ class QuantityText {
     while (good() && m_at < m_text.size()) {
       const char c = take();
       if (c != '+' && c != '-') {
-        fail(fmt::format("'+' or '-' between terms, got '{}'", c));
+        fail(tr("'+' or '-' between terms, got '{}'", c));
         break;
       }
       product(c == '-' ? -1 : 1);
     }
     if (good() && m_out.quantity.terms.size() > kMostTerms)
-      fail(fmt::format("at most {} terms, got {}", kMostTerms, m_out.quantity.terms.size()));
+      fail(tr("at most {} terms, got {}", kMostTerms, m_out.quantity.terms.size()));
     return std::move(m_out);
   }
 
@@ -85,14 +86,14 @@ class QuantityText {
       word += m_text[m_at++];
     skip();
     if (word.empty())
-      return fail(m_at < m_text.size() ? fmt::format("a number or a parameter, got '{}'", peek())
+      return fail(m_at < m_text.size() ? tr("a number or a parameter, got '{}'", peek())
                                        : std::string("a number or a parameter, got the end of the text"));
     if (is_digit_of_text(word[0]) || word[0] == '.') {
-      if (!core::is_decimal(word)) return fail(fmt::format("a number, got \"{}\"", word));
+      if (!core::is_decimal(word)) return fail(tr("a number, got \"{}\"", word));
       factor *= core::to_double(word);
       return;
     }
-    if (parameter >= 0) return fail(fmt::format("one parameter in a product, got \"{}\" as well", word));
+    if (parameter >= 0) return fail(tr("one parameter in a product, got \"{}\" as well", word));
     std::vector<std::string> names;
     for (std::size_t i = 0; i < m_parameters.size(); ++i) {
       names.push_back(m_parameters[i].name);
@@ -101,8 +102,8 @@ class QuantityText {
     if (parameter < 0) {
       m_out.fault = unknown_name("parameter", word, names);
     } else if (m_parameters[std::size_t(parameter)].measure != m_measure) {
-      fail(fmt::format("{}, got \"{}\", which is {}", word_for(m_measure), word,
-                       word_for(m_parameters[std::size_t(parameter)].measure)));
+      fail(tr("{}, got \"{}\", which is {}", word_for(m_measure), word,
+              word_for(m_parameters[std::size_t(parameter)].measure)));
     }
   }
 

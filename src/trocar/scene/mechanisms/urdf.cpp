@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/kinematics/chains/frame.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/scene/mechanisms/urdf.hpp>
@@ -25,7 +26,7 @@ class Reading {
   MechanismDescription read(const XmlElement& root) {
     const std::size_t before = m_faults.size();
     if (root.name != "robot") {
-      fault(root, fmt::format("expected <robot>, got <{}>", root.name));
+      fault(root, tr("expected <robot>, got <{}>", root.name));
       return {};
     }
     if (const XmlAttribute* a = root.attribute("name")) d.name = a->value;
@@ -60,7 +61,7 @@ class Reading {
   bool numbers(const XmlElement& e, const char* name, double* out, int count, bool needed) {
     const XmlAttribute* a = e.attribute(name);
     if (!a) {
-      if (needed) fault(e, fmt::format("expected \"{}\" of <{}>, got none", name, e.name));
+      if (needed) fault(e, tr("expected \"{}\" of <{}>, got none", name, e.name));
       return false;
     }
     std::vector<double> values;
@@ -70,15 +71,14 @@ class Reading {
       at = std::min(a->value.find(' ', from), a->value.size());
       const std::string word = a->value.substr(from, at - from);
       if (!core::is_decimal(word) || !(std::fabs(core::to_double(word)) <= kMostOfAFile)) {
-        fault(*a,
-              fmt::format("expected a number of at most {} either way, got \"{}\"", kMostOfAFile, word.substr(0, 40)));
+        fault(*a, tr("expected a number of at most {} either way, got \"{}\"", kMostOfAFile, word.substr(0, 40)));
         return false;
       }
       if (int(values.size()) <= count) values.push_back(core::to_double(word));
     }
     if (int(values.size()) != count) {
-      fault(*a, fmt::format("expected {} number{}, got {}", count, count == 1 ? "" : "s",
-                            int(values.size()) > count ? "more" : fmt::format("{}", values.size())));
+      fault(*a, tr("expected {} number{}, got {}", count, count == 1 ? "" : "s",
+                   int(values.size()) > count ? "more" : fmt::format("{}", values.size())));
       return false;
     }
     std::copy(values.begin(), values.end(), out);
@@ -103,7 +103,7 @@ class Reading {
   std::string text(const XmlElement& e, const char* name) {
     const XmlAttribute* a = e.attribute(name);
     if (a && !a->value.empty()) return a->value;
-    fault(e, fmt::format("expected \"{}\" of <{}>, got none", name, e.name));
+    fault(e, tr("expected \"{}\" of <{}>, got none", name, e.name));
     return {};
   }
 
@@ -112,7 +112,7 @@ class Reading {
     Link l;
     l.name = text(e, "name");
     if (!m_link.emplace(l.name, int(d.links.size())).second)
-      return fault(e, fmt::format("expected every link once, got \"{}\" again", l.name));
+      return fault(e, tr("expected every link once, got \"{}\" again", l.name));
     if (const XmlElement* i = e.child("inertial")) inertial(*i, l);
     bool collides = false;  // shapes for contact are simpler, where a file has both
     for (const XmlElement& c : e.children) collides = collides || c.name == "collision";
@@ -128,7 +128,7 @@ class Reading {
     l.centre = at.xyz;
     if (const XmlElement* m = e.child("mass")) {
       l.mass = number(*m, "value", 0, true);
-      if (l.mass < 0) fault(*m, fmt::format("expected a mass of at least 0, got {}", l.mass));
+      if (l.mass < 0) fault(*m, tr("expected a mass of at least 0, got {}", l.mass));
     }
     if (const XmlElement* i = e.child("inertia")) {
       const double xx = number(*i, "ixx", 0), yy = number(*i, "iyy", 0), zz = number(*i, "izz", 0);
@@ -167,7 +167,7 @@ class Reading {
   int named_link(const XmlElement& joint, const char* which) {
     const XmlElement* e = joint.child(which);
     if (!e) {
-      fault(joint, fmt::format("expected <{}> of the joint, got none", which));
+      fault(joint, tr("expected <{}> of the joint, got none", which));
       return -1;
     }
     const std::string name = text(*e, "link");
@@ -186,8 +186,8 @@ class Reading {
     if (parent < 0 || child < 0) return;
     Link& l = d.links[std::size_t(child)];
     if (m_joint_of[std::size_t(child)])
-      return fault(e, fmt::format("expected one joint to each link, got a second one to \"{}\" (first in line {})",
-                                  l.name, m_joint_of[std::size_t(child)]->line));
+      return fault(e, tr("expected one joint to each link, got a second one to \"{}\" (first in line {})", l.name,
+                         m_joint_of[std::size_t(child)]->line));
     m_joint_of[std::size_t(child)] = &e;
     l.parent = d.links[std::size_t(parent)].name;
     Joint& j = l.joint;
@@ -202,7 +202,7 @@ class Reading {
       j.kind = JointKind::revolute;
     else if (!type.empty())
       return fault(*e.attribute("type"),
-                   fmt::format("expected revolute, continuous, prismatic or fixed, got \"{}\"", type.substr(0, 40)));
+                   tr("expected revolute, continuous, prismatic or fixed, got \"{}\"", type.substr(0, 40)));
     j.axis = {1, 0, 0};
     if (const XmlElement* axis = e.child("axis")) {
       j.axis = vec3(*axis, "xyz", j.axis);

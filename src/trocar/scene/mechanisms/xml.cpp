@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/json_grammar.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/json.hpp>
 #include <trocar/scene/mechanisms/xml.hpp>
 
@@ -26,7 +27,7 @@ class XmlParser {
   XmlElement document() {
     XmlElement root;
     if (m_text.size() > kMaxXmlBytes) {
-      lost(fmt::format("at most {} bytes, got {}", kMaxXmlBytes, m_text.size()));
+      lost(tr("at most {} bytes, got {}", kMaxXmlBytes, m_text.size()));
       return root;
     }
     if (starts("\xef\xbb\xbf")) skip(3);
@@ -38,8 +39,7 @@ class XmlParser {
     }
     root = element(0);
     misc();
-    if (!m_lost && m_at < m_text.size())
-      lost(fmt::format("the end of the file after the root element, got {}", here()));
+    if (!m_lost && m_at < m_text.size()) lost(tr("the end of the file after the root element, got {}", here()));
     return root;
   }
 
@@ -82,7 +82,7 @@ class XmlParser {
     if (at_end()) {
       m_line = line;
       m_column = column;
-      return lost(fmt::format("\"{}\" to end the {} that begins here, got the end of the file", end, what));
+      return lost(tr("\"{}\" to end the {} that begins here, got the end of the file", end, what));
     }
     skip(end.size());
   }
@@ -117,11 +117,11 @@ class XmlParser {
       out += peek();
       next();
       if (out.size() > kLongestName) {
-        lost(fmt::format("a name of at most {} characters", kLongestName));
+        lost(tr("a name of at most {} characters", kLongestName));
         return out;
       }
     }
-    if (out.empty()) lost(fmt::format("the name of {}, got {}", what, here()));
+    if (out.empty()) lost(tr("the name of {}, got {}", what, here()));
     return out;
   }
 
@@ -157,18 +157,17 @@ class XmlParser {
     a.name = name("an attribute");
     space();
     if (m_lost) return;
-    if (peek() != '=') return lost(fmt::format("'=' after the attribute \"{}\", got {}", a.name, here()));
+    if (peek() != '=') return lost(tr("'=' after the attribute \"{}\", got {}", a.name, here()));
     next();
     space();
     const char quote = peek();
-    if (quote != '"' && quote != '\'') return lost(fmt::format("a value in quotes, got {}", here()));
+    if (quote != '"' && quote != '\'') return lost(tr("a value in quotes, got {}", here()));
     next();
     a.line = m_line;
     a.column = m_column;
     while (!m_lost && peek() != quote) {
-      if (at_end() || peek() == '<') return lost(fmt::format("{} to end the value, got {}", quote, here()));
-      if (a.value.size() > kLongestValue)
-        return lost(fmt::format("a value of at most {} bytes, got more", kLongestValue));
+      if (at_end() || peek() == '<') return lost(tr("{} to end the value, got {}", quote, here()));
+      if (a.value.size() > kLongestValue) return lost(tr("a value of at most {} bytes, got more", kLongestValue));
       if (peek() == '&') {
         entity(a.value);
       } else {
@@ -178,10 +177,8 @@ class XmlParser {
     }
     if (m_lost) return;
     next();
-    if (e.attribute(a.name))
-      return fault_at(line, column, fmt::format("every attribute once, got \"{}\" again", a.name));
-    if (e.attributes.size() >= kMostAttributes)
-      return lost(fmt::format("at most {} attributes, got more", kMostAttributes));
+    if (e.attribute(a.name)) return fault_at(line, column, tr("every attribute once, got \"{}\" again", a.name));
+    if (e.attributes.size() >= kMostAttributes) return lost(tr("at most {} attributes, got more", kMostAttributes));
     e.attributes.push_back(std::move(a));
   }
 
@@ -191,11 +188,11 @@ class XmlParser {
     e.line = m_line;
     e.column = m_column;
     if (level >= kMostLevels) {
-      lost(fmt::format("at most {} levels, got more", kMostLevels));
+      lost(tr("at most {} levels, got more", kMostLevels));
       return e;
     }
     if (++m_count > kMostElements) {
-      lost(fmt::format("at most {} elements, got more", kMostElements));
+      lost(tr("at most {} elements, got more", kMostElements));
       return e;
     }
     next();
@@ -207,7 +204,7 @@ class XmlParser {
     if (m_lost) return e;
     if (peek() == '/') {
       next();
-      if (peek() != '>') lost(fmt::format("'>' after '/', got {}", here()));
+      if (peek() != '>') lost(tr("'>' after '/', got {}", here()));
       if (!m_lost) next();
       return e;
     }
@@ -216,7 +213,7 @@ class XmlParser {
       misc(true);
       if (m_lost) return e;
       if (at_end()) {
-        lost(fmt::format("\"</{}>\" to end the element of line {}, got the end of the file", e.name, e.line));
+        lost(tr("\"</{}>\" to end the element of line {}, got the end of the file", e.name, e.line));
         return e;
       }
       if (starts("</")) break;
@@ -230,7 +227,7 @@ class XmlParser {
     if (!m_lost && (end != e.name || peek() != '>')) {
       m_line = line;
       m_column = column;
-      lost(fmt::format("\"</{}>\" to end the element of line {}, got \"</{}\"", e.name, e.line, end));
+      lost(tr("\"</{}>\" to end the element of line {}, got \"</{}\"", e.name, e.line, end));
     }
     if (!m_lost) next();
     return e;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/interactions/objects/bag_build.hpp>
 #include <trocar/scene/objects/bag_scene.hpp>
 #include <trocar/sim/model/model.hpp>
@@ -62,7 +63,7 @@ BagSetting BagScene::read(const JsonObject& o) {
   s.text = o.value();
   if (s.deep < kLeastDeep * s.mouth)
     o.fault(o.names("deep_mm") ? "deep_mm" : "mouth_mm",
-            fmt::format("expected deep_mm to be at least {} times mouth_mm, got a shallower bag", kLeastDeep));
+            tr("expected deep_mm to be at least {} times mouth_mm, got a shallower bag", kLeastDeep));
   return s;
 }
 
@@ -84,9 +85,9 @@ void BagScene::expect_hand(const std::vector<Setting>& settings, const sim::Mode
                            std::vector<core::Fault>& faults) {
   for (const BagSetting& s : settings)
     if (std::none_of(model.hands.begin(), model.hands.end(), brings_bags))
-      faults.push_back({s.at, fmt::format("expected an instrument of the kind \"bag\" that fits a hand's trocar, "
-                                          "to bring in \"{}\", got none",
-                                          s.name)});
+      faults.push_back({s.at, tr("expected an instrument of the kind \"bag\" that fits a hand's trocar, "
+                                 "to bring in \"{}\", got none",
+                                 s.name)});
 }
 
 }  // namespace trocar::scene

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/objects/fat_filling.hpp>
@@ -135,11 +136,11 @@ std::vector<interactions::FatNodule> nodules_of(const FatSetting& s, const FatFi
 void compile_one(const FatSetting& s, sim::Model& model, std::vector<core::Fault>& faults) try {
   for (const std::string& name : s.on)
     if (model.strand_index(name) < 0 && model.organ_index(name) < 0 && model.membrane_index(name) < 0)
-      faults.push_back({s.at, fmt::format("expected \"on\" to name strands, solids and pouches, got \"{}\"", name)});
+      faults.push_back({s.at, tr("expected \"on\" to name strands, solids and pouches, got \"{}\"", name)});
   const FatFilling filling = filled(s, model);
   if (filling.lobules.empty() || int(filling.lobules.size()) > kMostLobules) {
-    faults.push_back({s.at, fmt::format("expected room for 1 to {} lobules of {} mm in \"{}\", got {}", kMostLobules,
-                                        1000 * s.spacing, s.name, filling.lobules.size())});
+    faults.push_back({s.at, tr("expected room for 1 to {} lobules of {} mm in \"{}\", got {}", kMostLobules,
+                               1000 * s.spacing, s.name, filling.lobules.size())});
     return;
   }
   interactions::FatBody body;
@@ -149,8 +150,7 @@ void compile_one(const FatSetting& s, sim::Model& model, std::vector<core::Fault
   body.roots = roots_of(s, filling, model);
   body.ties = ties_of(s, filling, body.roots, model);
   if (body.roots.bonds.empty() && body.ties.empty()) {
-    faults.push_back(
-        {s.at, fmt::format("expected a body of \"on\" within {} mm of \"{}\", got none", 1000 * s.reach, s.name)});
+    faults.push_back({s.at, tr("expected a body of \"on\" within {} mm of \"{}\", got none", 1000 * s.reach, s.name)});
     return;
   }
   body.fat = tissue::build(described(s, filling, model), sim::kTick);

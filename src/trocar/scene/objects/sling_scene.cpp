@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/objects/sling_scene.hpp>
 #include <trocar/scene/objects/suture_scene.hpp>
@@ -68,9 +69,9 @@ void expect_endoloop(const std::vector<SutureSetting>& settings, const sim::Mode
                      std::vector<core::Fault>& faults) {
   for (const SutureSetting& s : settings)
     if (s.sling.there && std::none_of(model.hands.begin(), model.hands.end(), brings_slings))
-      faults.push_back({s.at, fmt::format("expected an instrument of the kind \"endoloop\" that fits a hand's trocar, "
-                                          "to bring in \"{}\", got none",
-                                          s.name)});
+      faults.push_back({s.at, tr("expected an instrument of the kind \"endoloop\" that fits a hand's trocar, "
+                                 "to bring in \"{}\", got none",
+                                 s.name)});
 }
 
 }  // namespace trocar::scene

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/objects/suture_scene.hpp>
 #include <trocar/sim/model/model.hpp>
 
@@ -85,10 +86,9 @@ SutureSetting SutureScene::read(const JsonObject& o) {
   s.text = o.value();
   if (s.size.empty() && s.needle.empty()) o.fault(o.at(), "expected a size, a needle or both, got neither");
   if (!s.size.empty() && !suture::find_thread(s.size, s.make))
-    o.fault("size", fmt::format("expected an available thread ({}), got \"{} {}\"", sizes_and_makes(), s.size, s.make));
+    o.fault("size", tr("expected an available thread ({}), got \"{} {}\"", sizes_and_makes(), s.size, s.make));
   if (!s.needle.empty() && !suture::needle_kind(s.needle))
-    o.fault("needle",
-            fmt::format("expected an available needle ({}), got \"{}\"", suture::names_of_needles(), s.needle));
+    o.fault("needle", tr("expected an available needle ({}), got \"{}\"", suture::names_of_needles(), s.needle));
   if (s.needle.empty() && !s.hand.empty()) o.fault("held_by", "expected it of a needle, got a thread alone");
   if (!s.needle.empty() && o.names("at_mm") == o.names("held_by"))
     o.fault(o.at(), "expected at_mm of a needle that lies or held_by of one that is held, got " +

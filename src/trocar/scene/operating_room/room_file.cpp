@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/files/library.hpp>
 #include <trocar/scene/files/reader.hpp>
@@ -86,15 +87,15 @@ class RoomReading {
   static void within(const JsonObject& o, const char* key, double value, double low, double high) {
     constexpr double kSlack = 1e-9;
     if (value < low - kSlack || value > high + kSlack)
-      o.fault(key, fmt::format("expected an angle in the table's range, {:.4g} to {:.4g}, got {:.4g}", low / kDeg,
-                               high / kDeg, value / kDeg));
+      o.fault(key, tr("expected an angle in the table's range, {:.4g} to {:.4g}, got {:.4g}", low / kDeg, high / kDeg,
+                      value / kDeg));
   }
   template <class Item>
   std::string named(const JsonObject& o, const std::vector<Item>& others, const char* what) {
     std::string name = o.text("name");
     for (const Item& other : others)
       if (!name.empty() && other.name == name)
-        o.fault("name", fmt::format("expected a name that no other {} has, got \"{}\" again", what, name));
+        o.fault("name", tr("expected a name that no other {} has, got \"{}\" again", what, name));
     return name;
   }
   void port(const JsonObject& o) {
@@ -126,8 +127,8 @@ class RoomReading {
     if (const int k = room.port(i.port); k >= 0 && o.has("tip_mm")) {
       const double inside = length(i.tip - room.ports[std::size_t(k)].position);
       if (!(inside > 1e-3) || inside > i.length - 0.02)
-        o.fault("tip_mm", fmt::format("expected a tip 1 mm to {:.0f} mm from its port, got {:.1f}",
-                                      1e3 * (i.length - 0.02), 1e3 * inside));
+        o.fault("tip_mm", tr("expected a tip 1 mm to {:.0f} mm from its port, got {:.1f}", 1e3 * (i.length - 0.02),
+                             1e3 * inside));
     }
     room.instruments.push_back(std::move(i));
   }
@@ -175,7 +176,7 @@ class RoomReading {
       o.fault("out", "expected a direction beside that of \"base\", got the same line");
     for (const RoomArm& other : room.arms)
       if (!a.port.empty() && other.port == a.port)
-        o.fault("port", fmt::format("expected an unused port, got that of \"{}\"", other.name));
+        o.fault("port", tr("expected an unused port, got that of \"{}\"", other.name));
     room.arms.push_back(std::move(a));
   }
   void target(const JsonObject& o) {
@@ -237,7 +238,7 @@ class ProgrammeReading {
  private:
   void later(const JsonObject& o, double at, double before, bool first) {
     if (!first && !(at > before))
-      o.fault("at_s", fmt::format("expected more than {:.4g}, the time before, got {:.4g}", before, at));
+      o.fault("at_s", tr("expected more than {:.4g}, the time before, got {:.4g}", before, at));
   }
   void move(const JsonObject& o) {
     Programme::Move m{o.text("arm"), {}, o.at()};
@@ -248,8 +249,7 @@ class ProgrammeReading {
         o.fault("arm", unknown_name("arm", m.arm, known));
     }
     for (const Programme::Move& other : programme.moves)
-      if (!m.arm.empty() && other.arm == m.arm)
-        o.fault("arm", fmt::format("expected every arm once, got \"{}\" again", m.arm));
+      if (!m.arm.empty() && other.arm == m.arm) o.fault("arm", tr("expected every arm once, got \"{}\" again", m.arm));
     for (const JsonObject& p : o.objects("poses")) {
       Programme::Pose pose;
       pose.at = p.number("at_s");

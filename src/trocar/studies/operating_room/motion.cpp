@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/studies/operating_room/motion.hpp>
 
 namespace trocar::studies {
@@ -91,7 +92,7 @@ class Going {
       r.port_gap = std::max(r.port_gap, gap);
       if (gap > o.keep_port)
         fault(MotionFaultKind::port, int(a), m.arms()[a].described->port, gap, m.arms()[a].port,
-              fmt::format("its shaft misses its port by {:.2f} mm", 1e3 * gap));
+              tr("its shaft misses its port by {:.2f} mm", 1e3 * gap));
       if (!first) speeds(before, pose, int(a), at, s);
     }
     collisions(pose, s);
@@ -108,11 +109,11 @@ class Going {
     r.loop_gap = std::max(r.loop_gap, reached.loop_gap);
     if (!reached.within_limits)
       fault(MotionFaultKind::limit, a, reached.limit, reached.missed, goal.tip,
-            fmt::format("\"{}\" would be beyond its limits", reached.limit));
+            tr("\"{}\" would be beyond its limits", reached.limit));
     else if (!reached.reached)
       fault(MotionFaultKind::reach, a, "", reached.missed, goal.tip,
-            fmt::format("does not reach: {:.1f} mm short of ({:.1f}, {:.1f}, {:.1f}) mm", 1e3 * reached.missed,
-                        1e3 * goal.tip.x, 1e3 * goal.tip.y, 1e3 * goal.tip.z));
+            tr("does not reach: {:.1f} mm short of ({:.1f}, {:.1f}, {:.1f}) mm", 1e3 * reached.missed, 1e3 * goal.tip.x,
+               1e3 * goal.tip.y, 1e3 * goal.tip.z));
     if (first && reached.reached && o.clear_from > 0 && goal.aims) m.clear(pose, a, goal);
   }
 
@@ -133,8 +134,7 @@ class Going {
     r.most_speed = std::max(r.most_speed, most);
     if (most > 1 + 1e-9)
       fault(MotionFaultKind::speed, a, mech.coordinates[std::size_t(fastest)], most, m.tip(pose, a).p,
-            fmt::format("\"{}\" would move at {:.2f} times its greatest speed", mech.coordinates[std::size_t(fastest)],
-                        most));
+            tr("\"{}\" would move at {:.2f} times its greatest speed", mech.coordinates[std::size_t(fastest)], most));
   }
 
   void collisions(const RoomPose& pose, MotionStep& s) {
@@ -155,10 +155,9 @@ class Going {
       }
       if (n.distance < m.room().margin)
         fault(MotionFaultKind::collision, n.arm, n.second.substr(0, n.second.find(':')), n.distance, n.where(),
-              n.distance < 0
-                  ? fmt::format("\"{}\" and \"{}\" overlap by {:.1f} mm", n.first, n.second, -1e3 * n.distance)
-                  : fmt::format("\"{}\" and \"{}\" are {:.1f} mm apart, less than the margin of {:.1f}", n.first,
-                                n.second, 1e3 * n.distance, 1e3 * m.room().margin));
+              n.distance < 0 ? tr("\"{}\" and \"{}\" overlap by {:.1f} mm", n.first, n.second, -1e3 * n.distance)
+                             : tr("\"{}\" and \"{}\" are {:.1f} mm apart, less than the margin of {:.1f}", n.first,
+                                  n.second, 1e3 * n.distance, 1e3 * m.room().margin));
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/studies/operating_room/ports.hpp>
 
 namespace trocar::studies {
@@ -148,7 +149,7 @@ PortPair judge_pair(const RoomModel& model, const PortPlanOptions& o, Vec3d scop
 
 PortPlan plan_ports(const RoomModel& model, const PortPlanOptions& o) {
   const int scope = model.room().port(o.scope);
-  if (scope < 0) throw std::invalid_argument(fmt::format("there is no port \"{}\"", o.scope));
+  if (scope < 0) throw std::invalid_argument(tr("there is no port \"{}\"", o.scope));
   PortPlan plan;
   plan.scope = model.room().ports[std::size_t(scope)].position;
   plan.points = points_of(o);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/kinematics/loops/conditions.hpp>
 #include <trocar/studies/halton.hpp>
@@ -149,12 +150,11 @@ void RoomModel::build_arm(const scene::RoomArm& described) {
   a.shaft = m.frame(described.shaft);
   const int port = m_room.port(described.port);
   if (a.tip < 0 || a.shaft < 0 || port < 0)
-    throw std::invalid_argument(fmt::format("arm \"{}\" lacks its tip, its shaft or its port", described.name));
+    throw std::invalid_argument(tr("arm \"{}\" lacks its tip, its shaft or its port", described.name));
   a.port = m_room.ports[std::size_t(port)].position;
   const Vec3d out = length(described.out) > 0 ? unit(described.out) : m_figure.normal(a.port.x, a.port.y);
   const Vec3d towards = described.base - dot(described.base, out) * out;
-  if (!(length(towards) > 1e-9))
-    throw std::invalid_argument(fmt::format("arm \"{}\" stands along its shaft", described.name));
+  if (!(length(towards) > 1e-9)) throw std::invalid_argument(tr("arm \"{}\" stands along its shaft", described.name));
   // the base may be lower or higher than square to the shaft: the shaft's middle then leans
   const Vec3d y = unit(described.base), x = unit(cross(y, out)), z = cross(x, y);
   a.dock = {Mat3d::from_columns(x, y, z), a.port};
@@ -174,7 +174,7 @@ void RoomModel::build_arm(const scene::RoomArm& described) {
   LoopWork work(m);
   std::vector<double> u = m.start_u();
   if (!close(m, u, work).closed())
-    throw std::invalid_argument(fmt::format("arm \"{}\": its mechanism's loops do not close", described.name));
+    throw std::invalid_argument(tr("arm \"{}\": its mechanism's loops do not close", described.name));
   const Frame tip = kinematics::place(m.frames[std::size_t(a.tip)], work.pose);
   const Vec3d along = a.dock.r * unit(tip.p);
   a.straight = transposed(jaw_axes(along, 0)) * (a.dock.r * tip.r);

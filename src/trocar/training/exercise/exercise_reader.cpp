@@ -8,6 +8,7 @@
 
 #include <trocar/core/controls/control_keys.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/files/library.hpp>
 #include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/json/like.hpp>
@@ -80,7 +81,7 @@ class ExerciseReader {
     if (!o.has(scene::kLike)) return true;
     for (const char* key : {"title", "scene"})
       if (!o.names(key))
-        o.fault(o.at(), fmt::format("expected the key \"{}\" also in an exercise that has \"like\", got none", key));
+        o.fault(o.at(), tr("expected the key \"{}\" also in an exercise that has \"like\", got none", key));
     return below(o, located(path.parent_path() / o.text(scene::kLike)));
   }
   /// A file that a file names, wherever in the library it lies.
@@ -90,10 +91,9 @@ class ExerciseReader {
   bool below(const JsonObject& o, const fs::path& path) {
     const auto same = [&path](const Layer& l) { return l.path.lexically_normal() == path; };
     if (std::any_of(m_layers.begin(), m_layers.end(), same) || m_layers.size() >= kMostLayers)
-      o.fault(scene::kLike,
-              fmt::format("expected a chain of at most {} exercises through \"like\", without a cycle, got "
-                          "one more: {}",
-                          kMostLayers, path.generic_string()));
+      o.fault(scene::kLike, tr("expected a chain of at most {} exercises through \"like\", without a cycle, got "
+                               "one more: {}",
+                               kMostLayers, path.generic_string()));
     else if (!m_memory && !m_library.holds(path))
       o.fault(scene::kLike, m_library.refusal(o.text(scene::kLike)));
     else
@@ -113,9 +113,8 @@ class ExerciseReader {
     const scene::JsonMember* format = document.root.find("format");
     if (!format || format->value.kind != JsonValue::Kind::number || format->value.number >= 3) return false;
     fault(document.file, format->value,
-          fmt::format(
-              "expected format 3, got {:g}: format 2 is no longer supported, see docs/guides/authoring_exercises.md",
-              format->value.number));
+          tr("expected format 3, got {:g}: format 2 is no longer supported, see docs/guides/authoring_exercises.md",
+             format->value.number));
     return true;
   }
 
@@ -217,14 +216,14 @@ class ExerciseReader {
     if (v.kind == JsonValue::Kind::array && v.items.size() == 2 && whole(0, kMostChoice) && whole(1, kMostPerturbation))
       return {int(v.items[0].number), int(v.items[1].number)};
     fault(file, v,
-          fmt::format("expected [decision point, perturbation], two whole numbers up to {}, got {}", kMostPerturbation,
-                      scene::shown(v)));
+          tr("expected [decision point, perturbation], two whole numbers up to {}, got {}", kMostPerturbation,
+             scene::shown(v)));
     return {};
   }
 
   void bounds() {
     if (m_exercise.sets.size() > std::size_t(kMaxSets))
-      said("sets").o.fault("sets", fmt::format("expected at most {} sets, got {}", kMaxSets, m_exercise.sets.size()));
+      said("sets").o.fault("sets", tr("expected at most {} sets, got {}", kMaxSets, m_exercise.sets.size()));
   }
 
   /// Limits go into the texts of errors; steps are reported with their elements, later.
@@ -263,8 +262,7 @@ class ExerciseReader {
     for (const scene::JsonDocument& d : m_files) note_references(d.root, used);
     for (const Limit& l : m_exercise.limits)
       if (!used[l.name])
-        scene::tell(m_faults,
-                    {l.at, fmt::format("expected a limit that is used (\"${}\"), got one without a use", l.name)});
+        scene::tell(m_faults, {l.at, tr("expected a limit that is used (\"${}\"), got one without a use", l.name)});
   }
   static void note_references(const JsonValue& v, std::map<std::string, bool>& used) {
     if (v.kind == JsonValue::Kind::string && v.text.size() > 1 && v.text[0] == '$')

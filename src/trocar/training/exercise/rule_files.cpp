@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/training/exercise/rule_files.hpp>
 
 namespace trocar::training {
@@ -44,8 +45,8 @@ void elsewhere(const JsonValue& in, const JsonObject& o, Limit& l) {
   for (const scene::JsonMember& m : in.members) {
     const std::optional<Figure> f = figure_of(m.value);
     if (!f || f->is_range != l.is_range || f->low > f->high)
-      o.fault("in", fmt::format("expected {} for \"{}\", as the value is, got {}",
-                                l.is_range ? "[from, to] with from <= to" : "a number", m.key, scene::shown(m.value)));
+      o.fault("in", tr("expected {} for \"{}\", as the value is, got {}",
+                       l.is_range ? "[from, to] with from <= to" : "a number", m.key, scene::shown(m.value)));
     else
       l.elsewhere.push_back({m.key, f->low, f->high});
   }
@@ -124,10 +125,9 @@ void RuleFiles::limit(const scene::JsonMember& member, const std::string& path, 
     return;
   }
   if (!own || std::size_t(known - m_exercise.limits.begin()) >= m_common_limits)
-    return o.fault(o.at(), fmt::format("expected each limit once, got \"{}\" again", l.name));
+    return o.fault(o.at(), tr("expected each limit once, got \"{}\" again", l.name));
   if (!l.broken && looser(l, *known) && !o.has("loosened"))
-    o.fault("value",
-            fmt::format("expected a limit at least as strict as {}:{} ({}), or a reason in \"loosened\", got {}",
+    o.fault("value", tr("expected a limit at least as strict as {}:{} ({}), or a reason in \"loosened\", got {}",
                         known->at.file, known->at.line, known->shown(), l.shown()));
   *known = std::move(l);
 }
@@ -162,11 +162,11 @@ void RuleFiles::errors(const JsonObject& file, const std::string& path, bool own
       continue;
     }
     for (const char* key : {"name", "meaning", "source"})
-      if (!o.names(key)) o.fault(o.at(), fmt::format("expected \"{}\" in the error {}, got none", key, p.code));
+      if (!o.names(key)) o.fault(o.at(), tr("expected \"{}\" in the error {}, got none", key, p.code));
     if (!o.names("points") && !o.flag("fails"))
-      o.fault(o.at(), fmt::format("expected a penalty for {}: points, or fails: true, got none", p.code));
+      o.fault(o.at(), tr("expected a penalty for {}: points, or fails: true, got none", p.code));
     if (!o.names("on") && !o.names("when"))
-      o.fault(o.at(), fmt::format("expected \"on\" or \"when\" for {}, got neither", p.code));
+      o.fault(o.at(), tr("expected \"on\" or \"when\" for {}, got neither", p.code));
     p.name = o.text("name");
     p.points = o.number("points");
     p.fail = o.flag("fails");
@@ -188,15 +188,14 @@ void RuleFiles::make_stricter(Penalty& common, const JsonObject& o, const std::s
   for (const char* key : {"for_each", "on", "when", "for_s", "once_per", "detail"})
     if (o.names(key))
       o.fault(key,
-              fmt::format(
-                  "expected only keys that make {} stricter (points, fails) or change its text, got {}: the error is "
-                  "defined in {}",
-                  common.code, key, common.part.file));
+              tr("expected only keys that make {} stricter (points, fails) or change its text, got {}: the error is "
+                 "defined in {}",
+                 common.code, key, common.part.file));
   if (o.has("points") && o.number("points") < common.points)
-    o.fault("points", fmt::format("expected at least {:g}, as in {}, got {:g}", common.points, common.part.file,
-                                  o.number("points")));
+    o.fault("points",
+            tr("expected at least {:g}, as in {}, got {:g}", common.points, common.part.file, o.number("points")));
   if (o.has("fails") && common.fail && !o.flag("fails"))
-    o.fault("fails", fmt::format("expected true, as in {}, got false", common.part.file));
+    o.fault("fails", tr("expected true, as in {}, got false", common.part.file));
   if (const scene::JsonMember* at = o.value().find("at")) common.at = {at->value, path};
   common.points = o.number("points", common.points);
   common.fail = o.flag("fails", common.fail);

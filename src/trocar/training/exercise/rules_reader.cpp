@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/controls/control_keys.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/training/exercise/rules.hpp>
 #include <trocar/training/exercise/step_circles.hpp>
@@ -24,8 +25,7 @@ class RulesReader {
     circles();
     for (const Penalty& p : m_exercise.penalties) error(p);
     if (m_rules.m_errors.size() > std::size_t(kMaxErrors))
-      whole(fmt::format("expected at most {} errors (one for each element), got {}", kMaxErrors,
-                        m_rules.m_errors.size()));
+      whole(tr("expected at most {} errors (one for each element), got {}", kMaxErrors, m_rules.m_errors.size()));
     details();
   }
 
@@ -72,7 +72,7 @@ class RulesReader {
     for (const Set& set : m_rules.m_names.sets()) {
       if (set.elements.size() > std::size_t(kMaxElements))
         reading(m_rules.m_names, set.file)
-            .fault(set.at, fmt::format("expected at most {} elements, got {}", kMaxElements, set.elements.size()));
+            .fault(set.at, tr("expected at most {} elements, got {}", kMaxElements, set.elements.size()));
       for (std::size_t i = 0; i < set.elements.size(); ++i)
         for (const std::string& member : set.held) own(set, i, member);
     }
@@ -82,8 +82,8 @@ class RulesReader {
     const RuleReading r = reading(m_rules.m_names, set.file);
     const JsonValue* value = e.member(member);
     if (!value)
-      return r.fault(
-          set.at, fmt::format("expected the member \"{}\" of \"{}\", which \"held\" needs, got none", member, e.name));
+      return r.fault(set.at,
+                     tr("expected the member \"{}\" of \"{}\", which \"held\" needs, got none", member, e.name));
     for (const NameAt& n : r.names(*value)) {
       std::int32_t code = -1;
       std::vector<std::string> known;
@@ -112,7 +112,7 @@ class RulesReader {
       i = end;
     }
     if (m_placed.size() > std::size_t(kMaxSteps))
-      whole(fmt::format("expected at most {} steps (one for each element), got {}", kMaxSteps, m_placed.size()));
+      whole(tr("expected at most {} steps (one for each element), got {}", kMaxSteps, m_placed.size()));
     for (const Placed& p : m_placed) {
       const Names names = names_at(p.set, p.element);
       StepStatus s;
@@ -146,8 +146,7 @@ class RulesReader {
       if (const auto n = r.number(m->value, unit_of("for_s"), 0, 3600)) rule.done_for.needs = *n;
     const bool when = v.find("when"), on = v.find("on");
     if (!when && !on)
-      r.fault(v, fmt::format("expected when or on for the step \"{}\", got neither: nothing can make it true",
-                             p.text->name));
+      r.fault(v, tr("expected when or on for the step \"{}\", got neither: nothing can make it true", p.text->name));
     if (when && on)
       r.fault(v.find("on")->value, "expected when or on, got both: the condition of an event is its \"while\"");
     m_rules.m_steps.push_back(std::move(rule));
@@ -157,7 +156,7 @@ class RulesReader {
     const std::size_t before = m_faults.size();
     Act act = read_act(v, r);
     if (m_model && m_faults.size() == before && !act.possible())
-      r.fault(v, fmt::format("expected an event that can make the step \"{}\" true, got one on no body", name));
+      r.fault(v, tr("expected an event that can make the step \"{}\" true, got one on no body", name));
     return act;
   }
 
@@ -193,8 +192,8 @@ class RulesReader {
     std::string way;
     for (std::size_t i = 0; i < circle.size(); ++i) {
       const std::string next = '"' + step_name(circle[(i + 1) % circle.size()]) + '"';
-      way += fmt::format("{}\"{}\" waits for {}", i == 0 ? "" : ", and ", step_name(circle[i]),
-                         circle.size() == 1 ? "itself" : next);
+      way += tr("{}\"{}\" waits for {}", i == 0 ? "" : ", and ", step_name(circle[i]),
+                circle.size() == 1 ? "itself" : next);
     }
     const Part& part = m_placed[std::size_t(circle[0])].text->part;
     reading(m_rules.m_names, part.file).fault(part.value, "expected steps that can all be done, got a cycle: " + way);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/training/expert/performer.hpp>
 #include <trocar/training/expert/perturbation.hpp>
 #include <trocar/training/observe/sampling.hpp>
@@ -171,7 +172,7 @@ void Performer::work(double passed) {
   if (m_since_choice >= kChoiceEvery) go_on_otherwise();
   if (m_in_task > task.plan->at_most) {
     const bool goes_on = task.plan->goes_on;
-    ended(goes_on ? Progress::done : Progress::failed, fmt::format("{}: timed out", task.plan->kind->name));
+    ended(goes_on ? Progress::done : Progress::failed, tr("{}: timed out", task.plan->kind->name));
     if (goes_on && m_pause > 0) {  // who has lost patience thinks no more
       m_pause = 0;
       choose();

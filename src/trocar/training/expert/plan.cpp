@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/training/expert/plan.hpp>
 
 namespace trocar::training {
@@ -17,7 +18,7 @@ PlanTask PlanTask::of(const SkillKind& kind) {
 Argument& PlanTask::argument(std::string_view name) {
   for (size_t i = 0; i < kind->parameters.size(); ++i)
     if (kind->parameters[i].name == name) return arguments[i];
-  throw std::out_of_range(fmt::format("the skill {} has no parameter {}", kind->name, name));
+  throw std::out_of_range(tr("the skill {} has no parameter {}", kind->name, name));
 }
 
 PlanTask& PlanTask::set(std::string_view name, double si) { return set(name, si, si); }
@@ -53,13 +54,13 @@ PlanGoal& Plan::goal(std::string_view name, std::string_view element) {
   for (PlanPart& part : parts)
     for (PlanGoal& goal : part.goals)
       if (goal.name == name && (element.empty() || part.element == element)) return goal;
-  throw std::out_of_range(fmt::format("the plan has no goal {}", name));
+  throw std::out_of_range(tr("the plan has no goal {}", name));
 }
 
 PlanTask& Plan::task(std::string_view goal_name, std::string_view skill, std::string_view element) {
   for (PlanTask& task : goal(goal_name, element).todo)
     if (task.kind->name == skill) return task;
-  throw std::out_of_range(fmt::format("the goal {} has no task {}", goal_name, skill));
+  throw std::out_of_range(tr("the goal {} has no task {}", goal_name, skill));
 }
 
 namespace {
@@ -75,8 +76,8 @@ void check_tasks(const std::vector<PlanTask>& tasks, const sim::Model& model, Fa
   for (const PlanTask& task : tasks) {
     const std::string lack = task.kind->lacks(model, SkillArgs(*task.kind, task.arguments));
     if (!lack.empty())
-      scene::tell(faults, {task.at, fmt::format("expected a scene that suits the skill \"{}\", got: {}",
-                                                task.kind->name, lack)});
+      scene::tell(faults,
+                  {task.at, tr("expected a scene that suits the skill \"{}\", got: {}", task.kind->name, lack)});
     check_tasks(task.meanwhile, model, faults);
   }
 }

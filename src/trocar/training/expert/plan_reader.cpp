@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/training/expert/plan_reader.hpp>
 #include <trocar/training/rules/arguments.hpp>
@@ -45,7 +46,7 @@ class PlanReader {
   bool is_list(const JsonValue& v, const char* of) const {
     if (v.kind == Kind::broken) return false;
     if (v.kind == Kind::array) return true;
-    r.fault(v, fmt::format("expected a list of {}, got {}", of, scene::shown(v)));
+    r.fault(v, tr("expected a list of {}, got {}", of, scene::shown(v)));
     return false;
   }
 
@@ -137,9 +138,9 @@ class PlanReader {
     t.at = r.at(v);
     std::vector<std::string> keys{"skill", "at_most_s", "if_late", "until", "meanwhile"};
     for (const Parameter& p : kind.parameters) keys.emplace_back(p.name);
-    r.check_keys(v, fmt::format("the skill \"{}\"", kind.name), keys);
+    r.check_keys(v, tr("the skill \"{}\"", kind.name), keys);
     const std::size_t before = r.faults->size();
-    t.arguments = read_arguments(v, kind.parameters, fmt::format("the skill \"{}\"", kind.name), r);
+    t.arguments = read_arguments(v, kind.parameters, tr("the skill \"{}\"", kind.name), r);
     t.at_most = number(v, "at_most_s", kind.patience);
     if (const JsonMember* late = v.find("if_late")) {
       t.goes_on = late->value.text == "go_on";
@@ -155,8 +156,7 @@ class PlanReader {
   void check(const PlanTask& t) const {
     const std::string lack = t.kind->lacks(*r.model, SkillArgs(*t.kind, t.arguments));
     if (lack.empty()) return;
-    scene::tell(*r.faults,
-                {t.at, fmt::format("expected a scene that suits the skill \"{}\", got: {}", t.kind->name, lack)});
+    scene::tell(*r.faults, {t.at, tr("expected a scene that suits the skill \"{}\", got: {}", t.kind->name, lack)});
   }
 
   double number(const JsonValue& v, const char* key, double otherwise) const {

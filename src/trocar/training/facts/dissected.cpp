@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/training/facts/registry.hpp>
 #include <trocar/training/observe/fat.hpp>
 #include <trocar/training/observe/marks.hpp>
@@ -86,7 +87,7 @@ std::string unknown_bonds(const sim::Model& model, const Arguments& a) {
   if (model.bonds_index(a[0].word) >= 0) return {};
   std::string known;
   for (const interactions::BondSet& set : model.bonds) known += (known.empty() ? "" : ", ") + set.name;
-  return fmt::format("expected bonds of the scene ({}), got \"{}\"", known, a[0].word);
+  return tr("expected bonds of the scene ({}), got \"{}\"", known, a[0].word);
 }
 
 }  // namespace

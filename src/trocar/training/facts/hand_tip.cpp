@@ -1,6 +1,7 @@
 // How far an instrument's tip is from something, and how it points there.
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/training/facts/registry.hpp>
 #include <trocar/training/observe/hands.hpp>
@@ -27,7 +28,7 @@ Value jaws_to_mark(const Snapshot& snapshot, const Arguments& a) {
 std::string marks_that_face(const sim::Model& model, const Arguments& a) {
   const sim::VisibilityTarget& target = model.targets[size_t(a[1].index)];
   if (can_face(model, target)) return "";
-  return fmt::format("expected a mark on an organ or a disc, got \"{}\", which has no single normal", target.name);
+  return tr("expected a mark on an organ or a disc, got \"{}\", which has no single normal", target.name);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/training/facts/needs.hpp>
 #include <trocar/training/facts/registry.hpp>
 
@@ -27,13 +28,12 @@ std::string not_in_rack(const sim::Model& model, const Arguments& a) {
     if (a[1].word == about(tool.kind).name) return "";
     there += (there.empty() ? "" : ", ") + std::string(about(tool.kind).name);
   }
-  return fmt::format("expected a kind that the rack at the trocar \"{}\" holds ({}), got \"{}\"", hand.name, there,
-                     a[1].word);
+  return tr("expected a kind that the rack at the trocar \"{}\" holds ({}), got \"{}\"", hand.name, there, a[1].word);
 }
 std::string no_applier_in_rack(const sim::Model& model, const Arguments& a) {
   const sim::HandModel& hand = model.hands[size_t(a[0].index)];
   if (can_take(hand, &interactions::Abilities::set_clips)) return "";
-  return fmt::format("expected a hand with a clip applier, got \"{}\", which has none in its rack", hand.name);
+  return tr("expected a hand with a clip applier, got \"{}\", which has none in its rack", hand.name);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // the mark is not in view. And how far it has been moved, seen or not.
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/facts/registry.hpp>
@@ -39,7 +40,7 @@ Value facing(const Snapshot& snapshot, const Arguments& a) {
 std::string faces_every_way(const sim::Model& model, const Arguments& a) {
   const sim::VisibilityTarget& target = model.targets[size_t(a[0].index)];
   if (can_face(model, target)) return "";
-  return fmt::format("expected a mark on an organ or a disc, got \"{}\", which has no single normal", target.name);
+  return tr("expected a mark on an organ or a disc, got \"{}\", which has no single normal", target.name);
 }
 
 /// Against where it was when it was first looked at: in the rest shape.

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/training/metrics/trace_channels.hpp>
 #include <trocar/training/metrics/trace_csv.hpp>
 
@@ -90,8 +91,7 @@ class CsvReader {
     bool named = false;
     while (m_faults.size() < kMaxFaults && next(line)) {
       if (m_line == 1) {
-        if (line != kFirstLine && line != kFirstLineOf1)
-          fault(1, fmt::format("expected '{}', got {}", kFirstLine, shown(line)));
+        if (line != kFirstLine && line != kFirstLineOf1) fault(1, tr("expected '{}', got {}", kFirstLine, shown(line)));
         if (!m_faults.empty()) break;
       } else if (!named && !line.empty() && line[0] == '#') {
         comment(line);
@@ -103,7 +103,7 @@ class CsvReader {
         row(line);
       }
     }
-    if (m_line == 0) fault(1, fmt::format("expected '{}', got an empty file", kFirstLine));
+    if (m_line == 0) fault(1, tr("expected '{}', got an empty file", kFirstLine));
     if (!named && m_faults.empty()) fault(1, "expected a line of column names");
     if (!m_faults.empty()) throw core::BadInput(std::move(m_faults));
     return std::move(m_trace);
@@ -196,7 +196,7 @@ class CsvReader {
     const std::size_t wanted = 1 + m_trace.hands.size() * kHandChannels.size() + m_scope;
     if (fields.size() != wanted) {
       ++m_rows;  // so that the next row's time is right
-      return fault(1, fmt::format("expected {} fields, got {}", wanted, fields.size()));
+      return fault(1, tr("expected {} fields, got {}", wanted, fields.size()));
     }
     if (m_rows == kMaxTraceSamples) return fault(1, "expected at most four hours");
     std::size_t next_field = 0;
@@ -211,8 +211,7 @@ class CsvReader {
     const double time = value_of(steps(kTimeDecimals, kMaxTraceSteps), kTimeScale);
     if (m_rows == 0) m_trace.start = time;
     if (std::fabs(time - m_trace.time(m_rows)) > 0.25 / m_trace.rate)
-      fault(1, fmt::format("expected the time {:.6f} s, as the rate says, got {}", m_trace.time(m_rows),
-                           shown(fields[0])));
+      fault(1, tr("expected the time {:.6f} s, as the rate says, got {}", m_trace.time(m_rows), shown(fields[0])));
     for (TraceHand& hand : m_trace.hands) {
       TraceSample s;
       for (const auto& c : kHandChannels) c.set(s, value_of(steps(c.decimals, c.most), c.scale));

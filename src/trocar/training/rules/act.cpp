@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/training/events/registry.hpp>
 #include <trocar/training/rules/act.hpp>
@@ -69,7 +70,7 @@ class ActReader {
     if (const scene::JsonMember* w = v.find("while")) c.while_true = read_condition(w->value, r);
     if (const scene::JsonMember* d = v.find("detail")) c.detail = r.named->text(d->value.text);
     if (r.model && !event->lacks(*r.model).empty())
-      r.fault(name, fmt::format("expected a scene with {} for \"{}\", got none", event->lacks(*r.model), event->name));
+      r.fault(name, tr("expected a scene with {} for \"{}\", got none", event->lacks(*r.model), event->name));
     if (r.model && r.events && r.faults->size() == before) c.event = r.events->watch(*event, arguments, *r.model);
     m_act.m_causes.push_back(std::move(c));
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/training/rules/arguments.hpp>
 
@@ -104,8 +105,7 @@ Arguments read_arguments(const JsonValue& object, std::span<const Parameter> par
   Arguments out;
   for (const Parameter& p : parameters) {
     const scene::JsonMember* m = object.find(p.name);
-    if (!m && p.needed)
-      reading.fault(object, fmt::format("expected \"{}\" ({}) for {}, got none", p.name, p.meaning, what));
+    if (!m && p.needed) reading.fault(object, tr("expected \"{}\" ({}) for {}, got none", p.name, p.meaning, what));
     out.push_back(m ? reader.read(p, m->value) : Argument{});
   }
   return out;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/training/facts/registry.hpp>
 #include <trocar/training/rules/arguments.hpp>
@@ -74,8 +75,7 @@ FactAt read_fact(const JsonValue& v, std::vector<std::string> keys, const RuleRe
   const std::size_t before = r.faults->size();
   const Arguments arguments = read_arguments(v, fact->parameters, fact->name, r);
   if (r.model && !fact->lacks(*r.model).empty())
-    r.fault(name->value,
-            fmt::format("expected a scene with {} for \"{}\", got none", fact->lacks(*r.model), fact->name));
+    r.fault(name->value, tr("expected a scene with {} for \"{}\", got none", fact->lacks(*r.model), fact->name));
   if (!r.model || !r.facts || r.faults->size() != before || !complete(*fact, arguments)) return {fact, -1};
   if (const std::string why = fact->refuses ? fact->refuses(*r.model, arguments) : std::string(); !why.empty()) {
     r.fault(v, why);
@@ -238,7 +238,7 @@ int read_step(const JsonValue& value, const RuleReading& r) {
   }
   if (count == 1) return found;
   if (count > 1)
-    r.fault(value, fmt::format("expected one step, got {}: name one as \"{}(ELEMENT)\"", count, step));
+    r.fault(value, tr("expected one step, got {}: name one as \"{}(ELEMENT)\"", count, step));
   else
     unknown_step(value, step, element, r);
   return -1;

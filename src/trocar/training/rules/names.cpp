@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/training/rules/names.hpp>
 
@@ -60,8 +61,8 @@ std::optional<Meaning> meaning(const JsonValue& v, const RuleReading& r) {
 std::optional<Interval> of_limit(const Limit& limit, const JsonValue& at, const Unit& unit, const RuleReading& r) {
   if (limit.broken) return std::nullopt;
   if (limit.unit().suffix == unit.suffix) return Interval{limit.si_low(), limit.si_high(), limit.is_range};
-  r.fault(at, fmt::format("expected a limit in the unit \"{}\" ({}), got \"{}\" ({})", unit.suffix, unit.words,
-                          limit.name, limit.unit().words));
+  r.fault(at, tr("expected a limit in the unit \"{}\" ({}), got \"{}\" ({})", unit.suffix, unit.words, limit.name,
+                 limit.unit().words));
   return std::nullopt;
 }
 
@@ -156,8 +157,8 @@ std::optional<double> RuleReading::number(const JsonValue& value, const Unit& un
   constexpr double kRounding = 1e-9;
   const std::optional<double> n = number(value, unit);
   if (!n || (*n >= low * unit.si - kRounding && *n <= high * unit.si + kRounding)) return n;
-  fault(value, fmt::format("expected a number in [{:g}, {:g}]{}{}, got {:g}", low, high, unit.suffix.empty() ? "" : " ",
-                           unit.suffix, *n / unit.si));
+  fault(value, tr("expected a number in [{:g}, {:g}]{}{}, got {:g}", low, high, unit.suffix.empty() ? "" : " ",
+                  unit.suffix, *n / unit.si));
   return std::nullopt;
 }
 
@@ -202,7 +203,7 @@ std::optional<NameAt> RuleReading::name(const JsonValue& value) const {
   std::vector<NameAt> all = names(value);
   if (all.size() == 1) return std::move(all[0]);
   const std::optional<Meaning> m = faults->size() == before ? meaning(value, *this) : std::nullopt;
-  if (m && !(m->set && m->set->pending)) fault(value, fmt::format("expected one name, got {}", all.size()));
+  if (m && !(m->set && m->set->pending)) fault(value, tr("expected one name, got {}", all.size()));
   return std::nullopt;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/random.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/training/facts/argument.hpp>
 #include <trocar/training/rules/sets.hpp>
@@ -59,7 +60,7 @@ class SetReader {
   void add(Element e, const JsonValue& at) {
     const auto same = [&e](const Element& other) { return other.name == e.name; };
     if (std::any_of(m_set.elements.begin(), m_set.elements.end(), same))
-      return fault(at, fmt::format("expected each element once, got \"{}\" again", e.name));
+      return fault(at, tr("expected each element once, got \"{}\" again", e.name));
     m_set.elements.push_back(std::move(e));
   }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/training/rules/test.hpp>
 
 namespace trocar::training {
@@ -26,10 +27,9 @@ std::optional<Test> possible(const Test& test, const JsonValue& at, const Tested
   const double least = bounded ? tested.low * unit.si : -kAnything;
   const double most = bounded ? tested.high * unit.si : kAnything;
   if (!empty(test, least, most)) return test;
-  r.fault(at, bounded ? fmt::format("expected a possible value of \"{}\", {:g} to {:g}{}{}, got {}", tested.name,
-                                    tested.low, tested.high, unit.suffix.empty() ? "" : " ", unit.suffix,
-                                    test.shown(unit, false))
-                      : fmt::format("expected possible values of \"{}\", got an empty range", tested.name));
+  r.fault(at, bounded ? tr("expected a possible value of \"{}\", {:g} to {:g}{}{}, got {}", tested.name, tested.low,
+                           tested.high, unit.suffix.empty() ? "" : " ", unit.suffix, test.shown(unit, false))
+                      : tr("expected possible values of \"{}\", got an empty range", tested.name));
   return std::nullopt;
 }
 
@@ -48,12 +48,10 @@ class TestReader {
     one("max_abs", &Test::high, nullptr, true);
     if (const scene::JsonMember* in = m_object.find("in")) range(in->value);
     if (const scene::JsonMember* is = m_object.find("is"))
-      complain(is->value,
-               fmt::format("expected min, max, above, below or in for the number \"{}\", got is", m_tested.name));
+      complain(is->value, tr("expected min, max, above, below or in for the number \"{}\", got is", m_tested.name));
     if (m_bad) return std::nullopt;
     if (!m_said) {
-      complain(m_object,
-               fmt::format("expected a bound for \"{}\" (min, max, above, below, in), got none", m_tested.name));
+      complain(m_object, tr("expected a bound for \"{}\" (min, max, above, below, in), got none", m_tested.name));
       return std::nullopt;
     }
     return possible(m_test, m_object, m_tested, r);
@@ -68,8 +66,8 @@ class TestReader {
   std::optional<Test> truth_of() {
     for (const std::string& key : test_keys())
       if (const scene::JsonMember* m = m_object.find(key); m && key != "is")
-        complain(m->value, fmt::format("expected is: true or false for \"{}\", which is true or false, got {}",
-                                       m_tested.name, key));
+        complain(m->value,
+                 tr("expected is: true or false for \"{}\", which is true or false, got {}", m_tested.name, key));
     const scene::JsonMember* is = m_object.find("is");
     if (is && is->value.kind != Kind::boolean)
       complain(is->value, "expected true or false, got " + scene::shown(is->value));
@@ -90,8 +88,7 @@ class TestReader {
       m_bad = true;
       return;
     }
-    if (std::isfinite(m_test.*bound))
-      complain(m->value, fmt::format("expected one bound on this side, got {} too", key));
+    if (std::isfinite(m_test.*bound)) complain(m->value, tr("expected one bound on this side, got {} too", key));
     m_test.*bound = *n;
     if (beyond) m_test.*beyond = true;
   }
@@ -149,14 +146,14 @@ std::optional<Test> read_short_test(const JsonValue& value, const Tested& tested
       test.high = test.low + 1;
       return test;
     }
-    r.fault(value, fmt::format("expected true or false for \"{}\", got {}", tested.name, scene::shown(value)));
+    r.fault(value, tr("expected true or false for \"{}\", got {}", tested.name, scene::shown(value)));
     return std::nullopt;
   }
   const std::optional<Interval> i = r.interval(value, unit_of(tested.name));
   if (!i) return std::nullopt;
   if (!i->is_range && !tested.is_count) {
-    r.fault(value, fmt::format("expected a range, or {{\"min\": ...}} or {{\"max\": ...}} for \"{}\", got one number",
-                               tested.name));
+    r.fault(value,
+            tr("expected a range, or {{\"min\": ...}} or {{\"max\": ...}} for \"{}\", got one number", tested.name));
     return std::nullopt;
   }
   test.low = i->low;

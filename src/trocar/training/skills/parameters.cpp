@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/training/facts/needs.hpp>
 #include <trocar/training/observe/marks.hpp>
 #include <trocar/training/skills/parameters.hpp>
@@ -46,15 +47,14 @@ std::vector<Parameter> operator+(std::vector<Parameter> a, std::vector<Parameter
 
 std::string lacks_tool(const sim::Model& model, int hand, bool interactions::Abilities::*can) {
   if (can_take(model.hands[size_t(hand)], can)) return {};
-  return fmt::format("the rack at the trocar \"{}\" has no {}", model.hands[size_t(hand)].name,
-                     interactions::kinds_that(can));
+  return tr("the rack at the trocar \"{}\" has no {}", model.hands[size_t(hand)].name, interactions::kinds_that(can));
 }
 
 std::string lacks_landmark(const sim::Model& model, int strand, const std::string& landmark) {
   if (strand < 0) return {};
   for (const sim::LandmarkModel& l : model.strands[size_t(strand)].landmarks)
     if (l.name == landmark) return {};
-  return fmt::format("the strand \"{}\" has no landmark \"{}\"", model.strands[size_t(strand)].name, landmark);
+  return tr("the strand \"{}\" has no landmark \"{}\"", model.strands[size_t(strand)].name, landmark);
 }
 
 Stretch stretch_of(const sim::Model& model, int strand, const std::string& after, const std::string& before) {
@@ -113,7 +113,7 @@ Vec3d Place::tangent(Surgeon& op) const {
 std::string Place::lacks(const sim::Model& model, const SkillArgs& args) {
   if (args.equals("there", "bleeding") && model.vessels.bleeder.vessel < 0) return "the scene has no bleeder";
   if (args("nearest_of").given && model.targets[size_t(args("nearest_of").index)].kind != sim::VisibilityTarget::organ)
-    return fmt::format("\"{}\" is not an organ", model.targets[size_t(args("nearest_of").index)].name);
+    return tr("\"{}\" is not an organ", model.targets[size_t(args("nearest_of").index)].name);
   if (args.equals("there", "pool") && !model.wet.there) return "the scene has no fluids";
   const Argument& of = args("of");
   for (const char* landmark : {"after", "before"})
@@ -121,8 +121,8 @@ std::string Place::lacks(const sim::Model& model, const SkillArgs& args) {
       if (std::string lack = lacks_landmark(model, of.index, args(landmark).word); !lack.empty()) return lack;
   const double farthest = std::max(args.number("at_mm", 0), args.number("from_end_mm", 0));
   if (of.given && farthest > model.strand_bodies[size_t(of.index)].length())
-    return fmt::format("the strand \"{}\" is only {:.1f} mm long", model.strands[size_t(of.index)].name,
-                       1e3 * model.strand_bodies[size_t(of.index)].length());
+    return tr("the strand \"{}\" is only {:.1f} mm long", model.strands[size_t(of.index)].name,
+              1e3 * model.strand_bodies[size_t(of.index)].length());
   return {};
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
 
@@ -36,7 +37,7 @@ class Take final : public Skill {
 std::string lacks_instrument(const sim::Model& model, const SkillArgs& args) {
   const sim::HandModel& hand = model.hands[size_t(args.hand())];
   if (hand.find(args("instrument").word) < 0)
-    return fmt::format("the rack at the trocar \"{}\" has no \"{}\"", hand.name, args("instrument").word);
+    return tr("the rack at the trocar \"{}\" has no \"{}\"", hand.name, args("instrument").word);
   return Place::lacks(model, args);
 }
 

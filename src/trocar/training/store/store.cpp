@@ -4,6 +4,7 @@
 
 #include <trocar/core/files.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/training/store/store_parts.hpp>
 
 namespace trocar::training {
@@ -15,7 +16,7 @@ namespace {
 constexpr unsigned kOwn = 0600;  // names are nobody else's business
 
 std::string whole_reason(const std::string& what, const fs::path& kept) {
-  return fmt::format("{}; the result is kept in {} and imported when the store is next opened", what, kept.string());
+  return tr("{}; the result is kept in {} and imported when the store is next opened", what, kept.string());
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ AttemptLock Store::begin(Attempt& attempt) {
   attempt.store = fs::absolute(m_folder).string();
   AttemptLock lock(m_folder, attempt.uuid);
   if (const std::string fault = put(attempt); !fault.empty())
-    notice(fmt::format("this attempt is not in the session store yet: {}", fault));
+    notice(tr("this attempt is not in the session store yet: {}", fault));
   return lock;
 }
 
@@ -104,10 +105,9 @@ Kept Store::end(Attempt& attempt, AttemptLock& lock) {
     kept.in_database = true;
   } else {
     kept = set_down(attempt);
-    notice(kept.anywhere()
-               ? whole_reason(fmt::format("the session store could not save the result: {}", fault), kept.file)
-               : fmt::format("the result could not be saved ({}): a complete recording {} contains it", fault,
-                             attempt.recording));
+    notice(kept.anywhere() ? whole_reason(tr("the session store could not save the result: {}", fault), kept.file)
+                           : tr("the result could not be saved ({}): a complete recording {} contains it", fault,
+                                attempt.recording));
   }
   lock = {};
   return kept;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/training/store/store_parts.hpp>
 
 namespace trocar::training {
@@ -52,7 +53,7 @@ void Store::open() {
     } catch (const DatabaseFault& fault) {
       m_writable = false;
       if (!fault.damaged() || round > 0) {
-        notice(fmt::format("the session store cannot be written: {}", fault.what()));
+        notice(tr("the session store cannot be written: {}", fault.what()));
         return;
       }
       repair(fault.what());
@@ -84,8 +85,8 @@ void Store::migrate(Database& db) {
   Transaction all(db);
   const std::int64_t version = db.number_of("PRAGMA user_version");
   if (version > kVersion)
-    throw DatabaseFault(fmt::format("{}: made by a newer Trocar (version {} of the tables, this one knows {})",
-                                    database().string(), version, kVersion),
+    throw DatabaseFault(tr("{}: made by a newer Trocar (version {} of the tables, this one knows {})",
+                           database().string(), version, kVersion),
                         8 /*SQLITE_READONLY*/);
   for (std::int64_t v = version; v < kVersion; ++v) db.run(kMigrations[v]);
   db.run(fmt::format("PRAGMA user_version = {}", kVersion));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/training/store/forgetting.hpp>
 #include <trocar/training/store/store_parts.hpp>
 
@@ -27,7 +28,7 @@ std::vector<Attempt> Store::list(const AttemptFilter& filter) const {
     q.bind(std::int64_t(filter.limit > 0 ? filter.limit : -1));
     while (q.next()) out.push_back(row_of(q));
   } catch (const DatabaseFault& fault) {
-    throw core::EnvironmentLacks(fmt::format("the session store cannot be read: {}", fault.what()));
+    throw core::EnvironmentLacks(tr("the session store cannot be read: {}", fault.what()));
   }
   std::reverse(out.begin(), out.end());
   return out;
@@ -70,7 +71,7 @@ std::optional<Attempt> Store::find(const std::string& name) const {
     if (t.next()) a->trace = t.bytes(0);
     return a;
   } catch (const DatabaseFault& fault) {
-    throw core::EnvironmentLacks(fmt::format("the session store cannot be read: {}", fault.what()));
+    throw core::EnvironmentLacks(tr("the session store cannot be read: {}", fault.what()));
   }
 }
 
@@ -85,7 +86,7 @@ std::vector<std::string> Store::trainees() const {
             "ORDER BY max(a.number) DESC");
     while (q.next()) out.push_back(q.text(0));
   } catch (const DatabaseFault& fault) {
-    throw core::EnvironmentLacks(fmt::format("the session store cannot be read: {}", fault.what()));
+    throw core::EnvironmentLacks(tr("the session store cannot be read: {}", fault.what()));
   }
   return out;
 }
@@ -136,7 +137,7 @@ Store::Forgotten Store::forget(const std::string& trainee) {
     }
     out.not_overwritten = overwrite_deleted(db);
   } catch (const DatabaseFault& fault) {
-    throw core::EnvironmentLacks(fmt::format("nothing was deleted: {}", fault.what()));
+    throw core::EnvironmentLacks(tr("nothing was deleted: {}", fault.what()));
   }
   const auto stays = std::stable_partition(out.deleted.begin(), out.deleted.end(), [](const fs::path& recording) {
     std::error_code error;

@@ -1,6 +1,7 @@
 // A damaged database is set aside and built again from what is still readable and from the recordings.
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/training/store/store_parts.hpp>
 
 namespace trocar::training {
@@ -20,12 +21,11 @@ void Store::repair(const std::string& what) {
     aside = m_folder / fmt::format("sessions.sqlite.damaged-{}", n);
   fs::rename(database(), aside, error);
   if (error) {
-    notice(fmt::format("{} is damaged ({}) and cannot be renamed: {}", database().string(), what, error.message()));
+    notice(tr("{} is damaged ({}) and cannot be renamed: {}", database().string(), what, error.message()));
     return;
   }
   for (const char* tail : {"-wal", "-shm"}) fs::rename(database().string() + tail, aside.string() + tail, error);
-  notice(fmt::format("the session store was damaged ({}): it is kept as {}, and a new store is built", what,
-                     aside.string()));
+  notice(tr("the session store was damaged ({}): it is kept as {}, and a new store is built", what, aside.string()));
   try {
     Database db(database(), Database::Access::write, m_patience);
     make_durable(db);
@@ -33,7 +33,7 @@ void Store::repair(const std::string& what) {
     salvage(db, aside);
     take_in_recordings(db);
   } catch (const DatabaseFault& fault) {
-    notice(fmt::format("a new session store could not be built: {}", fault.what()));
+    notice(tr("a new session store could not be built: {}", fault.what()));
   }
 }
 
@@ -93,7 +93,7 @@ void Store::salvage(Database& db, const fs::path& damaged) {
       ++saved;
     }
   });
-  if (opened && saved > 0) notice(fmt::format("{} attempts were read from the damaged store", saved));
+  if (opened && saved > 0) notice(tr("{} attempts were read from the damaged store", saved));
 }
 
 }  // namespace trocar::training

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/training/store/store_parts.hpp>
 
 namespace trocar::training {
@@ -29,7 +30,7 @@ void Store::take_in_recordings(Database& db) {
   Transaction all(db);
   for (Attempt& a : found) write_row(db, a);
   all.commit();
-  notice(fmt::format("{} attempts were imported from their recordings", found.size()));
+  notice(tr("{} attempts were imported from their recordings", found.size()));
 }
 
 void Store::take_in_files(Database& db) {
@@ -70,7 +71,7 @@ void Store::take_in_files(Database& db) {
     std::string trace = file.string();
     trace.replace(trace.size() - std::strlen(kWaiting), std::string::npos, kWaitingTrace);
     fs::remove(trace, ignored);
-    notice(fmt::format("an attempt's result was imported from {}", file.string()));
+    notice(tr("an attempt's result was imported from {}", file.string()));
   }
 }
 
@@ -95,11 +96,10 @@ void Store::settle_running(Database& db) {
     write_row(db, a);
     one.commit();
     if (a.state == AttemptState::interrupted)
-      notice(fmt::format(
-          "attempt {} was interrupted: the program ended unexpectedly; {}", a.number,
-          a.ticks > 0 ? fmt::format("its recording reaches {:.1f} s", a.seconds) : std::string("it has no recording")));
+      notice(tr("attempt {} was interrupted: the program ended unexpectedly; {}", a.number,
+                a.ticks > 0 ? tr("its recording reaches {:.1f} s", a.seconds) : std::string("it has no recording")));
     else
-      notice(fmt::format("attempt {} had ended: its result was imported from its recording", a.number));
+      notice(tr("attempt {} had ended: its result was imported from its recording", a.number));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/printable.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/dicom_elements.hpp>
 #include <trocar/volumes/files/inflate.hpp>
 #include <trocar/volumes/files/raster.hpp>
@@ -94,7 +95,7 @@ class Parser {
   }
 
   [[noreturn]] void damaged(std::size_t at, const std::string& what) const {
-    refuse(m_file, fmt::format("expected a whole DICOM file, got a damaged one: at byte {}: {}", at, what));
+    refuse(m_file, tr("expected a whole DICOM file, got a damaged one: at byte {}: {}", at, what));
   }
 
  private:
@@ -106,7 +107,7 @@ class Parser {
   void need(std::size_t count, std::size_t end) const {
     if (left(end) >= count) return;
     if (m_beginning && end == m_bytes.size()) throw EndsEarly{};
-    damaged(m_at, fmt::format("{} bytes, where {} are left", count, left(end)));
+    damaged(m_at, tr("{} bytes, where {} are left", count, left(end)));
   }
   std::uint32_t number(int width, std::size_t end) {
     need(std::size_t(width), end);
@@ -207,7 +208,7 @@ void use_syntax(DicomDocument& out, Parser& parser, const std::string& file) {
     for (const Syntax& s : kPacked)
       if (uid == s.uid) out.packing = s.packing;
     if (uid.compare(0, 14, "1.2.840.10008.") != 0)
-      refuse(file, fmt::format("expected a transfer syntax of DICOM, got '{}'", core::printable(uid.substr(0, 64))));
+      refuse(file, tr("expected a transfer syntax of DICOM, got '{}'", core::printable(uid.substr(0, 64))));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <trocar/core/decimal.hpp>
 #include <trocar/core/printable.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/dicom_header.hpp>
 #include <trocar/volumes/files/header_fields.hpp>
 
@@ -35,12 +36,11 @@ std::vector<double> decimals_of(const DicomItem& data, std::uint32_t tag, std::s
     word.erase(0, std::min(word.find_first_not_of(' '), word.size()));
     word.erase(word.find_last_not_of(' ') + 1);
     const double value = core::is_decimal(word) ? core::to_double(word) : NAN;
-    if (!(std::fabs(value) <= 1e9))
-      refuse(path, fmt::format("expected numbers up to 1e9 in {}, got {}", name, shown(word)));
+    if (!(std::fabs(value) <= 1e9)) refuse(path, tr("expected numbers up to 1e9 in {}, got {}", name, shown(word)));
     out.push_back(value);
     at = end + 1;
   }
-  if (out.size() < count) refuse(path, fmt::format("expected {} numbers in {}, got {}", count, name, shown(text)));
+  if (out.size() < count) refuse(path, tr("expected {} numbers in {}, got {}", count, name, shown(text)));
   out.resize(count);
   return out;
 }
@@ -70,7 +70,7 @@ class HeaderOfImage {
     if (!tilt.empty()) m_out.tilt_deg = tilt[0];
     const auto frames = decimals(m_data, 0x00280008, 1, "Number of Frames");
     if (!frames.empty() && !(frames[0] >= 1 && frames[0] <= kMostFrames))
-      refuse(m_out.path, fmt::format("expected 1 to {} frames, got {}", kMostFrames, frames[0]));
+      refuse(m_out.path, tr("expected 1 to {} frames, got {}", kMostFrames, frames[0]));
     if (!frames.empty()) m_out.frames = int(frames[0]);
     pixels();
     const auto number = decimals(m_data, 0x00200013, 1, "Instance Number");
@@ -111,8 +111,7 @@ class HeaderOfImage {
     if (m_out.rows == 0 || m_out.columns == 0)
       m_out.fault = "expected an image, got a file without rows and columns";
     else if (samples > 1 || (m_out.photometric != "MONOCHROME2" && m_out.photometric != "MONOCHROME1"))
-      m_out.fault =
-          fmt::format("expected one grey value a pixel, got {} ({} values)", shown(m_out.photometric), samples);
+      m_out.fault = tr("expected one grey value a pixel, got {} ({} values)", shown(m_out.photometric), samples);
     else if (m_data.find(0x00283000))
       m_out.fault = "expected slope and intercept, got values by a table (Modality LUT)";
     m_out.allocated = unsigned_short(0x00280100);
@@ -122,9 +121,8 @@ class HeaderOfImage {
     const bool known = m_out.allocated == 8 || m_out.allocated == 16 || m_out.allocated == 32;
     if (m_out.fault.empty() &&
         (!known || m_out.stored < 1 || m_out.stored > m_out.allocated || high != m_out.stored - 1))
-      m_out.fault =
-          fmt::format("expected 8, 16 or 32 bits a pixel with those that count lowest, got {} of {} bits up to bit {}",
-                      m_out.stored, m_out.allocated, high);
+      m_out.fault = tr("expected 8, 16 or 32 bits a pixel with those that count lowest, got {} of {} bits up to bit {}",
+                       m_out.stored, m_out.allocated, high);
   }
 
   void place(const DicomItem* own, int number) {

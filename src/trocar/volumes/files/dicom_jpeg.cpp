@@ -8,6 +8,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/printable.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/dicom_pixels.hpp>
 #include <trocar/volumes/files/in_child.hpp>
 
@@ -48,7 +49,7 @@ class Marks {
     return out;
   }
   void require(bool holds, const char* what) const {
-    if (!holds) refuse(m_header.path, fmt::format("expected a whole DICOM file, got a damaged one: {}", what));
+    if (!holds) refuse(m_header.path, tr("expected a whole DICOM file, got a damaged one: {}", what));
   }
   /// The end's mark within the last bytes, which may be padding.
   void require_end() const {
@@ -159,10 +160,10 @@ std::vector<char> by_gdcm(const std::vector<std::string>& frames, const std::str
 #else
 
 std::vector<char> by_gdcm(const std::vector<std::string>&, const std::string& syntax, const DicomHeader& header) {
-  throw core::EnvironmentLacks(fmt::format(
-      "{}: this build does not unpack JPEG in DICOM (transfer syntax {}): install libgdcm-dev and build again, "
-      "or convert the series to NIfTI or NRRD",
-      header.path, core::printable(syntax)));
+  throw core::EnvironmentLacks(
+      tr("{}: this build does not unpack JPEG in DICOM (transfer syntax {}): install libgdcm-dev and build again, "
+         "or convert the series to NIfTI or NRRD",
+         header.path, core::printable(syntax)));
 }
 
 #endif
@@ -183,11 +184,10 @@ std::vector<char> unpacked_jpeg(const std::vector<std::string>& frames, DicomPac
     const CodestreamSize size = Marks(packed, header).size(packing);
     if (size.columns != std::uint32_t(header.columns) || size.rows != std::uint32_t(header.rows) ||
         size.components != 1 || size.bits > std::uint32_t(header.allocated) || header.allocated > 16)
-      refuse(header.path,
-             fmt::format("expected a packed frame of {} x {} pixels with one value of up to {} bits, got {} x "
-                         "{} with {} of {} bits",
-                         header.columns, header.rows, std::min(header.allocated, 16), size.columns, size.rows,
-                         size.components, size.bits));
+      refuse(header.path, tr("expected a packed frame of {} x {} pixels with one value of up to {} bits, got {} x "
+                             "{} with {} of {} bits",
+                             header.columns, header.rows, std::min(header.allocated, 16), size.columns, size.rows,
+                             size.components, size.bits));
   }
   return by_gdcm(frames, syntax, header);
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/printable.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/dicom_pixels.hpp>
 
 namespace trocar::volumes {
@@ -54,7 +55,7 @@ void clean_up(std::vector<char>& bytes, const DicomHeader& header) {
 std::vector<char> plain_pixels(const DicomElement& pixels, const DicomHeader& header, bool big) {
   const std::size_t wanted = frame_bytes(header) * std::size_t(header.frames);
   if (pixels.value.size() < wanted)
-    damaged_pixels(header, fmt::format("{} bytes of pixels instead of {}", pixels.value.size(), wanted));
+    damaged_pixels(header, tr("{} bytes of pixels instead of {}", pixels.value.size(), wanted));
   std::vector<char> out(pixels.value.begin(), pixels.value.begin() + std::ptrdiff_t(wanted));
   // Pixels of a byte are written as words of two, too.
   const std::size_t word = std::max<std::size_t>(2, std::size_t(header.allocated / 8));
@@ -74,8 +75,8 @@ std::uint32_t little32(std::string_view bytes, std::size_t at) {
 std::vector<std::string> packed_frames(const DicomElement& pixels, const DicomHeader& header) {
   const std::size_t frames = std::size_t(header.frames);
   if (pixels.fragments.size() < frames + 1)
-    damaged_pixels(header, fmt::format("{} packed frames instead of {}",
-                                       std::max<std::size_t>(pixels.fragments.size(), 1) - 1, frames));
+    damaged_pixels(header,
+                   tr("{} packed frames instead of {}", std::max<std::size_t>(pixels.fragments.size(), 1) - 1, frames));
   std::vector<std::string> out(frames);
   const std::string_view table = pixels.fragments[0];
   const bool one_each = pixels.fragments.size() == frames + 1;
@@ -96,8 +97,7 @@ std::vector<std::string> packed_frames(const DicomElement& pixels, const DicomHe
 /// Runs of bytes; the bytes of a number are apart, the highest first. [PS3.5, annex G]
 std::vector<char> unpacked_rle(std::string_view packed, const DicomHeader& header) {
   const std::size_t width = std::size_t(header.allocated / 8), count = frame_bytes(header) / width;
-  if (packed.size() < 64 || little32(packed, 0) != width)
-    damaged_pixels(header, fmt::format("no RLE of {} segments", width));
+  if (packed.size() < 64 || little32(packed, 0) != width) damaged_pixels(header, tr("no RLE of {} segments", width));
   std::vector<char> out(count * width);
   for (std::size_t s = 0; s < width; ++s) {
     const std::size_t from = little32(packed, 4 + 4 * s);
@@ -131,10 +131,9 @@ std::vector<char> dicom_pixels(const DicomDocument& file, const DicomHeader& hea
   if (file.packing == DicomPacking::none) {
     out = plain_pixels(*pixels, header, file.big_endian);
   } else if (file.packing == DicomPacking::other) {
-    refuse(header.path,
-           fmt::format("expected pixels that are not packed, or by RLE, JPEG, JPEG-LS or JPEG 2000, got the "
-                       "transfer syntax {}",
-                       core::printable(file.syntax)));
+    refuse(header.path, tr("expected pixels that are not packed, or by RLE, JPEG, JPEG-LS or JPEG 2000, got the "
+                           "transfer syntax {}",
+                           core::printable(file.syntax)));
   } else {
     const std::vector<std::string> frames = packed_frames(*pixels, header);
     if (file.packing != DicomPacking::rle) {

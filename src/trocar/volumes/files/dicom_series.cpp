@@ -7,6 +7,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/dicom.hpp>
 #include <trocar/volumes/files/dicom_pixels.hpp>
 
@@ -69,7 +70,7 @@ std::vector<fs::path> files_below(const fs::path& folder) {
     if (it.depth() >= kDeepest) it.disable_recursion_pending();
     if (!it->is_regular_file(error)) continue;
     if (out.size() >= kMostFiles)
-      refuse(folder.generic_string(), fmt::format("expected at most {} files in the folder, got more", kMostFiles));
+      refuse(folder.generic_string(), tr("expected at most {} files in the folder, got more", kMostFiles));
     out.push_back(it->path());
   }
   std::sort(out.begin(), out.end());
@@ -145,8 +146,7 @@ class Stack {
       refuse(m_name, *fault);
     if (const auto fault = place_fault(stack.origin, step)) refuse(m_name, *fault);
     raster.grid = grid_of({first.columns, first.rows, stack.slices}, stack.origin, step);
-    if (first.tilt_deg != 0)
-      m_report.notes.push_back(fmt::format("the gantry was tilted by {:.3g} degrees", first.tilt_deg));
+    if (first.tilt_deg != 0) m_report.notes.push_back(tr("the gantry was tilted by {:.3g} degrees", first.tilt_deg));
     if (first.photometric == "MONOCHROME1")
       m_report.notes.push_back("MONOCHROME1: small values are meant to be shown bright; the values are as in the file");
     if (first.modality == "CT") raster.unit = "HU";
@@ -161,8 +161,8 @@ class Stack {
       raster.owned.resize(raster.wanted());
     }
     if (header.element() != raster.element)
-      refuse(header.path, fmt::format("expected {} as in the other slices, got {}", name_of(raster.element),
-                                      name_of(header.element())));
+      refuse(header.path,
+             tr("expected {} as in the other slices, got {}", name_of(raster.element), name_of(header.element())));
     const std::size_t bytes = pixels.size() / std::size_t(header.frames);
     for (int f = 0; f < header.frames; ++f) {
       const auto slice = std::find(m_wanted.begin(), m_wanted.end(), first_frame(file) + f) - m_wanted.begin();
@@ -193,10 +193,10 @@ class Stack {
     r.frames = frames;
     r.frame = m_options.frame;
     if (m_options.frame < 0 || m_options.frame >= frames)
-      refuse(m_name, fmt::format("expected one of {} images at each position (0 to {}), got {}", frames, frames - 1,
-                                 m_options.frame));
+      refuse(m_name,
+             tr("expected one of {} images at each position (0 to {}), got {}", frames, frames - 1, m_options.frame));
     if (frames > 1)
-      r.notes.push_back(fmt::format("{} images at each position (time points): number {} is read", frames, r.frame));
+      r.notes.push_back(tr("{} images at each position (time points): number {} is read", frames, r.frame));
     return r.frame;
   }
 };
@@ -212,7 +212,7 @@ void share_rescale(Raster& raster) {
 std::size_t choose_series(const Found& found, const fs::path& file, const std::string& folder, int wanted) {
   const int count = int(found.series.size());
   if (wanted < 0 || wanted > count)
-    refuse(folder, fmt::format("expected one of {} series (1 to {}), got {}", count, count, wanted));
+    refuse(folder, tr("expected one of {} series (1 to {}), got {}", count, count, wanted));
   if (wanted > 0) return std::size_t(wanted - 1);
   if (file.empty()) return 0;
   for (std::size_t s = 0; s < found.series.size(); ++s)
@@ -233,11 +233,9 @@ void tell_choice(const Found& found, std::size_t chosen, ReadReport& report) {
     std::string others;
     for (std::size_t s = 0; s < found.series.size() && s < 20; ++s)
       if (s != chosen) others += (others.empty() ? "" : ", ") + named(s);
-    report.notes.push_back(
-        fmt::format("series {} of {} is read; others: {}", named(chosen), found.series.size(), others));
+    report.notes.push_back(tr("series {} of {} is read; others: {}", named(chosen), found.series.size(), others));
   }
-  if (found.others > 0)
-    report.notes.push_back(fmt::format("{} files that are no DICOM images were passed over", found.others));
+  if (found.others > 0) report.notes.push_back(tr("{} files that are no DICOM images were passed over", found.others));
 }
 
 }  // namespace

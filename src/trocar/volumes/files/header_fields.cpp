@@ -5,6 +5,7 @@
 
 #include <trocar/core/decimal.hpp>
 #include <trocar/core/printable.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/header_fields.hpp>
 
 namespace trocar::volumes {
@@ -53,7 +54,7 @@ const HeaderField* HeaderFields::find(std::string_view name) const {
 }
 const HeaderField* HeaderFields::need(std::string_view name) {
   const HeaderField* found = find(name);
-  if (!found) fault(last_line, 1, fmt::format("expected the field '{}', got none", name));
+  if (!found) fault(last_line, 1, tr("expected the field '{}', got none", name));
   return found;
 }
 
@@ -62,14 +63,14 @@ std::vector<double> HeaderFields::numbers(const HeaderField& field, std::size_t 
   const auto words = words_of(field.value);
   if (words.size() < least || words.size() > most) {
     const std::string count = least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
-    fault(field, fmt::format("expected {} numbers, got {}", count, shown(field.value)));
+    fault(field, tr("expected {} numbers, got {}", count, shown(field.value)));
     return std::vector<double>(least);
   }
   for (const std::string_view word : words) {
     const bool number = core::is_decimal(word);
     const double value = number ? core::to_double(word) : 0;
     if (!number || !(std::fabs(value) <= kMostNumber)) {
-      fault(field, fmt::format("expected numbers up to 1e9, got {}", shown(word)));
+      fault(field, tr("expected numbers up to 1e9, got {}", shown(word)));
       return std::vector<double>(least);
     }
     out.push_back(value);
@@ -86,7 +87,7 @@ std::vector<std::int64_t> HeaderFields::integers(const HeaderField& field, std::
     out.push_back(*value);
   }
   if (out.size() == words.size() && out.size() >= least && out.size() <= most) return out;
-  fault(field, fmt::format("expected {} whole numbers, got {}", least, shown(field.value)));
+  fault(field, tr("expected {} whole numbers, got {}", least, shown(field.value)));
   return std::vector<std::int64_t>(least);
 }
 
@@ -113,7 +114,7 @@ HeaderFields read_fields(std::string_view bytes, const std::string& file, char s
     if (at >= bytes.size())
       out.lose(out.last_line, 1,
                last.empty() ? "expected an empty line and the data, got the end of the file"
-                            : fmt::format("expected the field '{}', got the end of the file", last));
+                            : tr("expected the field '{}', got the end of the file", last));
     if (at > kMostHeader || out.fields.size() > kMostFields)
       out.lose(out.last_line, 1, "expected a header up to 1 MiB, got more");
     const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
@@ -125,7 +126,7 @@ HeaderFields read_fields(std::string_view bytes, const std::string& file, char s
     if (line.empty() || line[0] == '#') continue;
     const std::size_t colon = line.find(separator);
     if (colon == std::string_view::npos)
-      out.lose(out.last_line, 1, fmt::format("expected 'field {} value', got {}", separator, shown(line)));
+      out.lose(out.last_line, 1, tr("expected 'field {} value', got {}", separator, shown(line)));
     const bool note = separator == ':' && line.substr(colon, 2) == ":=";
     const std::string_view value = trimmed(line.substr(colon + (note ? 2 : 1)));
     const std::string name = lowered(trimmed(line.substr(0, colon))) + (note ? ":=" : "");
@@ -133,7 +134,7 @@ HeaderFields read_fields(std::string_view bytes, const std::string& file, char s
                                          : std::size_t(value.data() - whole.data())) +
                        1;
     if (!note && out.find(name))
-      out.fault(out.last_line, 1, fmt::format("expected the field {} once, got it again", shown(name)));
+      out.fault(out.last_line, 1, tr("expected the field {} once, got it again", shown(name)));
     out.fields.push_back({name, value, out.last_line, column});
     if (!last.empty() && name == last) return out;
   }

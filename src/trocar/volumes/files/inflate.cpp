@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/inflate.hpp>
 #include <trocar/volumes/files/raster.hpp>
 
@@ -42,7 +43,7 @@ class Inflater {
       } else if (status == Z_BUF_ERROR || (status == Z_OK && before == m_stream.avail_out && packed_left() == 0)) {
         m_ended = true;  // cut off in the middle: who wanted more says so
       } else if (status != Z_OK) {
-        refuse(m_file, fmt::format("expected packed data, got damaged ones, {} bytes from the end", packed_left()));
+        refuse(m_file, tr("expected packed data, got damaged ones, {} bytes from the end", packed_left()));
       }
     }
     return done;
@@ -75,14 +76,13 @@ std::vector<char> inflated(std::string_view packed, Wrapping wrapping, std::size
                            const std::string& file, bool at_most, const Progress& progress) {
   const std::size_t most = packed.size() * kMostRatio + 1024;
   if (!at_most && (count > most || from > most - count))
-    refuse(file, fmt::format("expected {} bytes unpacked, got {} packed, which cannot be so many", from + count,
-                             packed.size()));
+    refuse(file, tr("expected {} bytes unpacked, got {} packed, which cannot be so many", from + count, packed.size()));
   Inflater in(packed, wrapping, file);
   std::vector<char> part(std::min(from, kPart));
   for (std::size_t dropped = 0; dropped < from;) {
     tell(progress, double(dropped) / double(from + count));
     const std::size_t got = in.read(part.data(), std::min(part.size(), from - dropped));
-    if (got == 0) refuse(file, fmt::format("expected {} bytes unpacked, got {}", from + count, dropped));
+    if (got == 0) refuse(file, tr("expected {} bytes unpacked, got {}", from + count, dropped));
     dropped += got;
   }
   // Where it is not known how much there is, memory grows with what was found.
@@ -95,8 +95,7 @@ std::vector<char> inflated(std::string_view packed, Wrapping wrapping, std::size
     done += got;
     if (got == 0) break;
   }
-  if (done < count && !at_most)
-    refuse(file, fmt::format("expected {} bytes unpacked, got {}", from + count, from + done));
+  if (done < count && !at_most) refuse(file, tr("expected {} bytes unpacked, got {}", from + count, from + done));
   out.resize(done);
   return out;
 }

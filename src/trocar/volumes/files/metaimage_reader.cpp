@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/header_fields.hpp>
 #include <trocar/volumes/files/inflate.hpp>
 #include <trocar/volumes/files/readers.hpp>
@@ -56,7 +57,7 @@ class MetaHeader {
     const std::string value = lowered(field->value.substr(0, 10));
     if (value == "true" || value == "t" || value == "1" || value == "yes") return true;
     if (value != "false" && value != "f" && value != "0" && value != "no")
-      m_fields.fault(*field, fmt::format("expected True or False, got {}", shown(field->value)));
+      m_fields.fault(*field, tr("expected True or False, got {}", shown(field->value)));
     return false;
   }
 
@@ -66,7 +67,7 @@ class MetaHeader {
     const std::int64_t count = m_fields.integers(*dims, 1, 1)[0];
     if (count != 3 && count != 4)
       m_fields.lose(dims->line, dims->column,
-                    fmt::format("expected 3 dimensions, or 4 with time points, got {}", shown(dims->value)));
+                    tr("expected 3 dimensions, or 4 with time points, got {}", shown(dims->value)));
     const auto all = m_fields.integers(*sizes, std::size_t(count), std::size_t(count));
     const std::array<std::int64_t, 3> size{all[0], all[1], all[2]};
     if (count == 4) frames = all[3];
@@ -80,15 +81,14 @@ class MetaHeader {
   void element() {
     if (const HeaderField* channels = m_fields.find("elementnumberofchannels"))
       if (m_fields.integers(*channels, 1, 1)[0] != 1)
-        m_fields.fault(*channels, fmt::format("expected one number a voxel, got {}", shown(channels->value)));
+        m_fields.fault(*channels, tr("expected one number a voxel, got {}", shown(channels->value)));
     const HeaderField* field = m_fields.need("elementtype");
     if (!field) return;
     const std::string name = lowered(field->value.substr(0, 40));
     for (const MetaType& t : kMetaTypes)
       if (name == t.name) return void(raster.element = t.element);
-    m_fields.fault(*field,
-                   fmt::format("expected a type from MET_CHAR to MET_ULONG_LONG, MET_FLOAT or MET_DOUBLE, got {}",
-                               shown(field->value)));
+    m_fields.fault(*field, tr("expected a type from MET_CHAR to MET_ULONG_LONG, MET_FLOAT or MET_DOUBLE, got {}",
+                              shown(field->value)));
   }
 
   const HeaderField* either(std::initializer_list<const char*> names) const {
@@ -161,7 +161,7 @@ Raster read_metaimage(const Source& source) {
     const std::string name(header.data->value);
     if (!source.beside || !is_plain_name(name))
       throw core::BadInput({{{source.file, header.data->line, header.data->column},
-                             fmt::format("expected LOCAL or one file of the same folder, got {}", shown(name))}});
+                             tr("expected LOCAL or one file of the same folder, got {}", shown(name))}});
     other = source.beside(name);
     data = other;
   }
@@ -175,7 +175,7 @@ Raster read_metaimage(const Source& source) {
   else
     data = data.substr(data.size() - std::min(data.size(), wanted * std::size_t(header.frames)));  // -1: the last bytes
   if (data.size() < offset || data.size() - offset < wanted)
-    refuse(source.file, fmt::format("expected {} bytes of voxels, got {}", offset + wanted, data.size()));
+    refuse(source.file, tr("expected {} bytes of voxels, got {}", offset + wanted, data.size()));
   if (local)
     raster.bytes = data.substr(offset, wanted);
   else

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/inflate.hpp>
 #include <trocar/volumes/files/readers.hpp>
 
@@ -103,16 +104,16 @@ Element element_of(const Header& h, const std::string& file) {
   for (const TypeCode& type : kTypes)
     if (type.code == h.datatype) {
       if (h.bits != int(8 * width_of(type.element)))
-        refuse(file, fmt::format("expected bitpix {} for datatype {} ({}), got {}", 8 * width_of(type.element),
-                                 h.datatype, name_of(type.element), h.bits));
+        refuse(file, tr("expected bitpix {} for datatype {} ({}), got {}", 8 * width_of(type.element), h.datatype,
+                        name_of(type.element), h.bits));
       return type.element;
     }
   const char* what = h.datatype == 128 || h.datatype == 2304  ? " (colours)"
                      : h.datatype == 32 || h.datatype == 1792 ? " (complex numbers)"
                                                               : "";
-  refuse(file, fmt::format("expected whole or floating-point numbers (datatype 2, 4, 8, 16, 64, 256, 512, 768, 1024, "
-                           "1280), got datatype {}{}",
-                           h.datatype, what));
+  refuse(file, tr("expected whole or floating-point numbers (datatype 2, 4, 8, 16, 64, 256, 512, 768, 1024, "
+                  "1280), got datatype {}{}",
+                  h.datatype, what));
 }
 
 double millimetres(const Header& h) {
@@ -197,11 +198,10 @@ Raster read_nifti(const Source& source) {
            "expected the mark of NIfTI (n+1 or n+2), got none: an Analyze file does not say where left is");
 
   const std::int64_t dims = h.dim[0];
-  if (dims < 2 || dims > 7) refuse(source.file, fmt::format("expected 2 to 7 dimensions, got {}", dims));
+  if (dims < 2 || dims > 7) refuse(source.file, tr("expected 2 to 7 dimensions, got {}", dims));
   const auto dim = [&](std::size_t i) { return std::int64_t(i) <= dims ? h.dim[i] : 1; };
   for (std::size_t i = 5; i <= 7; ++i)
-    if (dim(i) != 1)
-      refuse(source.file, fmt::format("expected one number a voxel, got {} along dimension {}", dim(i), i));
+    if (dim(i) != 1) refuse(source.file, tr("expected one number a voxel, got {} along dimension {}", dim(i), i));
   const std::array<std::int64_t, 3> size{dim(1), dim(2), dim(3)};
   if (const auto fault = size_fault(size, source.options.most_voxels)) refuse(source.file, *fault);
   Vec3d origin;
@@ -214,7 +214,7 @@ Raster read_nifti(const Source& source) {
     raster.rescale = {{h.slope, h.intercept}};
   const std::size_t least = version == Version::one ? 352 : 544;
   if (!(h.vox_offset >= 0 && h.vox_offset <= 1e9))
-    refuse(source.file, fmt::format("expected voxels within the file, got them at byte {}", h.vox_offset));
+    refuse(source.file, tr("expected voxels within the file, got them at byte {}", h.vox_offset));
   const int frame = choose_frame(source, dim(4), "time points");
   // Writers of old left the offset 0 and meant: right behind the header.
   const std::size_t from = std::max(std::size_t(h.vox_offset), least) + std::size_t(frame) * raster.wanted();
@@ -222,8 +222,8 @@ Raster read_nifti(const Source& source) {
     raster.owned = inflated(source.bytes, Wrapping::gzip, from, raster.wanted(), source.file, false,
                             part(source.options.progress, 0, 0.5));
   } else if (from > source.bytes.size() || raster.wanted() > source.bytes.size() - from) {
-    refuse(source.file, fmt::format("expected {} bytes of voxels from byte {} on, got a file of {} bytes",
-                                    raster.wanted(), from, source.bytes.size()));
+    refuse(source.file, tr("expected {} bytes of voxels from byte {} on, got a file of {} bytes", raster.wanted(), from,
+                           source.bytes.size()));
   } else {
     raster.bytes = source.bytes.substr(from, raster.wanted());
   }

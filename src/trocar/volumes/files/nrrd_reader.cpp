@@ -8,6 +8,7 @@
 
 #include <trocar/core/decimal.hpp>
 #include <trocar/core/printable.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/header_fields.hpp>
 #include <trocar/volumes/files/inflate.hpp>
 #include <trocar/volumes/files/readers.hpp>
@@ -114,8 +115,7 @@ class NrrdHeader {
     const std::string name = lowered(field->value.substr(0, 40));
     for (const ElementName& t : kNrrdTypes)
       if (name == t.name) return void(raster.element = t.element);
-    m_fields.fault(*field,
-                   fmt::format("expected a type from int8 to uint64, float or double, got {}", shown(field->value)));
+    m_fields.fault(*field, tr("expected a type from int8 to uint64, float or double, got {}", shown(field->value)));
   }
 
   void sizes() {
@@ -123,9 +123,8 @@ class NrrdHeader {
     if (!dimension || !sizes) m_fields.finish();
     m_axes = m_fields.integers(*dimension, 1, 1)[0];
     if (m_axes != 3 && m_axes != 4)
-      m_fields.lose(
-          dimension->line, dimension->column,
-          fmt::format("expected dimension 3, or 4 with time points or layers, got {}", shown(dimension->value)));
+      m_fields.lose(dimension->line, dimension->column,
+                    tr("expected dimension 3, or 4 with time points or layers, got {}", shown(dimension->value)));
     const auto all = m_fields.integers(*sizes, std::size_t(m_axes), std::size_t(m_axes));
     which_are_space();
     std::array<std::int64_t, 3> size{1, 1, 1};
@@ -139,8 +138,7 @@ class NrrdHeader {
           m_fields.fault(*sizes, "expected time points or layers as the first or last axis, got them between");
       }
     }
-    if (m_layers < 1)
-      m_fields.fault(*sizes, fmt::format("expected at least one time point or layer, got {}", m_layers));
+    if (m_layers < 1) m_fields.fault(*sizes, tr("expected at least one time point or layer, got {}", m_layers));
     if (const auto fault = size_fault(size, m_source.options.most_voxels))
       m_fields.lose(sizes->line, sizes->column, *fault);
     // Layers side by side are in the memory together.
@@ -181,7 +179,7 @@ class NrrdHeader {
     const std::string name = lowered(field->value.substr(0, 40));
     raster.big_endian = name == "big";
     if (name != "big" && name != "little")
-      m_fields.fault(*field, fmt::format("expected little or big, got {}", shown(field->value)));
+      m_fields.fault(*field, tr("expected little or big, got {}", shown(field->value)));
   }
 
   std::string encoding_name() const {
@@ -199,7 +197,7 @@ class NrrdHeader {
     else if (name == "ascii" || name == "text" || name == "txt")
       encoding = Encoding::text;
     else
-      m_fields.fault(*field, fmt::format("expected encoding raw, gzip or ascii, got {}", shown(field->value)));
+      m_fields.fault(*field, tr("expected encoding raw, gzip or ascii, got {}", shown(field->value)));
   }
 
   double unit() {
@@ -209,7 +207,7 @@ class NrrdHeader {
     const std::string first(value.substr(0, std::min(value.find(' '), value.size())));
     for (const auto& [name, mm] : {std::pair<const char*, double>{"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}})
       if (first == fmt::format("\"{}\"", name) || first == name) return mm;
-    m_fields.fault(*field, fmt::format("expected the unit mm, cm, m or um, got {}", shown(value)));
+    m_fields.fault(*field, tr("expected the unit mm, cm, m or um, got {}", shown(value)));
     return 1;
   }
 
@@ -224,9 +222,9 @@ class NrrdHeader {
     const std::string name = lowered(field->value.substr(0, 40));
     for (const Space& s : kSpaces)
       if (name == s.name) return s.to_lps;
-    m_fields.fault(*field, fmt::format("expected left-posterior-superior, right-anterior-superior or "
-                                       "left-anterior-superior, got {}",
-                                       shown(field->value)));
+    m_fields.fault(*field, tr("expected left-posterior-superior, right-anterior-superior or "
+                              "left-anterior-superior, got {}",
+                              shown(field->value)));
     return {1, 1, 1};
   }
 
@@ -270,7 +268,7 @@ class NrrdHeader {
     if (!field) return 0;
     const std::int64_t value = m_fields.integers(*field, 1, 1)[0];
     if (value >= least && value <= 1'000'000'000) return value;
-    m_fields.fault(*field, fmt::format("expected a number from {}, got {}", least, shown(field->value)));
+    m_fields.fault(*field, tr("expected a number from {}, got {}", least, shown(field->value)));
     return 0;
   }
 
@@ -285,7 +283,7 @@ class NrrdHeader {
       const HeaderField* value = note(s, "labelvalue");
       const std::int64_t label = value ? m_fields.integers(*value, 1, 1)[0] : s + 1;
       if (label < 0 || label > 65535) {
-        m_fields.fault(*value, fmt::format("expected a label up to 65535, got {}", shown(value->value)));
+        m_fields.fault(*value, tr("expected a label up to 65535, got {}", shown(value->value)));
         continue;
       }
       segment.label = std::uint16_t(label);
@@ -312,14 +310,14 @@ class NrrdHeader {
 /// Text becomes doubles in our own order of bytes.
 void read_text(std::string_view text, const std::string& file, Raster& raster, std::size_t skip) {
   const std::size_t count = skip + (raster.grid.count() - 1) * raster.stride + 1;
-  if (count > text.size() / 2 + 1) refuse(file, fmt::format("expected {} values, got {} bytes", count, text.size()));
+  if (count > text.size() / 2 + 1) refuse(file, tr("expected {} values, got {} bytes", count, text.size()));
   raster.owned.resize(count * sizeof(double));
   std::size_t at = 0;
   for (std::size_t i = 0; i < count; ++i) {
     at = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
     const std::size_t end = std::min(text.find_first_of(" \t\r\n", at), text.size());
     const std::string_view word = text.substr(at, end - at);
-    if (!core::is_decimal(word)) refuse(file, fmt::format("expected value {} of {}, got {}", i, count, shown(word)));
+    if (!core::is_decimal(word)) refuse(file, tr("expected value {} of {}, got {}", i, count, shown(word)));
     const double value = core::to_double(word);
     std::memcpy(raster.owned.data() + i * sizeof(double), &value, sizeof(double));
     at = end;
@@ -337,7 +335,7 @@ Raster read_nrrd_volume(const Source& source) {
   const std::size_t first = std::min(source.bytes.find('\n'), source.bytes.size());
   const std::string_view magic = source.bytes.substr(0, first);
   if (magic.substr(0, 7) != "NRRD000" || magic.size() < 8 || magic[7] < '1' || magic[7] > '5')
-    throw core::BadInput({{{source.file, 1, 1}, fmt::format("expected NRRD0001 to NRRD0005, got {}", shown(magic))}});
+    throw core::BadInput({{{source.file, 1, 1}, tr("expected NRRD0001 to NRRD0005, got {}", shown(magic))}});
   source.report.format = "NRRD";
   // The first line has no colon: it is passed over as a comment is.
   std::string commented(source.bytes.substr(0, std::min<std::size_t>(source.bytes.size(), (1u << 20) + 65536)));
@@ -358,9 +356,8 @@ Raster read_nrrd_volume(const Source& source) {
   if (header.data_file) {
     const std::string name(header.data_file->value);
     if (!source.beside || !is_plain_name(name))
-      throw core::BadInput(
-          {{{source.file, header.data_file->line, header.data_file->column},
-            fmt::format("expected the data in this file or in one file of its folder, got {}", shown(name))}});
+      throw core::BadInput({{{source.file, header.data_file->line, header.data_file->column},
+                             tr("expected the data in this file or in one file of its folder, got {}", shown(name))}});
     other = source.beside(name);
     data = other;
   } else if (ends_early) {
@@ -385,7 +382,7 @@ Raster read_nrrd_volume(const Source& source) {
     else
       data = data.substr(data.size() - std::min(data.size(), wanted));  // -1: the last bytes of the file
     if (data.size() < offset || data.size() - offset < wanted)
-      refuse(source.file, fmt::format("expected {} bytes of voxels, got {}", offset + wanted, data.size()));
+      refuse(source.file, tr("expected {} bytes of voxels, got {}", offset + wanted, data.size()));
     if (header.data_file)
       raster.owned.assign(data.begin() + std::ptrdiff_t(offset), data.begin() + std::ptrdiff_t(offset + wanted));
     else

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/raster.hpp>
 
 namespace trocar::volumes {
@@ -138,11 +139,9 @@ void refuse(const std::string& file, std::string message) {
 std::optional<std::string> size_fault(const std::array<std::int64_t, 3>& announced, std::size_t most_voxels) {
   std::uint64_t room = most_voxels;
   for (const std::int64_t size : announced) {
-    if (size < 1)
-      return fmt::format("expected sizes of at least 1, got {} x {} x {}", announced[0], announced[1], announced[2]);
+    if (size < 1) return tr("expected sizes of at least 1, got {} x {} x {}", announced[0], announced[1], announced[2]);
     if (size > std::numeric_limits<int>::max() || std::uint64_t(size) > room)
-      return fmt::format("expected at most {} voxels, got {} x {} x {}", most_voxels, announced[0], announced[1],
-                         announced[2]);
+      return tr("expected at most {} voxels, got {} x {} x {}", most_voxels, announced[0], announced[1], announced[2]);
     room /= std::uint64_t(size);
   }
   return {};
@@ -151,10 +150,10 @@ std::optional<std::string> size_fault(const std::array<std::int64_t, 3>& announc
 std::optional<std::string> place_fault(Vec3d origin, const Mat3d& step) {
   for (int k = 0; k < 3; ++k) {
     if (!(std::fabs(origin[k]) <= kMostPlace))
-      return fmt::format("expected an origin within 1e6 mm, got {} on axis {}", origin[k], k);
+      return tr("expected an origin within 1e6 mm, got {} on axis {}", origin[k], k);
     const double size = length(step.column(k));
     if (!(size >= kLeastStep && size <= kMostStep))
-      return fmt::format("expected voxels from 1e-4 to 1e4 mm apart, got {} along axis {}", size, k);
+      return tr("expected voxels from 1e-4 to 1e4 mm apart, got {} along axis {}", size, k);
   }
   const double box = length(step.column(0)) * length(step.column(1)) * length(step.column(2));
   if (!(std::fabs(determinant(step)) > 1e-3 * box)) return "expected three axes that span a voxel, got a flat one";
@@ -164,16 +163,16 @@ std::optional<std::string> place_fault(Vec3d origin, const Mat3d& step) {
 Volume packed_volume(const Raster& raster, const std::string& file, std::vector<std::string>& notes,
                      const Progress& progress) {
   if (raster.size() < raster.wanted())
-    refuse(file, fmt::format("expected {} bytes of voxels, got {}", raster.wanted(), raster.size()));
+    refuse(file, tr("expected {} bytes of voxels, got {}", raster.wanted(), raster.size()));
   Range range;
   each_value(raster, part(progress, 0, 0.4), [&](std::size_t, double v) { range.add(v); });
   if (range.least > range.greatest) refuse(file, "expected voxels with numbers, got none that is one");
   if (range.unusable > 0)
-    notes.push_back(fmt::format("{} voxels hold no number or one beyond 1e30: they became the least value, {}",
-                                range.unusable, range.least));
+    notes.push_back(tr("{} voxels hold no number or one beyond 1e30: they became the least value, {}", range.unusable,
+                       range.least));
   Volume volume{raster.grid, {}, 1, 0, 0, raster.unit};
   choose_numbers(raster, range, volume);
-  if (volume.error > 0) notes.push_back(fmt::format("values are kept in steps of {:.3g}, not exactly", volume.scale));
+  if (volume.error > 0) notes.push_back(tr("values are kept in steps of {:.3g}, not exactly", volume.scale));
   volume.stored.resize(raster.grid.count());
   each_value(raster, part(progress, 0.4, 1),
              [&](std::size_t i, double v) { volume.stored[i] = volume.number_of(usable(v) ? v : range.least); });
@@ -183,7 +182,7 @@ Volume packed_volume(const Raster& raster, const std::string& file, std::vector<
 Labels packed_labels(const Raster& raster, const std::string& file, std::vector<std::string>& notes,
                      const Progress& progress) {
   if (raster.size() < raster.wanted())
-    refuse(file, fmt::format("expected {} bytes of voxels, got {}", raster.wanted(), raster.size()));
+    refuse(file, tr("expected {} bytes of voxels, got {}", raster.wanted(), raster.size()));
   Labels labels{raster.grid, std::vector<std::uint16_t>(raster.grid.count()), raster.segments};
   std::size_t wrong = 0, first_wrong = 0;
   double got = 0;
@@ -197,8 +196,8 @@ Labels packed_labels(const Raster& raster, const std::string& file, std::vector<
   });
   if (wrong > 0) {
     const Index3 v = raster.grid.place(first_wrong);
-    refuse(file, fmt::format("expected labels, whole numbers from 0 to 65535, got {} in voxel ({}, {}, {}){}", got,
-                             v[0], v[1], v[2], wrong > 1 ? fmt::format(" and {} more that are none", wrong - 1) : ""));
+    refuse(file, tr("expected labels, whole numbers from 0 to 65535, got {} in voxel ({}, {}, {}){}", got, v[0], v[1],
+                    v[2], wrong > 1 ? tr(" and {} more that are none", wrong - 1) : ""));
   }
   name_all(labels);
   notes.push_back(fmt::format("{} labels", labels.segments.size()));

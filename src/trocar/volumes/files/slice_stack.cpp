@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/raster.hpp>
 #include <trocar/volumes/files/slice_stack.hpp>
 
@@ -40,8 +41,8 @@ void require_equally_many(const std::vector<Level>& levels, const std::string& f
   const std::size_t usual = levels[0].images.size();
   for (const Level& level : levels)
     if (level.images.size() != usual)
-      refuse(file, fmt::format("expected equally many images at each position, got {} at {:.2f} mm and {} at {:.2f} mm",
-                               usual, levels[0].along, level.images.size(), level.along));
+      refuse(file, tr("expected equally many images at each position, got {} at {:.2f} mm and {} at {:.2f} mm", usual,
+                      levels[0].along, level.images.size(), level.along));
 }
 
 double median_gap(const std::vector<Level>& levels) {
@@ -63,9 +64,9 @@ void require_none_missing(const std::vector<Level>& levels, double spacing, cons
     if (count == kMostNamed) break;
   }
   if (count > 0)
-    refuse(file, fmt::format("expected slices {:.3g} mm apart without gaps, got {} positions; missing at {}{} mm along "
-                             "the slices' normal",
-                             spacing, levels.size(), missing, count == kMostNamed ? ", ..." : ""));
+    refuse(file, tr("expected slices {:.3g} mm apart without gaps, got {} positions; missing at {}{} mm along "
+                    "the slices' normal",
+                    spacing, levels.size(), missing, count == kMostNamed ? ", ..." : ""));
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ SliceStack stack_slices(std::span<const SlicePlace> places, Vec3d row, Vec3d col
   if (levels.size() == 1) {
     const double thickness = places[0].thickness;
     out.step = (thickness > 0 ? thickness : 1) * normal;
-    notes.push_back(fmt::format("a single slice: taken as {:.3g} mm thick", thickness > 0 ? thickness : 1));
+    notes.push_back(tr("a single slice: taken as {:.3g} mm thick", thickness > 0 ? thickness : 1));
     return out;
   }
   require_none_missing(levels, median_gap(levels), file);
@@ -94,13 +95,12 @@ SliceStack stack_slices(std::span<const SlicePlace> places, Vec3d row, Vec3d col
     for (const int i : levels[k].images)
       worst = std::max(worst, length(places[i].position - (out.origin + double(k) * out.step)));
   if (worst > kUneven * spacing + kSamePosition)
-    refuse(file,
-           fmt::format("expected slices evenly {:.3g} mm apart in a straight line, got one {:.3g} mm from its place",
-                       spacing, worst));
+    refuse(file, tr("expected slices evenly {:.3g} mm apart in a straight line, got one {:.3g} mm from its place",
+                    spacing, worst));
   const double thickness = places[0].thickness;
   if (thickness > 0 && std::fabs(thickness - spacing) > 0.01 * spacing)
-    notes.push_back(fmt::format("slices are {:.4g} mm apart by their positions, which counts, and {:.4g} mm thick",
-                                spacing, thickness));
+    notes.push_back(
+        tr("slices are {:.4g} mm apart by their positions, which counts, and {:.4g} mm thick", spacing, thickness));
   return out;
 }
 

@@ -6,6 +6,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/dicom.hpp>
 #include <trocar/volumes/files/dicom_elements.hpp>
 #include <trocar/volumes/files/header_fields.hpp>
@@ -24,8 +25,7 @@ Raster read_bytes(const Source& source) {
   if (looks_like_nifti(source.bytes)) return read_nifti(source);
   if (looks_like_nrrd(source.bytes)) return read_nrrd_volume(source);
   if (looks_like_metaimage(source.bytes)) return read_metaimage(source);
-  refuse(source.file,
-         fmt::format("expected DICOM, NIfTI, NRRD or MetaImage, got {}", shown(source.bytes.substr(0, 16))));
+  refuse(source.file, tr("expected DICOM, NIfTI, NRRD or MetaImage, got {}", shown(source.bytes.substr(0, 16))));
 }
 
 /// What a file is read into: the bytes must live as long as the raster looks into them.
@@ -65,8 +65,7 @@ T straight(T image, ReadReport& report, const ReadOptions& options, const std::s
   const Grid onto = straightened(image.grid);
   if (const auto fault = size_fault({onto.size[0], onto.size[1], onto.size[2]}, 2 * options.most_voxels))
     refuse(file, *fault);
-  report.notes.push_back(
-      fmt::format("the grid is sheared by {:.3g} degrees: it was resampled onto a straight one", shear));
+  report.notes.push_back(tr("the grid is sheared by {:.3g} degrees: it was resampled onto a straight one", shear));
   if constexpr (std::is_same_v<T, Volume>)
     return resampled(image, onto, NAN, part(options.progress, 0.8, 1));
   else
@@ -94,13 +93,13 @@ bool is_plain_name(std::string_view name) {
 }
 
 int choose_frame(const Source& source, std::int64_t frames, const char* what) {
-  if (frames < 1 || frames > 65536) refuse(source.file, fmt::format("expected 1 to 65536 {}, got {}", what, frames));
+  if (frames < 1 || frames > 65536) refuse(source.file, tr("expected 1 to 65536 {}, got {}", what, frames));
   const int wanted = source.options.frame;
   source.report.frames = int(frames);
   source.report.frame = wanted;
   if (wanted < 0 || wanted >= frames)
-    refuse(source.file, fmt::format("expected one of {} {} (0 to {}), got {}", frames, what, frames - 1, wanted));
-  if (frames > 1) source.report.notes.push_back(fmt::format("{} {}: number {} is read", frames, what, wanted));
+    refuse(source.file, tr("expected one of {} {} (0 to {}), got {}", frames, what, frames - 1, wanted));
+  if (frames > 1) source.report.notes.push_back(tr("{} {}: number {} is read", frames, what, wanted));
   return wanted;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/sim/model/seen.hpp>
 #include <trocar/training/observe/hands.hpp>
 #include <trocar/training/skills/parameters.hpp>
@@ -138,7 +139,7 @@ class PartBonds final : public Skill {
 };
 
 std::string lacks_bonds(const sim::Model& model, const SkillArgs& args) {
-  if (model.bonds_index(args("bonds").word) < 0) return fmt::format("there are no bonds \"{}\"", args("bonds").word);
+  if (model.bonds_index(args("bonds").word) < 0) return tr("there are no bonds \"{}\"", args("bonds").word);
   if (!model.energy.there) return "the scene has no current";
   return lacks_tool(model, args.hand(), &interactions::Abilities::coagulate);
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/training/observe/bare_wall.hpp>
 #include <trocar/training/observe/hands.hpp>
 #include <trocar/training/skills/parameters.hpp>
@@ -76,7 +77,7 @@ class TakeHold final : public Skill {
 
 std::string lacks_wall_or_place(const sim::Model& model, const SkillArgs& args) {
   if (args("wall").given && model.membrane_index(args("wall").word) < 0)
-    return fmt::format("there is no wall \"{}\"", args("wall").word);
+    return tr("there is no wall \"{}\"", args("wall").word);
   return Place::lacks(model, args);
 }
 
