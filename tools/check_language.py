@@ -9,7 +9,8 @@ What is checked:
                        table cells of more than 200; forbidden phrases; abbreviations that neither the page nor
                        docs/glossary.md explains. docs/log/ is history and exempt.
   scenes/**/*.json     sentences and forbidden phrases in titles, hints, descriptions (not in comments)
-  src/, app/           the same in the texts of C++ sources, report pages and the installed scripts (not in comments)
+  src/, app/           the same in the texts of C++ sources, report pages and the installed scripts (not in comments);
+                       formatted texts pass through tr()
 tools/language_exceptions.txt names at most 20 exceptions, a line each: `PATH: TEXT OF THE FAULT'S LINE`.
 Exit 0 clean, 1 with one line a fault, 2 unusable arguments.
 """
@@ -167,6 +168,23 @@ def cpp_texts(source):
         yield line, text
 
 
+FORMATTED = re.compile(r"\b(?:fmt::format|fmt::print|ImGui::(?:Text\w*|Button|SetTooltip|MenuItem|BeginMenu|Checkbox))"
+                       r"\(\s*(?:[\w>.:()? -]+,\s*)?((?:\"(?:[^\"\\\n]|\\.)*\"\s*)+)")
+OTHER_LANGUAGE = re.compile(r'^\{\{|^[$#.<]|^(ply|NRRD|CELL_DATA|GET|esac)|=\\"|:=')  # of a file or a protocol
+
+
+def untranslated(source):
+    """(line, message) of formatted texts of three words and more that do not pass through tr()."""
+    for match in FORMATTED.finditer(source):
+        text = "".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', match.group(1)))
+        if QUERY.match(text) or OTHER_LANGUAGE.search(text) or " " not in text.strip():
+            continue
+        words = re.findall(r"[A-Za-z][a-z']+", re.sub(r"\\[nt]", " ", PLACEHOLDER.sub(" ", text)))
+        comment = "//" in source[source.rfind("\n", 0, match.start()) + 1:match.start()]
+        if len(words) >= 3 and max(map(len, words)) >= 4 and not comment:
+            yield source.count("\n", 0, match.start()) + 1, f'"{text[:40]}": write tr("...", ...) around the text'
+
+
 def html_texts(source):
     source = re.sub(r"<(style|script).*?</\1>|<!--.*?-->", lambda m: "\n" * m.group().count("\n"), source, flags=re.DOTALL)
     for match in re.finditer(r">([^<>]*[A-Za-z][^<>]*)<", source):
@@ -207,7 +225,7 @@ def faults_of(root, path, explained):
     if path.suffix == ".json":
         return text_faults(json_texts(source))
     if path.suffix in (".cpp", ".hpp"):
-        return text_faults(cpp_texts(source))
+        return [*text_faults(cpp_texts(source)), *untranslated(source)]
     if path.suffix == ".html":
         return text_faults(html_texts(source))
     return text_faults(script_texts(source)) if relative.endswith(".sh") else []

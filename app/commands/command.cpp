@@ -41,7 +41,7 @@ int fail(const Chosen& chosen, int code, const std::string& message, const Json&
 Json as_json(const std::vector<core::Fault>& faults) {
   Json list = Json::array();
   for (const core::Fault& f : faults)
-    list.push_back({{"file", f.at.file}, {"line", f.at.line}, {"column", f.at.column}, {"message", f.message}});
+    list.push_back({{"file", f.at.file}, {"line", f.at.line}, {"column", f.at.column}, {"message", tr(f.message.c_str())}});
   return list;
 }
 
@@ -53,12 +53,12 @@ int run_guarded(const Chosen& chosen) {
   } catch (const core::BadInput& bad) {
     return fail(chosen, core::kBadInput, bad.what(), as_json(bad.faults()));
   } catch (const core::EnvironmentLacks& lacks) {
-    return fail(chosen, core::kEnvironment, lacks.what(), Json::array());
+    return fail(chosen, core::kEnvironment, tr(lacks.what()), Json::array());
   } catch (const std::bad_alloc&) {
     return fail(chosen, core::kEnvironment, tr("not enough memory: use a coarser scene or a larger machine"),
                 Json::array());
   } catch (const std::exception& error) {  // a fault of ours: nobody's input and nobody's machine
-    return fail(chosen, core::kGoalNotReached, tr("trocar failed: {}", error.what()), Json::array());
+    return fail(chosen, core::kGoalNotReached, tr("trocar failed: {}", tr(error.what())), Json::array());
   }
 }
 

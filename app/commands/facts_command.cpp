@@ -31,7 +31,7 @@ std::string bounds(const Json& number) {
 void print_arguments(const Json& list) {
   for (const Json& a : list)
     fmt::print("      {:16} {}{}: {}{}\n", a["name"].get<std::string>(), a["type"].get<std::string>(), bounds(a),
-               a["meaning"].get<std::string>(), a.contains("optional") ? " (optional)" : "");
+               tr(a["meaning"].get_ref<const std::string&>().c_str()), a.contains("optional") ? tr(" (optional)") : "");
 }
 
 void print_kinds(const char* heading, const Json& kinds) {
@@ -40,7 +40,7 @@ void print_kinds(const char* heading, const Json& kinds) {
     fmt::print(
         "  {:24} {}{}{}\n", k["name"].get<std::string>(),
         k.contains("type") ? "[" + k["type"].get<std::string>() + bounds(k) + "] " : std::string(),
-        k["meaning"].get<std::string>(),
+        tr(k["meaning"].get_ref<const std::string&>().c_str()),
         k.contains("lacks") ? " (not in this scene: it needs " + k["lacks"].get<std::string>() + ")" : std::string());
     print_arguments(k["arguments"]);
     if (k.contains("attributes")) print_arguments(k["attributes"]);

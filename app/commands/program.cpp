@@ -57,6 +57,13 @@ void add_commands(CLI::App& program, Chosen& chosen) {
   add_thumbnail(program, chosen);
 }
 
+/// The descriptions of a command, its options and the commands below it, in the user's language.
+void translate(CLI::App& command) {
+  command.description(tr(command.get_description().c_str()));
+  for (CLI::Option* option : command.get_options()) option->description(tr(option->get_description().c_str()));
+  for (CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; })) translate(*below);
+}
+
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
@@ -70,6 +77,7 @@ int run_program(int argc, const char* const* argv) {
   program.footer(program_footer);
   Chosen chosen;
   add_commands(program, chosen);
+  translate(program);
   const std::string first = argv[1];
   if (!first.empty() && first[0] != '-') {
     Chosen check;

@@ -15,6 +15,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/modeller/picture/handles.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/render/gl/gl_context.hpp>
@@ -255,8 +256,9 @@ void DesignWindow::draw_dials() {
       m_log.event("turned", {{"name", p.name}, {"value", m_desk.value(dial) * unit}});
     }
     if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s: %.3f%s in the file%s", p.name.c_str(), m_desk.value_in_file(dial) * unit,
-                        unit_word(p.measure), dial.bounded ? "" : "; no bounds there");
+      ImGui::SetTooltip("%s", tr("{}: {:.3f}{} in the file{}", p.name, m_desk.value_in_file(dial) * unit,
+                                 unit_word(p.measure), dial.bounded ? "" : tr("; no bounds there"))
+                                  .c_str());
   }
 }
 

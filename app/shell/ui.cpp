@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include <trocar/core/font_file.hpp>
+#include <trocar/core/text.hpp>
 
 extern char** environ;
 
@@ -100,7 +101,7 @@ std::string wrapped(const std::string& s, float width) {
 void text(const std::string& s, const ImVec4& colour) {
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::PushTextWrapPos(0);  // for a word that is wider than everything
-  const std::string lines = wrapped(s, ImGui::GetContentRegionAvail().x);
+  const std::string lines = wrapped(tr(s.c_str()), ImGui::GetContentRegionAvail().x);
   ImGui::TextUnformatted(lines.c_str(), lines.c_str() + lines.size());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
@@ -190,19 +191,20 @@ bool button(const std::string& label, const ButtonLook& look) {
   colour_buttons(look);
   ImGui::BeginDisabled(!look.enabled);
   const float height = look.height > 0 ? look.height * g_scale : 0;
-  const float shrunk = look.width > 0 ? fitting(label, look.width * g_scale - 2 * ImGui::GetStyle().FramePadding.x) : 1;
+  const char* shown = tr(label.c_str());
+  const float shrunk = look.width > 0 ? fitting(shown, look.width * g_scale - 2 * ImGui::GetStyle().FramePadding.x) : 1;
   if (shrunk < 1) ImGui::SetWindowFontScale(shrunk);
-  const bool pressed = ImGui::Button(label.c_str(), {look.width * g_scale, height});
+  const bool pressed = ImGui::Button(shown, {look.width * g_scale, height});
   if (shrunk < 1) ImGui::SetWindowFontScale(1);
   ImGui::EndDisabled();
   ImGui::PopStyleColor(3);
   if (look.enabled) note_widget(label);
-  if (look.tip && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", look.tip);
+  if (look.tip && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tr(look.tip));
   return pressed;
 }
 
 bool checkbox(const std::string& label, bool& value) {
-  const bool changed = ImGui::Checkbox(label.c_str(), &value);
+  const bool changed = ImGui::Checkbox(tr(label.c_str()), &value);
   note_widget(label);
   return changed;
 }
@@ -210,7 +212,7 @@ bool checkbox(const std::string& label, bool& value) {
 bool slider(const std::string& label, double& value, double low, double high, const char* format, bool logarithmic) {
   ImGui::SetNextItemWidth(170 * g_scale);
   const int flags = ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-  const bool changed = ImGui::SliderScalar(label.c_str(), ImGuiDataType_Double, &value, &low, &high, format, flags);
+  const bool changed = ImGui::SliderScalar(tr(label.c_str()), ImGuiDataType_Double, &value, &low, &high, format, flags);
   note_widget(label);
   return changed;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/pictures/analysis_choice.hpp>
 #include <trocar/pictures/camera_choice.hpp>
@@ -214,7 +215,7 @@ void eyes(const sim::Model& model, const sim::State& start, pictures::PictureSiz
     const std::string what = fmt::format("two eyes {}", n.name);
     if (!shots.wants(what)) continue;
     pictures::Pictures pictures(model, size, {{n.mode, {}, false}, {}});
-    shots.take_image(start, what, fmt::format("for two eyes: {}", n.meaning), pictures.still(start));
+    shots.take_image(start, what, tr("for two eyes: {}", n.meaning), pictures.still(start));
   }
 }
 

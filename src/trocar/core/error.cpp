@@ -2,6 +2,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/printable.hpp>
+#include <trocar/core/text.hpp>
 
 namespace trocar::core {
 namespace {
@@ -24,7 +25,7 @@ std::string to_string(const Fault& fault) {
     if (fault.at.column > 0) text += ':' + std::to_string(fault.at.column);
   }
   if (!text.empty()) text += ": ";
-  return printable(text + fault.message);
+  return printable(text + tr(fault.message.c_str()));
 }
 
 BadInput::BadInput(std::vector<Fault> faults) : std::runtime_error(joined(faults)), m_faults(std::move(faults)) {}

@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include <trocar/core/text.hpp>
+
 namespace trocar::core::log {
 
 enum class Level { debug, info, warn, error, off };
@@ -20,7 +22,8 @@ void write(Level level, fmt::string_view message);
 namespace detail {
 template <class... Args>
 void write_formatted(Level at, fmt::format_string<Args...> format, Args&&... args) {
-  if (at >= level()) write(at, fmt::format(format, std::forward<Args>(args)...));
+  if (at >= level())
+    write(at, trocar::detail::format_translated(fmt::string_view(format).data(), fmt::make_format_args(args...)));
 }
 }  // namespace detail
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/pictures/npy.hpp>
 
 namespace trocar::pictures {
@@ -35,7 +36,7 @@ void write(const std::filesystem::path& path, const char* type, const std::vecto
   const std::string begin = head(type, shape);
   out.write(begin.data(), std::streamsize(begin.size()));
   out.write(reinterpret_cast<const char*>(values.data()), std::streamsize(values.size_bytes()));
-  if (!out.flush()) throw core::EnvironmentLacks(fmt::format("cannot write {}: is the disk full?", path.string()));
+  if (!out.flush()) throw core::EnvironmentLacks(tr("cannot write {}: is the disk full?", path.string()));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/tet_files.hpp>
 #include <trocar/geometry/surface_files/surface_writer.hpp>
 #include <trocar/modeller/drive/export_body.hpp>
@@ -94,8 +95,7 @@ Body body_named(const sim::Model& model, const std::string& name) {
       geometry::TriMesh mesh = skin_mesh(wall.skin);
       return {mesh, mesh.positions, {}, mesh.triangles, {}};
     }
-  refuse_export(
-      fmt::format("expected an organ, a strand, a fold, a pouch, a vessel or a wall to export, got \"{}\"", name));
+  refuse_export(tr("expected an organ, a strand, a fold, a pouch, a vessel or a wall to export, got \"{}\"", name));
 }
 
 /// Gmsh's format 2.2: nodes, springs as lines of two nodes, faces as triangles, cells as tetrahedra.
@@ -136,7 +136,7 @@ std::string exported(const sim::Model& model, const std::string& name, const std
   if (ending == ".vtk") return geometry::to_polydata(body.surface, kMillimetre);
   if (ending == ".msh" && !body.drawn) return network_text(body);
   if (ending == ".msh") return geometry::to_gmsh(cells_of_body(*body.drawn), kMillimetre);
-  refuse_export(fmt::format("expected a file that ends in .obj, .stl, .ply, .vtk or .msh, got \"{}\"", ending));
+  refuse_export(tr("expected a file that ends in .obj, .stl, .ply, .vtk or .msh, got \"{}\"", ending));
 }
 
 }  // namespace trocar::modeller

@@ -5,6 +5,7 @@
 
 #include <trocar/core/files.hpp>
 #include <trocar/core/printable.hpp>
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/header_fields.hpp>
 #include <trocar/volumes/files/inflate.hpp>
 #include <trocar/volumes/files/raster.hpp>
@@ -84,12 +85,12 @@ std::string nifti_header(const Grid& grid, std::int16_t datatype, std::int16_t b
 
 void require_small(const Grid& grid) {
   for (const int size : grid.size)
-    if (size > 32767) refuse("NIfTI", fmt::format("expected at most 32767 voxels along an axis, got {}", size));
+    if (size > 32767) refuse("NIfTI", tr("expected at most 32767 voxels along an axis, got {}", size));
 }
 
 void put_in_place(const fs::path& path, const std::string& bytes) {
   if (const std::string said = core::write_file(path, bytes.data(), bytes.size()); !said.empty())
-    refuse(path.generic_string(), fmt::format("expected a file that can be written, got \"{}\"", said));
+    refuse(path.generic_string(), tr("expected a file that can be written, got \"{}\"", said));
 }
 
 template <class Image>
