@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <trocar/core/error.hpp>
 #include <trocar/core/text.hpp>
 
 namespace trocar {
@@ -38,6 +39,11 @@ TEST_F(Text, WithoutATranslationIsReturnedAsWritten) {
 TEST_F(Text, WithAFaultyTranslationIsShownInTheOriginal) {
   set_translator(german);
   EXPECT_EQ(tr("{} s left", 5), "5 s left");
+}
+
+TEST_F(Text, OfAFaultIsTranslatedWhereItIsShown) {
+  set_translator(german);
+  EXPECT_EQ(core::to_string({{"scene.json", 3, 7}, "Paused"}), "scene.json:3:7: Angehalten");
 }
 
 }  // namespace

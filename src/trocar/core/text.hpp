@@ -29,7 +29,7 @@ std::string format_translated(const char* format, fmt::format_args arguments);
 
 /// The same with fields in braces, as fmt::format has them.
 template <class First, class... Rest>
-std::string tr(fmt::format_string<const First&, const Rest&...> format, const First& first, const Rest&... rest) {
+std::string tr(fmt::format_string<First, Rest...> format, First&& first, Rest&&... rest) {
   return detail::format_translated(fmt::string_view(format).data(), fmt::make_format_args(first, rest...));
 }
 
