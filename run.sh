@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and starts Trocar.
 #
-#   ./run.sh                   the start screen of the trainer; where there is no display the scripted surgeon does the
-#                              exercise and leaves pictures, a film, a recording and a report under out/demonstration
+#   ./run.sh                   the start screen of the trainer; without a display a demonstration, which leaves
+#                              pictures, a film, a recording and a report under out/demonstration
 #   ./run.sh build             stops after the build; the program is build/release/trocar
 #   ./run.sh modeller [FILE]   the modeller, with what it needs on demand: STEP and IGES files (188 MB the first time)
 #   ./run.sh ARGUMENTS...      starts the program with these (./run.sh --help, ./run.sh list, ...)
@@ -32,7 +32,7 @@ if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
   exec "$program" train
 fi
 
-echo "run: no display, so the scripted surgeon does $exercise" >&2
+echo "run: no display: demonstration of $exercise" >&2
 cd "$root"
 out=out/demonstration
 rm -rf "$out"

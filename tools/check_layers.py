@@ -59,7 +59,7 @@ FOREIGN = [
 ]
 
 STEP = NUMERICS[1:] + ["geometry"] + BODIES + ["interactions", "sim"]
-DETERMINISTIC = STEP + ["scene", "studies", "training"]  # the scene compiler and the scripted surgeon count too
+DETERMINISTIC = STEP + ["scene", "studies", "training"]  # the scene compiler and the demonstration count too
 
 LIBM = ("sin|cos|tan|sincos|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh|exp|exp2|expm1|log|log2|log10|log1p"
         "|pow|cbrt|hypot|erf|erfc|tgamma|lgamma|fma|lerp")

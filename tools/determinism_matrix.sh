@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The same bits from every build: the scripted surgeon's exercise, recorded by programs made with gcc and clang for
+# The same bits from every build: the demonstration's exercise, recorded by programs made with gcc and clang for
 # three instruction sets, with one and two threads, every SIMD width, drawn and not drawn; then every recording is
 # verified by another build.
 #

@@ -308,7 +308,7 @@ void add_calibrate(CLI::App& box, Chosen& chosen) {
     std::string port, wiring, log;
     bool raw = false, framed = false;
     int baud = 0;
-    std::filesystem::path output = attempt::data_folder() / "box.json";
+    std::filesystem::path output;  // empty: box.json in the data folder
   };
   auto o = std::make_shared<CalibrateChoice>();
   CLI::App* c = add_command(box, chosen, "calibrate", tr("Calibrate a box in a window, and write its file"),
@@ -320,10 +320,11 @@ void add_calibrate(CLI::App& box, Chosen& chosen) {
   c->add_flag("--framed", o->framed, tr("frames with checksums"))->excludes(raw);
   c->add_option("--baud", o->baud, tr("speed of the line [baud]; default: detected"))
       ->check(CLI::Range(300, 4'000'000));
-  c->add_option("--output", o->output, tr("the file that is written"))->capture_default_str();
+  c->add_option("--output", o->output, tr("the file that is written; default: box.json in the data folder"));
   c->add_option("--log", o->log, tr("write events of the window as JSON lines to this file"));
   c->callback([o, &chosen] {
     chosen.run = [o, &chosen] {
+      if (o->output.empty()) o->output = attempt::data_folder() / "box.json";
       const bool settled = o->raw || o->framed || o->baud != 0;
       const bool written =
           calibrate_in_window({o->port, wiring_of(o->wiring, o->raw, o->framed, o->baud), settled, o->output, o->log});

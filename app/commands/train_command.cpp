@@ -271,7 +271,7 @@ void add_train(CLI::App& program, Chosen& chosen) {
                             "  trocar train gynaecology/sterilisation --input demo --headless --record a.rec --shots "
                             "shots --json");
   c->add_option("exercise", o.exercise, tr("a name that `trocar list` shows, or a file; default: the start screen"));
-  c->add_option("--trainee", o.trainee, tr("name of the trainee; default: guest"));
+  c->add_option("--trainee", o.trainee, tr("name of the trainee; default: in a window the last person, otherwise guest"));
   c->add_option("--seed", o.seed, tr("number of a random patient; 0: the standard patient"))
       ->capture_default_str()
       ->transform(whole_number(0, kLargestSeed));

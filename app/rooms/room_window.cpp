@@ -255,7 +255,8 @@ class RoomWindow {
     if (!m_said.empty()) ui::text(m_said, ui::kOrange);
     ui::heading("Keys");
     ui::text(
-        "W S: head down, up   A D: left, right side down   drag: turn   shift: move   wheel: nearer   drag a port: "
+        "W S: head down, up   A D: left, right side down   drag: turn   middle drag: move   wheel: nearer   drag a "
+        "port: "
         "move it   1-4: views   R, C: "
         "reach, clearance   space: play   Esc: close",
         ui::kGrey);

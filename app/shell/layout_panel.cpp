@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/pictures/analysis_choice.hpp>
 #include <trocar/pictures/camera_choice.hpp>
 
@@ -71,7 +72,7 @@ void draw_camera(const char* name, PaneShows shows, Panes& panes) {
   ImGui::PushID(name);
   ImGui::PushButtonRepeat(true);
   const auto step = [&](const char* label) {
-    const bool pressed = ui::button(fmt::format("{}##{}", label, name), {.width = 70, .height = 26});
+    const bool pressed = ui::button(fmt::format("{}##{}", tr(label), name), {.width = 70, .height = 26});
     ImGui::SameLine(0, 3 * ui::scale());
     return pressed;
   };
@@ -81,7 +82,7 @@ void draw_camera(const char* name, PaneShows shows, Panes& panes) {
   if (step("up")) panes.turn(shows, 0, kTurn);
   if (step("down")) panes.turn(shows, 0, -kTurn);
   if (step("nearer")) panes.closer(shows, kStep);
-  if (step("farther")) panes.closer(shows, -kStep);
+  if (step("further")) panes.closer(shows, -kStep);
   ImGui::PopButtonRepeat();
   ui::text(name, ui::kGrey);
   ImGui::PopID();

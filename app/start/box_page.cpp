@@ -44,7 +44,8 @@ void draw_simulated(const StartContent& c, const attempt::ExerciseEntry& exercis
            ui::kGrey);
 }
 
-void draw_port(const std::string& port, const attempt::ExerciseEntry& exercise, StartAnswer& answer) {
+void draw_port(const std::string& port, const std::string& person, const attempt::ExerciseEntry& exercise,
+               StartAnswer& answer) {
   const std::string id = "##" + port;
   ui::text(port);
   if (ui::button(tr("Monitor") + id, {.width = 130, .height = 32}))
@@ -53,8 +54,10 @@ void draw_port(const std::string& port, const attempt::ExerciseEntry& exercise, 
   if (ui::button(tr("Calibrate") + id, {.width = 130, .height = 32}))
     answer.program = {tr("The calibration"), {"box", "calibrate", port}, {}};
   ImGui::SameLine();
-  if (ui::button(tr("Practise with it") + id, {.width = 170, .height = 32}))
+  if (ui::button(tr("Practise with it") + id, {.width = 170, .height = 32})) {
     answer.program = {tr("The exercise with the box"), {"train", exercise.name, "--input", "box:" + port}, {}};
+    if (!person.empty()) answer.program.arguments.insert(answer.program.arguments.end(), {"--trainee", person});
+  }
 }
 
 }  // namespace
@@ -72,7 +75,7 @@ void draw_box_page(const StartContent& c, StartMemory& memory, StartAnswer& answ
   ui::heading(tr("Ports"));
   const std::vector<std::string> ports = box_ports();
   if (ports.empty()) ui::text(tr("No serial port found. Connect the box, or start a simulated one."), ui::kGrey);
-  for (const std::string& port : ports) draw_port(port, exercise, answer);
+  for (const std::string& port : ports) draw_port(port, c.person, exercise, answer);
   const std::string seen = c.children.output(tr("The monitor"));
   if (seen.empty()) return;
   ui::heading(tr("Measured"));

@@ -32,7 +32,8 @@ bool was_left(const PastAttempt& a) { return a.state == "aborted" || a.state == 
 }  // namespace
 
 bool is_reserved_name(const std::string& name) {
-  return name == kNameless || name == "scripted surgeon" || name == "replay" || name == "demonstration";
+  // "scripted surgeon": demonstrations of version 0.1.0's development
+  return name == kNameless || name == "demonstration" || name == "replay" || name == "scripted surgeon";
 }
 
 Past read_past(const training::Store* store, const std::string& person) {

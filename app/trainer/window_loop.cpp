@@ -135,8 +135,8 @@ class Trainer {
  private:
   attempt::AttemptPlan first_plan(const attempt::Lesson& lesson) const {
     attempt::AttemptPlan plan;
-    plan.trainee = m_options.trainee;
     plan.input = m_options.input;
+    if (attempt::mode_of_input(plan.input) != AttemptMode::demonstration) plan.trainee = m_stage.settings.trainee;
     plan.mode = m_options.familiarisation ? AttemptMode::familiarisation
                 : lesson.exercise         ? attempt::mode_of_input(m_options.input)
                                           : AttemptMode::free_practice;

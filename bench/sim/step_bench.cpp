@@ -1,4 +1,4 @@
-// The whole tick of the shipped scene while the scripted surgeon pulls at the tube, and each of its stages.
+// The whole tick of the shipped scene while the demonstration pulls at the tube, and each of its stages.
 //
 //   sim_bench --benchmark_counters_tabular=true
 //

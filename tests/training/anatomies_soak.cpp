@@ -1,4 +1,4 @@
-// The scripted surgeon passes, with at least 80 points, whatever the anatomy: tubes up to a fifth longer or shorter,
+// The demonstration passes, with at least 80 points, whatever the anatomy: tubes up to a fifth longer or shorter,
 // lying elsewhere, tissue up to a fifth softer or stiffer, and with a hand that trembles.
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// The whole exercise by the scripted surgeon in the shipped scene: it passes without an error, its clips and cut are
+// The demonstration of the whole exercise in the shipped scene: it passes without an error, its clips and cut are
 // what the exercise asks for, and the laws of the step hold over all of it.
 #include <algorithm>
 #include <cmath>

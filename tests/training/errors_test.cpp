@@ -1,5 +1,5 @@
 // Each error is made by its cause, costs what the exercise says, and brings with it only what the exercise's table says
-// it implies. Here the State is written by hand, quickly; flaws_soak.cpp has the scripted surgeon make each for real.
+// it implies. Here the State is written by hand, quickly; flaws_soak.cpp has the demonstration make each for real.
 #include <algorithm>
 #include <functional>
 #include <numbers>

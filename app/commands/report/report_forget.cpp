@@ -113,7 +113,7 @@ std::string no_attempts_of(const Store& store, const std::string& trainee) {
 int forget_trainee(Store& store, const ForgetChoice& choice, bool json) {
   const std::string& trainee = choice.trainee;
   if (training::to_forget(store, trainee).attempts == 0) {
-    forget_in_settings(settings_file(), trainee);
+    if (!choice.dry_run && choice.yes) forget_in_settings(settings_file(), trainee);
     if (json)
       say_gone(store, trainee, training::to_forget(store, trainee), json);
     else

@@ -44,7 +44,7 @@ fs::path new_recording(const fs::path& folder, const training::Attempt& attempt)
 }
 
 std::string demonstrator(const std::string& input) {
-  return input == "demo" ? "scripted surgeon" : input.rfind("replay:", 0) == 0 ? "replay" : "";
+  return input == "demo" ? "demonstration" : input.rfind("replay:", 0) == 0 ? "replay" : "";
 }
 
 }  // namespace

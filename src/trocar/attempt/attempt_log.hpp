@@ -66,7 +66,7 @@ class AttemptLog {
   bool m_ended = false;
 };
 
-/// What `--input` means for the attempt: the scripted surgeon and replays demonstrate, all else is the trainee. A
+/// What `--input` means for the attempt: a demonstration or a replay is no attempt of the trainee, everything else is. A
 /// familiarisation that is done again stays one.
 training::AttemptMode mode_of_input(const std::string& input);
 

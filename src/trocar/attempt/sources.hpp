@@ -50,7 +50,7 @@ class ReplaySource : public InputSource {
   std::vector<sim::Input> m_inputs;
 };
 
-/// The scripted surgeon: reads the State as an eye would and does the exercise.
+/// The demonstration: reads the State as an eye would and does the exercise.
 class SurgeonSource : public InputSource {
  public:
   SurgeonSource(const training::Exercise& exercise, const sim::Model& model, std::uint64_t seed)

@@ -44,7 +44,7 @@ Report gather(const training::Store* store, Attempt attempt) {
 Attempt demonstrate(training::Store& store, const std::string& exercise, std::uint64_t seed) {
   const std::unique_ptr<attempt::Lesson> lesson = attempt::load_lesson(exercise, seed);
   const std::unique_ptr<attempt::InputSource> source = lesson->surgeon();
-  core::log::info("the scripted surgeon does {}: this takes a while", exercise);
+  core::log::info("the demonstration of {} runs: this takes a while", exercise);
   attempt::Session session(*lesson);
   attempt::AttemptPlan plan;
   plan.input = "demo";

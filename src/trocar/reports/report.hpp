@@ -1,5 +1,5 @@
 // Everything that is known of an attempt, gathered for its report: its result, its motion, the attempts before it, and
-// how the scripted surgeon did the same.
+// how the demonstration did the same.
 //
 //   Report report = gather(store, attempt);                 // attempt: with result and trace, Store::find gives it
 //   add_pictures(report, recording, folder / "pictures");   // takes seconds; needs OpenGL, says so if there is none
@@ -32,7 +32,7 @@ struct Report {
   Json result = Json::object();
   std::optional<training::Trace> trace;
   std::vector<training::Attempt> history;     ///< the same trainee and exercise, ended, oldest first, with this one
-  std::optional<training::Attempt> scripted;  ///< the scripted surgeon on the same anatomy
+  std::optional<training::Attempt> scripted;  ///< the demonstration on the same anatomy
   std::vector<ReportPicture> pictures;
   std::string pictures_note;  ///< why there are none
   bool names = false;         ///< may the page say whose attempt it is?
@@ -48,7 +48,7 @@ void add_pictures(Report& report, const std::filesystem::path& recording, const 
 void add_pictures(Report& report, const attempt::Session& session, const std::filesystem::path& folder);
 inline constexpr std::size_t kMostPictures = 16;
 
-/// The scripted surgeon does the exercise now, headless, and the store keeps it as a demonstration. Takes minutes.
+/// The demonstration of the exercise runs now, headless, and the store keeps it. Takes minutes.
 /// @throws core::BadInput where nobody knows how to do it
 training::Attempt demonstrate(training::Store& store, const std::string& exercise, std::uint64_t seed);
 

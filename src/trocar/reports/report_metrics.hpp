@@ -1,4 +1,4 @@
-// The report's part on numbers: the table of metrics with what the trainee did before and what the scripted surgeon
+// The report's part on numbers: the table of metrics with what the trainee did before and what the demonstration
 // did, and the learning curve.
 #pragma once
 

@@ -1,6 +1,6 @@
 // What the hands do wrong, whatever the exercise is about: pull or pinch too hard, lose their grip, move or push in
 // where the camera does not look, strike each other. Each watch is asked at its rate and notes mishaps;
-// events/handling.cpp makes events of them.
+// the files of events/ make events of them.
 #pragma once
 
 #include <algorithm>

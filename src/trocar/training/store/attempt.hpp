@@ -12,7 +12,7 @@ namespace trocar::training {
 enum class AttemptMode {
   assessed,
   familiarisation,  ///< getting to know scene and instruments: no score
-  demonstration,    ///< nobody's hands: the scripted surgeon, or a recording done again
+  demonstration,    ///< nobody's hands: the demonstration, or a recording done again
   free_practice,    ///< a bare scene: there is no task, so no score
 };
 

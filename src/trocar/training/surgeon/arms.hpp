@@ -1,4 +1,4 @@
-// The scripted surgeon's hands: tips that move at a hand's pace towards where they are wanted, wrists that turn,
+// The demonstration's hands: tips that move at a hand's pace towards where they are wanted, wrists that turn,
 // handles that close, and the tremor that all hands have.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The scripted surgeon's camera: turned so that all that matters is in the picture, as near as that allows.
+// The demonstration's camera: turned so that all that matters is in the picture, as near as that allows.
 #pragma once
 
 #include <optional>
