@@ -514,7 +514,13 @@ TEST_F(Program, AttemptsAreListedExportedAndForgotten) {
   EXPECT_EQ(gone.exit, core::kDone);
   EXPECT_NE(gone.out.find("Ada: 1 attempt and 0 recordings deleted"), std::string::npos) << gone.out;
   EXPECT_EQ(read(file("data/settings.json")).find("Ada"), std::string::npos);
+  std::ofstream(file("data/settings.json")) << R"({"format": 1, "trainee": "Ada"})";  // settings without attempts
+  for (const char* unsure : {"--dry-run", "--json"}) {
+    EXPECT_EQ(trocar({"report", "--forget", "Ada", unsure}).exit, core::kGoalNotReached);
+    EXPECT_NE(read(file("data/settings.json")).find("Ada"), std::string::npos) << "deleted by " << unsure;
+  }
   EXPECT_EQ(trocar({"report", "--forget", "Ada", "--yes"}).exit, core::kGoalNotReached);
+  EXPECT_EQ(read(file("data/settings.json")).find("Ada"), std::string::npos);
   EXPECT_EQ(trocar({"report", "--list", "--json"}).json()["attempts"].size(), 1u);
 }
 
