@@ -204,7 +204,11 @@ bool button(const std::string& label, const ButtonLook& look) {
 }
 
 bool checkbox(const std::string& label, bool& value) {
-  const bool changed = ImGui::Checkbox(tr(label.c_str()), &value);
+  const float box = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::PushID(label.c_str());
+  const bool changed =
+      ImGui::Checkbox((wrapped(tr(label.c_str()), ImGui::GetContentRegionAvail().x - box) + "###box").c_str(), &value);
+  ImGui::PopID();
   note_widget(label);
   return changed;
 }

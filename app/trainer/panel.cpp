@@ -324,13 +324,17 @@ void draw_generator(const PanelContent& c, bool all) {
       ui::text(line.text, line.warning ? ui::kRed : line.on ? ui::kOrange : ui::kGrey);
 }
 
-/// Figures that no trainee needs in order to go on. Opened and closed by a key, or by the pointer while it is paused.
-void draw_details(const PanelContent& c) {
+/// Opens and closes the details: by a key, or by the pointer while it is paused.
+void draw_details_line(const PanelContent& c) {
   const char* label = *c.details ? tr("Details (F4 hides them)") : tr("Details (F4)");
   ImGui::PushStyleColor(ImGuiCol_Text, ui::kGrey);
   if (ImGui::Selectable(label, false)) *c.details = !*c.details;
   ImGui::PopStyleColor();
-  if (!*c.details) return;
+}
+
+/// Figures that no trainee needs in order to continue.
+void draw_details(const PanelContent& c, float height) {
+  ImGui::BeginChild("details", {0, height}, false, ImGuiWindowFlags_NoNav);
   if (c.now.speed < 0.97) ui::text(tr("Speed: {:.2f} of real time", c.now.speed), ui::kGrey);
   if (attempt::hand_count(c.lesson.model) > 0)
     ui::text(tr("Force at the trocar: {:.1f} N", push_at_trocars(c)), ui::kGrey);
@@ -338,6 +342,7 @@ void draw_details(const PanelContent& c) {
   draw_fluids(c);
   draw_generator(c, true);
   if (!c.device.empty()) ui::text(c.device, ui::kGrey);
+  ImGui::EndChild();
 }
 
 void draw_steps(const PanelContent& c, float height) {
@@ -369,6 +374,16 @@ void draw_list(const Feedback& feedback, float height) {
   ImGui::EndChild();
 }
 
+/// The steps and what happened, above the foot.
+void draw_progress(const PanelContent& c, float line, float foot) {
+  ui::heading(tr("Steps"));
+  const float left_over = ImGui::GetContentRegionAvail().y - foot - 1.9f * line;
+  const float wanted = line * float(c.steps.size()) + 4 * ui::scale();
+  draw_steps(c, std::max(2 * line, std::min(wanted, 0.55f * left_over)));
+  ui::heading(tr("What happened"));
+  draw_list(c.feedback, std::max(line, ImGui::GetContentRegionAvail().y - foot));
+}
+
 }  // namespace
 
 float panel_width(float width, float scale) {
@@ -395,15 +410,12 @@ void draw_panel(const PanelContent& c, float left, float width, float height) {
   draw_generator(c, false);
   draw_outlook(c);
   for (const std::string& line : c.team) ui::text(line, ui::kGrey);
-  draw_details(c);
+  draw_details_line(c);
   const float line = ImGui::GetTextLineHeightWithSpacing(), foot = line + 2 * ui::scale();
-  ui::heading(tr("Steps"));
-  const float left_over = ImGui::GetContentRegionAvail().y - foot - 1.9f * line;
-  const float wanted = line * float(c.steps.size()) + 4 * ui::scale();
-  const float steps = std::max(2 * line, std::min(wanted, 0.55f * left_over));
-  draw_steps(c, steps);
-  ui::heading(tr("What happened"));
-  draw_list(c.feedback, std::max(line, ImGui::GetContentRegionAvail().y - foot));
+  if (*c.details)
+    draw_details(c, std::max(line, ImGui::GetContentRegionAvail().y - foot));
+  else
+    draw_progress(c, line, foot);
   ui::text(foot_of(c), ui::kGrey);
   ImGui::End();
 }

@@ -76,6 +76,15 @@ TEST(Nearness, ANegationTurnsTheTargetRound) {
   EXPECT_TRUE(s.rows()[1].fulfilled);
 }
 
+TEST(Nearness, OneOfTwoSidesIsNamedInWords) {
+  NearStep s(R"("when": {"all": [{"fact": "mark.seen_for_s", "of": "tube_left.trace", "min": 1},
+                                 {"fact": "mark.seen_for_s", "of": "tube_right.trace", "min": 1}]})");
+  const std::vector<Nearness> rows = s.rows();
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].label, "Seen: the left tube");
+  EXPECT_EQ(rows[1].label, "Seen: the right tube");
+}
+
 TEST(Nearness, OfAlternativesTheNearestIsShown) {
   NearStep s(R"("when": {"any": [)" + pull_fact(R"("min": 10)") + ", " + pull_fact(R"("min": 2)") + "]}");
   s.pull(1);

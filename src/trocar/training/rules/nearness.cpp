@@ -19,6 +19,9 @@ std::string readable(std::string name) {
   if (name.ends_with(kTrace)) name.resize(name.size() - kTrace.size());
   for (char& c : name)
     if (c == '_' || c == '.') c = ' ';
+  for (const std::string_view side : {" left", " right"})  // "tube left": the left tube
+    if (name.ends_with(side))
+      return tr("the {} {}", side.substr(1), std::string_view(name).substr(0, name.size() - side.size()));
   return name;
 }
 
