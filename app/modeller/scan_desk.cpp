@@ -513,7 +513,7 @@ void ScanDesk::draw_tools() {
 void ScanDesk::draw_range() {
   bool changed = false;
   ImGui::SetNextItemWidth(170 * ui::scale());
-  if (m_is_ct && ImGui::BeginCombo(tr("preset"), tr("choose (our estimate)"))) {
+  if (m_is_ct && ImGui::BeginCombo(tr("preset"), tr("choose"))) {
     for (const modeller::ValuePreset& p : modeller::kValuePresets) {
       if (ImGui::Selectable(tr("{}: {:.0f} to {:.0f} HU", tr(p.name), p.from, p.to).c_str()))
         m_from = p.from, m_to = p.to, changed = true;

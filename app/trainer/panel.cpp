@@ -29,7 +29,7 @@ void draw_time(const PanelContent& c) {
   if (c.paused)
     ui::text(tr("paused"), ui::kOrange);
   else if (c.now.speed < 0.97)
-    ui::text(tr("slow motion"), ui::kOrange);
+    ui::text(tr("slow motion: slow computer"), ui::kOrange);
   else
     ui::text(c.mode.empty() ? c.trainee : c.mode, ui::kGrey);
 }
