@@ -77,8 +77,8 @@ TEST(Nearness, ANegationTurnsTheTargetRound) {
 }
 
 TEST(Nearness, OneOfTwoSidesIsNamedInWords) {
-  NearStep s(R"("when": {"all": [{"fact": "mark.seen_for_s", "of": "tube_left.trace", "min": 1},
-                                 {"fact": "mark.seen_for_s", "of": "tube_right.trace", "min": 1}]})");
+  NearStep s(R"("when": {"all": [{"fact": "mark.seen_for_s", "of": "tube_left.trace", "share": 0.5, "min": 1},
+                                 {"fact": "mark.seen_for_s", "of": "tube_right.trace", "share": 0.5, "min": 1}]})");
   const std::vector<Nearness> rows = s.rows();
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].label, "Seen: the left tube");

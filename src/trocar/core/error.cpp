@@ -25,7 +25,8 @@ std::string to_string(const Fault& fault) {
     if (fault.at.column > 0) text += ':' + std::to_string(fault.at.column);
   }
   if (!text.empty()) text += ": ";
-  return printable(text + tr(fault.message.c_str()));
+  const char* translated = tr(fault.message.c_str());  // a message without a translation may hold a zero
+  return printable(text + (translated == fault.message.c_str() ? fault.message : translated));
 }
 
 BadInput::BadInput(std::vector<Fault> faults) : std::runtime_error(joined(faults)), m_faults(std::move(faults)) {}
