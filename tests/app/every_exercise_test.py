@@ -14,15 +14,10 @@ import sys
 import time
 
 from start_screen_test import GROUPS, add_person
-from trainee import Failed, in_a_room, xdo
+from trainee import Failed, display_size, in_a_room, xdo
 
 LOADING = 240  # [s] the largest scene, compiled for the first time
 MOST_CLICKS = 3
-
-
-def display_size():
-    done = subprocess.run(["xdotool", "getdisplaygeometry"], capture_output=True, text=True, check=False)
-    return "x".join(done.stdout.split()) if done.returncode == 0 else ""
 
 
 def catalogue(room):
@@ -146,4 +141,4 @@ def every_exercise(room):
 
 
 if __name__ == "__main__":
-    sys.exit(in_a_room(__doc__, every_exercise, [], command=("train", "--size", display_size() or "1280x720")))
+    sys.exit(in_a_room(__doc__, every_exercise, [], command=("train", "--size", display_size())))

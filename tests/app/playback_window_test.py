@@ -11,7 +11,7 @@ import os
 import sys
 import time
 
-from trainee import Failed, in_a_room, open_exercise, xdo
+from trainee import Failed, display_size, in_a_room, open_exercise, xdo
 
 PATIENCE = 420  # [s] for a demonstration to be recorded
 
@@ -107,4 +107,5 @@ def whole(room):
 
 
 if __name__ == "__main__":
-    sys.exit(in_a_room(__doc__, whole, ["--trainee", "Ada", "basics/camera-0"]))
+    sys.exit(in_a_room(__doc__, whole, ["--trainee", "Ada", "basics/camera-0"],
+                       command=("train", "--size", display_size())))

@@ -145,6 +145,13 @@ def xdo(*words):
     subprocess.run(["xdotool", *map(str, words)], check=True, stdout=subprocess.DEVNULL)
 
 
+def display_size():
+    """"1280x720"; that, too, where nothing can tell."""
+    done = subprocess.run(["xdotool", "getdisplaygeometry"], capture_output=True, text=True, check=False) \
+        if shutil.which("xdotool") else None
+    return "x".join(done.stdout.split()) if done and done.returncode == 0 else "1280x720"
+
+
 class MouseAndKeys:
     """Screens by mouse and keys, instruments by mouse and keys."""
     name = "mouse and keys"
