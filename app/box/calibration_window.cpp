@@ -58,7 +58,7 @@ devices::BoxWiring paced(devices::BoxWiring line) {
 }
 
 std::string line_in_words(const devices::BoxWiring& line) {
-  return fmt::format("{} at {} Bd", line.raw ? "raw blocks" : "frames", line.baud);
+  return line.raw ? tr("raw blocks at {} Bd", line.baud) : tr("frames at {} Bd", line.baud);
 }
 
 Json question_json(const BoxQuestion& q) {
@@ -149,8 +149,9 @@ void CalibrationWindow::picture() {
   listen();
   ui::begin_screen("calibration");
   ui::title("Calibrate the instrument box");
-  ui::text(fmt::format("{}: {}{}", m_options.port, line_in_words(m_lines[m_line]),
-                       hears() ? tr(", {:.0f} blocks a second", m_box->status().rate) : ""),
+  const std::string line = line_in_words(m_lines[m_line]);
+  ui::text(hears() ? tr("{}: {}, {:.0f} blocks a second", m_options.port, line, m_box->status().rate)
+                   : fmt::format("{}: {}", m_options.port, line),
            ui::kGrey);
   ImGui::Separator();
   std::string screen = "search";

@@ -116,8 +116,9 @@ int simulate(const SimulateChoice& o, bool json) {
   devices::SoftwareBox box(settings, std::move(motion));
   devices::PseudoTerminal terminal(o.port);
   fmt::print(json ? stderr : stdout, "{}",
-             tr("box at {} ({}), {} at {} Bd; Ctrl-C ends it\n", o.port, terminal.name(),
-                wiring.raw ? "raw blocks" : "frames", wiring.baud));
+             wiring.raw
+                 ? tr("box at {} ({}), raw blocks at {} Bd; Ctrl-C ends it\n", o.port, terminal.name(), wiring.baud)
+                 : tr("box at {} ({}), frames at {} Bd; Ctrl-C ends it\n", o.port, terminal.name(), wiring.baud));
   std::fflush(json ? stderr : stdout);
   const BoxTime end = o.seconds > 0 ? devices::box_now() + devices::box_time(o.seconds) : INT64_MAX;
   devices::serve(box, terminal, [end] { return attempt::interrupted() || devices::box_now() >= end; });

@@ -42,7 +42,10 @@ Compared press(const attempt::SolverPair& pair, double depth, double seconds) {
   attempt::PressSource source(model, plan);
   const std::string hands = tr("{} at {} presses {:.1f} mm in", model.placed(std::size_t(plan.hand)).name,
                                model.hands[std::size_t(plan.hand)].name, 1e3 * depth);
-  core::log::info("{}{}", hands, plan.clear ? "" : "; no path to it is clear, so other tissue moves too");
+  if (plan.clear)
+    core::log::info("{}", hands);
+  else
+    core::log::info("{}; no path to it is clear, so other tissue moves too", hands);
   return {attempt::compare_solvers(pair, source, seconds, [&] { return source.settled(); }), hands, source.describe()};
 }
 
@@ -75,7 +78,7 @@ void print_comparison(const reports::SolverReport& r) {
   fmt::print("{} of {}: {}\n", r.organ, r.scene, r.hands);
   fmt::print("{:28} {:>9} {:>9} {:>8} {:>9} {:>8} {:>9} {:>9} {:>8}\n", "", "moved mm", "rms mm", "", "largest", "",
              "dynamic N", "static N", "");
-  print_sample(r.summary.held.settled ? "pressed in, at rest" : "at the deepest", r.summary.held);
+  print_sample(r.summary.held.settled ? tr("pressed in, at rest") : tr("at the deepest"), r.summary.held);
   print_sample(tr("farthest apart, {:.2f} s", r.summary.worst.seconds), r.summary.worst);
   for (const reports::SolverPress& p : r.presses)
     print_sample(tr("{:.0f} % of its size, {:.1f} mm", 100 * p.share, 1e3 * p.depth), p.summary.held);

@@ -41,7 +41,7 @@ void print_kinds(const char* heading, const Json& kinds) {
         "  {:24} {}{}{}\n", k["name"].get<std::string>(),
         k.contains("type") ? "[" + k["type"].get<std::string>() + bounds(k) + "] " : std::string(),
         tr(k["meaning"].get_ref<const std::string&>().c_str()),
-        k.contains("lacks") ? " (not in this scene: it needs " + k["lacks"].get<std::string>() + ")" : std::string());
+        k.contains("lacks") ? tr(" (not in this scene: it needs {})", k["lacks"].get<std::string>()) : std::string());
     print_arguments(k["arguments"]);
     if (k.contains("attributes")) print_arguments(k["attributes"]);
   }

@@ -57,8 +57,10 @@ int model(const ModelChoice& o, bool json) {
            {"said", session.said()},
            {"pictures", session.pictures()}});
   else
-    fmt::print("{}", tr("{} steps, {} of them changes of the document; {} pictures{}\n", done.steps, done.operations,
-                        session.pictures().size(), session.draws() ? " in " + o.shots : ""));
+    fmt::print("{}", session.draws() ? tr("{} steps, {} of them changes of the document; {} pictures in {}\n",
+                                          done.steps, done.operations, session.pictures().size(), o.shots)
+                                     : tr("{} steps, {} of them changes of the document; {} pictures\n", done.steps,
+                                          done.operations, session.pictures().size()));
   return core::kDone;
 }
 

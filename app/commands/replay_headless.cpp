@@ -232,8 +232,10 @@ pictures::FilmPlan plan_of(const ReplayOptions& o, std::uint64_t last) {
   const bool past = !(o.from * double(core::kTicksPerSecond) <= double(last));
   if (past || plan.from > plan.to)
     throw core::BadInput({{{past ? "--from" : "--to", 0, 0},
-                           tr("expected a part of the recording's {:.3f} s, got {} to {}", double(last) * core::kTick,
-                              o.from, o.to < 0 ? "the end" : fmt::format("{}", o.to))}});
+                           o.to < 0 ? tr("expected a part of the recording's {:.3f} s, got {} to the end",
+                                         double(last) * core::kTick, o.from)
+                                    : tr("expected a part of the recording's {:.3f} s, got {} to {}",
+                                         double(last) * core::kTick, o.from, o.to)}});
   return plan;
 }
 

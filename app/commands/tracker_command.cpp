@@ -46,8 +46,8 @@ Json seen_json(const TrackerThread& tracker) {
 
 void show_seen(const TrackerThread& tracker) {
   const TrackerThread::Status status = tracker.status();
-  fmt::print("{}", tr("{}  {} messages, {} damaged\n", status.connected ? "connected" : "GONE", status.messages,
-                      status.damaged));
+  fmt::print("{}", status.connected ? tr("connected  {} messages, {} damaged\n", status.messages, status.damaged)
+                                    : tr("GONE  {} messages, {} damaged\n", status.messages, status.damaged));
   for (const auto& heard : tracker.poses())
     fmt::print("{}", tr("  {:20} {:9.1f} {:9.1f} {:9.1f} mm  {:5.0f} ms old  {} times\n", heard.what.name,
                         1000 * heard.what.place.x, 1000 * heard.what.place.y, 1000 * heard.what.place.z,

@@ -56,8 +56,10 @@ void tell(const Json& result) {
     fmt::print("done: {:.1f} s\n", result["simulated_seconds"].get<double>());
   } else {
     const Json& a = result["assessment"];
-    fmt::print("{}", tr("{}: score {:.0f} of 100 in {:.0f} s\n", result["passed"].get<bool>() ? "passed" : "not passed",
-                        a["score"]["total"].get<double>(), result["exercise_seconds"].get<double>()));
+    const double score = a["score"]["total"].get<double>(), seconds = result["exercise_seconds"].get<double>();
+    fmt::print("{}", result["passed"].get<bool>()
+                         ? tr("passed: score {:.0f} of 100 in {:.0f} s\n", score, seconds)
+                         : tr("not passed: score {:.0f} of 100 in {:.0f} s\n", score, seconds));
     for (const Json& step : a["steps"])
       fmt::print("  [{}] {}\n", step["done"].get<bool>() ? "x" : " ", step["name"].get<std::string>());
     for (const Json& e : a["errors"])
@@ -271,7 +273,8 @@ void add_train(CLI::App& program, Chosen& chosen) {
                             "  trocar train gynaecology/sterilisation --input demo --headless --record a.rec --shots "
                             "shots --json");
   c->add_option("exercise", o.exercise, tr("a name that `trocar list` shows, or a file; default: the start screen"));
-  c->add_option("--trainee", o.trainee, tr("name of the trainee; default: in a window the last person, otherwise guest"));
+  c->add_option("--trainee", o.trainee,
+                tr("name of the trainee; default: in a window the last person, otherwise guest"));
   c->add_option("--seed", o.seed, tr("number of a random patient; 0: the standard patient"))
       ->capture_default_str()
       ->transform(whole_number(0, kLargestSeed));

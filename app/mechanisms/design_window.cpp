@@ -256,8 +256,10 @@ void DesignWindow::draw_dials() {
       m_log.event("turned", {{"name", p.name}, {"value", m_desk.value(dial) * unit}});
     }
     if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s", tr("{}: {:.3f}{} in the file{}", p.name, m_desk.value_in_file(dial) * unit,
-                                 unit_word(p.measure), dial.bounded ? "" : tr("; no bounds there"))
+      ImGui::SetTooltip("%s", (dial.bounded ? tr("{}: {:.3f}{} in the file", p.name, m_desk.value_in_file(dial) * unit,
+                                                 unit_word(p.measure))
+                                            : tr("{}: {:.3f}{} in the file; no bounds there", p.name,
+                                                 m_desk.value_in_file(dial) * unit, unit_word(p.measure)))
                                   .c_str());
   }
 }

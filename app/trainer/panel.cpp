@@ -324,7 +324,7 @@ void draw_generator(const PanelContent& c, bool all) {
       ui::text(line.text, line.warning ? ui::kRed : line.on ? ui::kOrange : ui::kGrey);
 }
 
-/// Opens and closes the details: by a key, or by the pointer while it is paused.
+/// Opens and closes the details: by a key, or by the pointer while the simulation is paused.
 void draw_details_line(const PanelContent& c) {
   const char* label = *c.details ? tr("Details (F4 hides them)") : tr("Details (F4)");
   ImGui::PushStyleColor(ImGuiCol_Text, ui::kGrey);

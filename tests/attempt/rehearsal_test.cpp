@@ -1,4 +1,4 @@
-// A demonstration that does not come off as it is written is rehearsed, and done again by the choices alone.
+// A demonstration that does not succeed as it is written is rehearsed, and succeeds again by the choices alone.
 #include <gtest/gtest.h>
 
 #include <trocar/attempt/rehearsal/rehearsal.hpp>
@@ -46,7 +46,7 @@ double score_of(const Lesson& lesson) {
   return monitor->score().total;
 }
 
-TEST(Rehearsal, WhatFailsAsItIsWrittenComesOffInAnotherWayAndAgainByTheChoicesAlone) {
+TEST(Rehearsal, WhatFailsAsWrittenSucceedsWithAPerturbationAndAgainByTheChoicesAlone) {
   Lesson lesson = lesson_seen_from("[50, 52]");
   EXPECT_LT(score_of(lesson), 50);
   const Rehearsal r = rehearse(lesson, {.points = 8, .seconds = 600});
@@ -60,14 +60,14 @@ TEST(Rehearsal, WhatFailsAsItIsWrittenComesOffInAnotherWayAndAgainByTheChoicesAl
   EXPECT_LT(score_of(lesson), 50);
 }
 
-TEST(Rehearsal, WhatComesOffAsItIsWrittenNeedsNoChoice) {
+TEST(Rehearsal, WhatSucceedsAsWrittenNeedsNoChoice) {
   const Rehearsal r = rehearse(lesson_seen_from("[54, 56]"), {});
   EXPECT_TRUE(r.passed) << r.obstacle;
   EXPECT_EQ(r.attempts, 1);
   EXPECT_TRUE(r.choices.empty());
 }
 
-TEST(Rehearsal, ATryThatFailsIsTheLastOneWhereAllIsWantedToComeOffAtFirst) {
+TEST(Rehearsal, AFailedTryEndsTheAttemptWhereAllMustSucceedAtFirst) {
   const Lesson lesson = lesson_seen_from("[300, 301]", "3");
   const Rehearsal in_the_end = rehearse(lesson, {.points = 8, .seconds = 20});
   const Rehearsal at_first = rehearse(lesson, {.points = 8, .seconds = 20, .at_first = true});

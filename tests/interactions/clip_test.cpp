@@ -175,7 +175,7 @@ TEST(Clip, TheMagazineEmpties) {
   EXPECT_EQ(a.tool.clips_left, 0);
 }
 
-TEST(Clip, MoreClipsThanTheBookHoldsAreNotWrittenPastItsEnd) {
+TEST(Clip, MoreClipsThanTheBufferHoldsAreNotWrittenPastItsEnd) {
   Applying a(Applying::over(0.030, 0.013));
   a.tool.clips_left = kMaxClips + 4;
   int set = 0;

@@ -155,7 +155,7 @@ TEST(Cut, BladesMustOpenAgainForTheNextOne) {
   EXPECT_EQ(c.snip(), 1);
 }
 
-TEST(Cut, MoreCutsThanTheBookHoldsAreNotWrittenPastItsEnd) {
+TEST(Cut, MoreCutsThanTheBufferHoldsAreNotWrittenPastItsEnd) {
   Cutting c(0.015);
   for (int i = 0; i < kMaxCuts + 5; ++i) c.snip();
   EXPECT_EQ(c.count, kMaxCuts);

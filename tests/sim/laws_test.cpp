@@ -71,7 +71,7 @@ TEST(Step, TheSessionOfTheseTestsGraspsClipsTwiceAndCutsTwice) {
   EXPECT_EQ(session().flags & ~std::uint32_t(tissue::StepReport::kInverted), 0u);
 }
 
-TEST(Step, WhatNoLongerFitsTheBooksIsNeitherCutNorClippedAndIsTold) {
+TEST(Step, WhatNoLongerFitsTheBuffersIsNeitherCutNorClippedAndIsReported) {
   const Model& m = small::model();
   State s = initial_state(m);
   Work w = make_work(m);

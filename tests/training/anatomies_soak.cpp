@@ -63,7 +63,7 @@ TEST_P(CalotAnatomy, TheSurgeonDissectsTheTriangle) {
 INSTANTIATE_TEST_SUITE_P(Seeds, CalotAnatomy, testing::Range(0, 20));
 
 /// Choices that were kept are of the physics, scene and plan that they were rehearsed with: whatever of these was
-/// changed since, they still come off, or are rehearsed anew.
+/// changed since, they still succeed, or are rehearsed again.
 struct RecordedChoices {
   std::string exercise;
   std::uint64_t seed;
@@ -81,7 +81,7 @@ std::vector<RecordedChoices> rehearsed() {
   return all;
 }
 class RehearsedAnatomy : public testing::TestWithParam<RecordedChoices> {};
-TEST_P(RehearsedAnatomy, ComesOffByItsChoices) { expect_passes(GetParam().exercise.c_str(), GetParam().seed, 0); }
+TEST_P(RehearsedAnatomy, SucceedsByItsChoices) { expect_passes(GetParam().exercise.c_str(), GetParam().seed, 0); }
 std::string word_of(const testing::TestParamInfo<RecordedChoices>& given) {
   std::string word =
       std::filesystem::path(given.param.exercise).stem().string() + "_" + std::to_string(given.param.seed);

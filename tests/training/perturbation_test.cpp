@@ -1,4 +1,4 @@
-// Ways of doing a task: the same number is the same way, and only what a hand may do otherwise differs.
+// Perturbations of a task: the same number gives the same task, and only what a hand may do otherwise differs.
 #include <gtest/gtest.h>
 
 #include <trocar/training/expert/perturbation.hpp>
@@ -12,9 +12,9 @@ PlanTask drawn() {
   return task;
 }
 
-TEST(Perturbation, AsWrittenIsAsWritten) { EXPECT_EQ(perturbed(drawn(), 0).arguments, drawn().arguments); }
+TEST(Perturbation, ZeroLeavesTheTaskAsWritten) { EXPECT_EQ(perturbed(drawn(), 0).arguments, drawn().arguments); }
 
-TEST(Perturbation, TheSameNumberIsTheSameWayAndAnotherIsNot) {
+TEST(Perturbation, TheSameNumberGivesTheSameTaskAndAnotherDoesNot) {
   EXPECT_EQ(perturbed(drawn(), 7).arguments, perturbed(drawn(), 7).arguments);
   EXPECT_NE(perturbed(drawn(), 7).arguments, perturbed(drawn(), 8).arguments);
 }

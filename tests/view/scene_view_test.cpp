@@ -888,7 +888,7 @@ TEST(Looks, MaterialsAreWhatTheFilesSay) {
   EXPECT_FALSE(look(pelvis(), "uterus").has(Look::Generator::drape));
 }
 
-TEST(Looks, AModelWithoutABookIsNeutralAllOver) {
+TEST(Looks, AModelWithoutAMaterialLibraryIsNeutralAllOver) {
   const sim::Model bare;
   EXPECT_EQ(look(bare, "liver").name, "neutral");
   EXPECT_EQ(all_looks(bare).size(), 1u);

@@ -82,11 +82,10 @@ void print_mesh(const Json& m) {
   const auto facts = [](const char* what, const Json& f) {
     fmt::print(
         "{}", tr("  {}: {} nodes, {} tetrahedra, {:.4g} ml (cells {:.3g} to {:.3g} ml), smallest dihedral angle {:.3g} "
-                 "degrees,\n    {} triangles on the surface, {} part{}\n",
+                 "degrees,\n    {} triangles on the surface, parts: {}\n",
                  what, f["nodes"].get<int>(), f["cells"].get<int>(), f["volume_ml"].get<double>(),
                  f["smallest_cell_ml"].get<double>(), f["largest_cell_ml"].get<double>(),
-                 f["smallest_dihedral_deg"].get<double>(), f["surface_triangles"].get<int>(), f["parts"].get<int>(),
-                 f["parts"].get<int>() == 1 ? "" : "s"));
+                 f["smallest_dihedral_deg"].get<double>(), f["surface_triangles"].get<int>(), f["parts"].get<int>()));
   };
   facts(m["format"].get<std::string>().c_str(), m["mesh"]);
   for (const Json& note : m["notes"]) fmt::print("  {}\n", note.get<std::string>());

@@ -268,10 +268,10 @@ int show_optimised(const Mechanism& m, const DesignOptions& o, bool json) {
     for (const Json& d : dimensions)
       fmt::print("  {:20} {:>10.4f} -> {:>10.4f} {}\n", d["name"].get<std::string>(), d["before"].get<double>(),
                  d["after"].get<double>(), d["unit"].get<std::string>());
-    fmt::print("{}", tr("  {} tried from {} starts", r.evaluations, r.starts));
-    if (r.range_before > 0)
-      fmt::print("{}", tr("; range of {} {:.1f} %", o.study.frame, 100 * r.range_after / r.range_before));
-    fmt::print("\n before:\n");
+    fmt::print("{}", r.range_before > 0 ? tr("  {} tried from {} starts; range of {} {:.1f} %\n", r.evaluations,
+                                             r.starts, o.study.frame, 100 * r.range_after / r.range_before)
+                                        : tr("  {} tried from {} starts\n", r.evaluations, r.starts));
+    fmt::print(" before:\n");
     print_clearance(out["before"]);
     fmt::print(" after:\n");
     print_clearance(out["after"]);

@@ -94,10 +94,10 @@ int answer_pose(const RoomModel& model, const RoomWords& words, bool json) {
   }
   fmt::print(
       "{}",
-      tr("{}: table {:.1f} deg head down, {:.1f} deg left side down{}; gravity in the patient ({:.2f}, {:.2f}, {:.2f}) "
+      tr("{}: table {:.1f} deg head down, {:.1f} deg left side down; gravity in the patient ({:.2f}, {:.2f}, {:.2f}) "
          "m/s2\n",
-         model.room().name, degrees(pose.tilt.head_down), degrees(pose.tilt.left_down),
-         model.can_tilt(pose.tilt) ? "" : ", which it cannot", g.x, g.y, g.z));
+         model.room().name, degrees(pose.tilt.head_down), degrees(pose.tilt.left_down), g.x, g.y, g.z));
+  if (!model.can_tilt(pose.tilt)) fmt::print("{}", tr("  the table cannot tilt that far\n"));
   for (const Json& a : arms)
     fmt::print(
         "{}",
@@ -111,7 +111,7 @@ int answer_pose(const RoomModel& model, const RoomWords& words, bool json) {
     fmt::print("  {:14} {:14} {}\n", p["name"].get<std::string>(), p["role"].get<std::string>(),
                p["beyond_reach_mm"].get<double>() > 0
                    ? tr("what they hold is {:.0f} mm beyond their reach", p["beyond_reach_mm"].get<double>())
-                   : "reaches what they hold");
+                   : tr("reaches what they hold"));
   fmt::print("{}", tr("  clearance, nearest first (margin {:.1f} mm)\n", 1e3 * model.room().margin));
   for (const Near& n : near)
     if (n.distance < 0.3)

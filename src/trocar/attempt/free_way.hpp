@@ -12,7 +12,7 @@ struct DrawnPoint {
   Vec3d at;           ///< [m]
   double radius = 0;  ///< [m]
 };
-/// Of all organs but one, of strands and of folds, in the rest shape. A few millimetres apart.
+/// Of all organs but one, of strands and of folds, in the drawn shape. A few millimetres apart.
 std::vector<DrawnPoint> drawn_points_but(const sim::Model& model, int organ);
 
 /// Of what encloses a scene.

@@ -24,7 +24,7 @@ struct DeviceNews {
   bool wants_restart = false;  ///< who leads wants the exercise from its beginning
 };
 
-/// Where inputs come from when no hand leads: a file, a recording, the demonstration. One per attempt.
+/// The source of inputs when no person has control: a file, a recording, the demonstration. One per attempt.
 class InputSource {
  public:
   virtual ~InputSource() = default;

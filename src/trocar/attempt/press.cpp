@@ -215,7 +215,7 @@ void PressSource::go_out() {
   if (m_offset > kAbove - kThere && m_ticks > kAfter + int(kAbove / (kGently * sim::kTick))) go_on(Phase::over);
 }
 
-/// Along the normal the tip's place is what counts: above the skin in the rest shape, then from where it touched.
+/// Along the normal the tip's place is what counts: above the skin in the drawn shape, then from where it touched.
 void PressSource::aim() {
   const Vec3d port = m_model.hands[std::size_t(m_press.hand)].port;
   if (m_phase == Phase::down)

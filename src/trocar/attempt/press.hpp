@@ -16,7 +16,7 @@ double organ_size(const sim::Model& model, int organ);
 struct Press {
   int organ = -1, hand = -1;
   int triangle = -1;  ///< of the skin that is touched
-  Vec3d at;           ///< its middle, in the rest shape [m]
+  Vec3d at;           ///< its middle, in the drawn shape [m]
   Vec3d out;          ///< unit, the surface's normal there
   double depth = 0;   ///< how far the instrument's front goes in, from where it touches [m]
   bool clear = true;  ///< nothing that is drawn lies on its way

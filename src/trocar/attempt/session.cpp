@@ -148,7 +148,7 @@ void Session::add_moment(const char* what, int tool, std::string text) {
 
 namespace {
 
-/// The body that an event is about: clips and cuts stand in the State's books.
+/// The body that an event is about: clips and cuts are in the State's buffers.
 BodyId body_of(const sim::Event& e, const sim::State& s) {
   if (e.kind == sim::Event::clipped) return s.clips[size_t(e.index)].body();
   if (e.kind == sim::Event::cut) return s.cuts[size_t(e.index)].body();

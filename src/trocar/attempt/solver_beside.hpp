@@ -31,7 +31,7 @@ class OrganSkin {
   enum class Which { drawn, touched };
   /// `model` must outlive it.
   OrganSkin(const sim::Model& model, int organ, Which which = Which::drawn);
-  /// (vertices) [m]; those that are not at the surface stay in the rest shape.
+  /// (vertices) [m]; those that are not at the surface stay in the drawn shape.
   const std::vector<Vec3f>& at(const sim::State& state);
   const tissue::Skin& skin() const { return *m_skin; }
 

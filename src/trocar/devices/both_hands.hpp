@@ -1,7 +1,7 @@
-// Both hands at once: two instruments, the pair, move in the same sample. A gamepad leads the left hand by what lies at
-// its left and the right hand by what lies at its right; mouse and keys control one hand each. Every hand gets its
-// share of the sample and is controlled by it as one that is controlled alone, see mouse_keyboard.hpp: jaws, locks,
-// valves, grips that are taken up where they were left are the same. While the mode is off, or where there are not two
+// Both hands at once: two instruments, the pair, move in the same sample. A gamepad controls the left hand by what lies
+// at its left and the right hand by what lies at its right; mouse and keys control one hand each. Every hand gets its
+// share of the sample and is controlled by it as a hand alone would be, see mouse_keyboard.hpp: jaws, locks, valves,
+// grips that are taken up where they were left are the same. While the mode is off, or where there are not two
 // instruments, all is as lead() of one hand has it.
 //
 //   BothHands hands;                                              // lives as long as the session
@@ -59,14 +59,14 @@ class HandCommands {
 /// Are both led?
 bool leads_both(const HandSettings& settings, const BothHands& hands) noexcept;
 
-/// One sample: moves `hands` on and reports what the led ones do.
+/// One sample: moves `hands` on and reports what the controlled ones do.
 HandCommands lead(const HandSettings& settings, const HandSample& sample, BothHands& hands) noexcept;
 
 /// Both, or the one that was controlled before: every handle keeps its grip. A take_up() with the next sample follows.
 void lead_both(const HandSettings& settings, bool on, BothHands& hands) noexcept;
 /// Of both: `hand` becomes the one last used; one that is not of the pair takes that one's place. Else as for one.
 void choose(const HandSettings& settings, int hand, BothHands& hands) noexcept;
-/// The mouse controls the hand that the keys led. A take_up() with the next sample follows.
+/// The mouse controls the hand that the keys controlled. A take_up() with the next sample follows.
 void exchange(BothHands& hands) noexcept;
 /// As for one: whatever is held down now counts as old, every handle keeps its grip until it is squeezed again.
 void take_up(const HandSettings& settings, const HandSample& sample, BothHands& hands) noexcept;

@@ -217,7 +217,7 @@ struct HandState {
   HandSample last;        ///< as used, to notice presses
 };
 
-/// One sample: moves `state` on and reports what the led one does.
+/// One sample: moves `state` on and reports what the controlled one does.
 HandCommand lead(const HandSettings& settings, const HandSample& sample, HandState& state) noexcept;
 
 /// Leads hand `hand` from now on (a number, or kScope), as if its key had been pressed.

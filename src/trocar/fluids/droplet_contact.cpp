@@ -33,7 +33,7 @@ struct Moment {
   DropletWork& w;
   Below& below;
   FluidReport& report;
-  float dt, run_dt;       ///< a tick; by which a drop on a surface advances at a time [s]
+  float dt, run_dt;       ///< a tick; by which a drop on a surface advances at once [s]
   Vec3f g;                ///< gravity [m/s^2]
   float per_viscosity;    ///< rho / 3 mu [s/m^2]
   float retention, hold;  ///< width-free retention and overhang [N/m]

@@ -61,7 +61,7 @@ class BoxLeader {
   std::array<int, sim::kMaxTools> m_instrument{};
   std::array<std::uint32_t, devices::kBoxHands> m_changes{};
   std::uint64_t m_reset_ticks = 0;
-  bool m_reset_was_up = false;  ///< who restarts has the foot on it still
+  bool m_reset_was_up = false;  ///< a foot that restarted is still on it
 };
 
 class BoxSource : public InputSource {

@@ -1,4 +1,4 @@
-// Beside the other inputs, a haptic device leads one of the hands in their place, and feels.
+// A haptic device controls one of the hands and feels; the other inputs control the rest.
 //
 //   HapticSource source(hands, haptic_hand);        // both must outlive it
 #pragma once

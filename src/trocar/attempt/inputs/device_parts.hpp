@@ -1,5 +1,4 @@
-// Several devices at one attempt: each has a part that it leads, as if it were controlled alone; the rest is the
-// operator's.
+// Several devices at one attempt: each controls a part, as if that were all; the operator controls the rest.
 //
 //   DeviceParts parts(read_input_map(file), model);
 //   put(parts.lead(pilot.lead(sample, state), readings, dt, state));

@@ -19,13 +19,13 @@ namespace trocar::attempt {
 namespace {
 
 constexpr size_t kMostKept = 2000;           // choices that are not as written, and failures that are remembered
-constexpr int kCameOff = 0, kFailed = 1;     // how a process ends
+constexpr int kSucceeded = 0, kFailed = 1;   // how a process ends
 constexpr double kBack = 5, kFarther = 1.4;  // [s] before a failure it is taken up again; as much further each time
 constexpr double kSamePoint = 10;            // [s]: failures that have the same reason, as far as one can tell
 
 /// What all processes see. Only one of them runs at a time: the others wait for it.
 struct Blackboard {
-  bool came_off = false;
+  bool succeeded = false;
   double seconds = 0, score = 0;  ///< [s] simulated in all
   double lasted = -1;             ///< the attempt that came farthest [s]
   double back_to = 0;             ///< where it is taken up again [s]
@@ -52,7 +52,7 @@ class SharedBlackboard {
   Blackboard* m_board;
 };
 
-/// An attempt. At each moment of choice it becomes two: one that continues, and one that waits for what becomes of it.
+/// An attempt. At each decision point it becomes two: one that continues, and one that waits for what becomes of it.
 class Attempt {
  public:
   Attempt(const Lesson& lesson, const Patience& patience, const SharedBlackboard& board)
@@ -84,10 +84,10 @@ class Attempt {
     }
     look();
     if (!m_monitor->score().passed) fail(tr("{:.0f} points are below the pass mark", m_monitor->score().total));
-    m_board->came_off = true;
+    m_board->succeeded = true;
     m_board->score = m_monitor->score().total;
     keep("");
-    _exit(kCameOff);
+    _exit(kSucceeded);
   }
 
  private:
@@ -98,7 +98,7 @@ class Attempt {
     return m_board->seconds >= m_patience.seconds || m_board->failures >= kMostKept || interrupted();
   }
 
-  /// The process that returns continues in that way; the one that called never comes back.
+  /// The process in which this returns continues with that perturbation; the process that called ends here.
   int perturbation(int choice) {
     for (int chosen = known_at(choice); !spent(); chosen = m_first + m_board->attempts++) {
       std::fflush(nullptr);
@@ -110,7 +110,7 @@ class Attempt {
       }
       int status = 0;
       waitpid(copy, &status, 0);
-      if (WIFEXITED(status) && WEXITSTATUS(status) == kCameOff) _exit(kCameOff);
+      if (WIFEXITED(status) && WEXITSTATUS(status) == kSucceeded) _exit(kSucceeded);
       if (now() > m_board->back_to && choice > 0) break;
       fmt::print(stderr, "{}", tr("rehearsal: {:.0f} s: again, from \"{}\"\n", now(), m_performer.goal()));
     }
@@ -197,7 +197,7 @@ Rehearsal rehearse(const Lesson& lesson, const Patience& patience) {
   }
   int status = 0;
   waitpid(first, &status, 0);
-  return {board->came_off,       {board->choice.begin(), board->choice.begin() + std::ptrdiff_t(board->choices)},
+  return {board->succeeded,      {board->choice.begin(), board->choice.begin() + std::ptrdiff_t(board->choices)},
           board->score,          board->lasted,
           board->seconds,        board->attempts,
           board->obstacle.data()};

@@ -1,8 +1,8 @@
 // Rehearsing a demonstration: what its hands meet is decided by tenths of a millimetre, so where it goes wrong it is
-// taken up again a little earlier and done in another way (training/expert/perturbation.hpp), and from further back
-// each time that it goes wrong at the same point, until all of it succeeds. Nothing is simulated twice: at each moment
-// of choice the process forks, and a copy that fails is forgotten. Steps are deterministic to the bit, so the choices
-// are all that has to be kept.
+// taken up again a little earlier with another perturbation (training/expert/perturbation.hpp), and from further back
+// each time that it goes wrong at the same point, until all of it succeeds. Nothing is simulated twice: at each
+// decision point the process forks, and a copy that fails is forgotten. Steps are deterministic to the bit, so the
+// choices are all that has to be kept.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // Several people at one attempt, over a network: the host's program runs it, the others' programs get every tick's
-// inputs and make the same ticks themselves, to the bit, so that each has the whole picture; what they lead goes back
-// to the host. The simulation pauses while a participant is disconnected, who receives all that was missed on coming
-// back. Only with the token.
+// inputs and make the same ticks themselves, to the bit, so that each has the whole picture; what they control goes
+// back to the host. The simulation pauses while a participant is disconnected; on coming back, the participant receives
+// all missed ticks. Only with the token.
 //
 //   TeamHost team(lesson, {.roles = {"camera", "assistant"}});
 //   tell(team.port(), team.token());

@@ -1,4 +1,4 @@
-// Beside the other inputs, tools that a tracker sees lead some of the hands, or the camera, in their place.
+// Tools that a tracker sees control some of the hands, or the camera; the other inputs control the rest.
 //
 //   TrackedSource source(hands, model, plan, tracker);        // all must outlive it
 #pragma once

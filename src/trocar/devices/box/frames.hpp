@@ -1,5 +1,5 @@
-// What goes over the line between a box and who asks it, and how it is found in a stream of bytes. Our estimate;
-// multi-byte numbers are little-endian.
+// What goes over the line between a box and who asks it, and how it is found in a stream of bytes. Our own
+// protocol; multi-byte numbers are little-endian.
 //
 //   CONFIG  A5 C0 mask[6] crc16                        to the box: send these channels from now on
 //   POLL    A5 (0x10 | seq) crc8                       to the box: one block, please

@@ -1,5 +1,5 @@
 // Where triangles of a mesh cross: the points in which an edge goes through a triangle, or three triangles meet, each
-// once anyone who asks, and the segments between them in which two triangles meet. Used by resolved.cpp only.
+// once however often it is found, and the segments between them in which two triangles meet. Used by resolved.cpp only.
 //
 //   CrossingCuts cuts;
 //   if (cuts.find(mesh, pairs)) ...            // false: something only touches, or too many points

@@ -15,7 +15,7 @@
 namespace trocar::interactions {
 
 /// The sample points of one body that are tested against one surface. `overlap` is how far each one lies inside the
-/// contact distance in the rest shape [m]; samples that never take part are left out at compile.
+/// contact distance in the drawn shape [m]; samples that never take part are left out at compile.
 struct SurfacePair {
   std::int32_t strand = -1, solid = -1, membrane = -1;  ///< whose samples: one of the three is set
   std::int32_t surface = 0;                             ///< which surface: organs first, then walls

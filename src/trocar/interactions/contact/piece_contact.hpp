@@ -18,7 +18,7 @@ void piece_on_piece(const Surface& surface, std::span<const std::int32_t> part, 
 
 /// The lips of a cut within one piece do not pass through each other: nodes that a cut has doubled stay on their sides
 /// of each other, as long as they are near.
-/// @param source  (vertices) the one that a vertex was doubled from; itself where it is in the rest shape
+/// @param source  (vertices) the one that a vertex was doubled from; itself where no cut has made it
 /// @param from,to  of the vertices, those that cuts have made
 void lip_on_lip(const Surface& surface, std::span<const std::int32_t> part, std::span<const std::int32_t> source,
                 int from, int to, NetworkLoads& loads) noexcept;

@@ -1,6 +1,6 @@
 // An organ touches itself: one that is folded rests on itself and does not pass through. Samples of its skin are tested
 // against the plane of the nearest vertex of *another part* of the same skin: one that is further away along the skin,
-// in the rest shape, than the body can be creased.
+// in the drawn shape, than the body can be creased.
 //
 // What must not be taken for contact is the body's own inside: behind a sample on a thin slab lies its other face, with
 // a normal opposed to the sample's, and the sample is behind it. So a part is only ever found from outside, by looking
@@ -25,7 +25,7 @@ struct SelfPair {
   std::int32_t organ = 0;
   std::int32_t words = 0;             ///< of `others`, for each sample
   std::vector<std::int32_t> sample;   ///< skin vertices
-  std::vector<float> overlap;         ///< what a sample lies behind another part in the rest shape [m]
+  std::vector<float> overlap;         ///< what a sample lies behind another part in the drawn shape [m]
   std::vector<std::uint64_t> others;  ///< (samples x words) bit v: vertex v is another part of the skin
 
   bool other(std::size_t i, int vertex) const noexcept {
@@ -39,7 +39,7 @@ struct SelfPair {
   }
 };
 
-/// @param drawn  the organ in the rest shape
+/// @param drawn  the organ in the drawn shape
 /// @param apart  along the skin, nearer vertices are a sample's own neighbourhood [m]
 SelfPair make_self_pair(int organ, const Surface& drawn, std::span<const int> samples, double apart);
 

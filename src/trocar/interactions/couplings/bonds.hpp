@@ -25,7 +25,7 @@ namespace trocar::interactions {
 /// Const after compile.
 struct Bond {
   std::int32_t node = -1;  ///< of the wall
-  BorderHold hold;         ///< never space; drawn_pull: the wall's on the bond, in the rest shape
+  BorderHold hold;         ///< never space; drawn_pull: the wall's on the bond, in the drawn shape
   double area = 0;         ///< that it stands for [m^2]
 
   template <class S, class V>

@@ -24,7 +24,7 @@ struct BorderHold {
   std::int32_t index = -1;    ///< strand or organ
   StrandPlace place;          ///< on the strand
   std::int32_t vertex = -1;   ///< of the organ's skin
-  Vec3d offset{0, 0, 0};      ///< from there to the node in the rest shape [m]
+  Vec3d offset{0, 0, 0};      ///< from there to the node in the drawn shape [m]
   Vec3d drawn_pull{0, 0, 0};  ///< of the sheet in the drawn shape: its holder is drawn bearing it already [N]
 
   template <class S, class V>

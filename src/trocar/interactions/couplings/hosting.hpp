@@ -24,7 +24,7 @@ struct HostPatch {
 };
 
 /// Smooth weights around `point` over the nodes within `radius`, corrected to be affine-exact.
-/// @param rest, mass  (nodes) of the organ in the rest shape [m], [kg]
+/// @param rest, mass  (nodes) of the organ in the drawn shape [m], [kg]
 /// Throws std::invalid_argument when fewer than four nodes are there.
 HostPatch make_patch(std::span<const Vec3d> rest, std::span<const double> mass, Vec3d point, double radius);
 

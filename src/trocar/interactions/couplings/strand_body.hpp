@@ -93,7 +93,7 @@ struct Cut {
   double s = 0;
   double fraction = 0;  ///< of the cross-section, 1 = through
   double beyond = 0;    ///< how far the blades reached past the strand [m]
-  double fold = 0;      ///< how deep the blades went into a membrane: from its strand's surface, in the rest shape [m]
+  double fold = 0;      ///< how deep the blades went into a membrane: from its strand's surface, in the drawn shape [m]
   std::uint64_t tick = 0;
   std::int32_t strand = -1;
   std::int32_t tool = 0;

@@ -48,8 +48,8 @@ struct VesselPoint {
   Vec3d drawn;             ///< [m]
   double s = 0;            ///< 0 .. 1 along the vessel
   double radius = 0;       ///< outer, at rest [m]
-  Vec3d along{1, 0, 0};    ///< unit, from the point before it to the one after it, in the rest shape
-  Vec3d turn{0, 0, 0};     ///< direction before it less direction after it, in the rest shape: points out of the bend
+  Vec3d along{1, 0, 0};    ///< unit, from the point before it to the one after it, in the drawn shape
+  Vec3d turn{0, 0, 0};     ///< direction before it less direction after it, in the drawn shape: points out of the bend
   VesselHold hold;         ///< space: as the next line says
   std::int32_t node = -1;  ///< of an organ or a fold: the one that bears what the vessel does to it
   std::int32_t near[2]{-1, -1};  ///< in space: points of the line whose displacement it shares ...

@@ -3,11 +3,9 @@
 // port.
 //
 //   hoop    a ring in the plane of the sleeve's axis, tip to tip with the sleeve; as much of it is out as the hand
-//   wants.
-//           It goes where the sleeve goes: a hand does not feel it
+//           wants. It goes where the sleeve goes: a hand does not feel it
 //   cloth   nodes in rows around, tied by threads that bear pull and no pressure, and by a little stiffness that keeps
-//   it
-//           from falling flat. Positions are corrected until threads are no longer than they are, and what is in it
+//           it from falling flat. Positions are corrected until threads are no longer than they are, and what is in it
 //           lies on its own side (bag_cloth.hpp)
 //   inside  what has come through the mouth from above is inside until it leaves through the mouth (bag_contents.hpp)
 //

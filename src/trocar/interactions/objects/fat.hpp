@@ -25,7 +25,7 @@ namespace trocar::interactions {
 struct FatTie {
   std::int32_t lobule = -1;
   std::int32_t membrane = -1, node = -1;
-  Vec3d offset{0, 0, 0};  ///< from the node to the lobule, in the rest shape [m]
+  Vec3d offset{0, 0, 0};  ///< from the node to the lobule, in the drawn shape [m]
   double area = 0;        ///< [m^2]
 
   template <class S, class V>

@@ -1,8 +1,8 @@
-// Objects: bodies that bring everything with them: what is no tissue and is moved and put down, and tissue of a kind
-// of its own. A kind of object is a class that brings its
-// model, state, work and all operations with it (rigid.hpp shows which); whatever deals with objects, from the step to
-// the recording, goes through this list. A new kind is its own files, a line here and one in core/body_id.hpp, one in
-// scene/objects/object_scenes.hpp and one in view/objects/object_drawings.hpp.
+// Objects: bodies that bring everything with them: things that are moved and put down, and tissue of a kind of its own.
+// A kind of object is a class that brings its model, state, work and all operations with it (rigid.hpp shows which);
+// code that handles objects, from the step to the recording, goes through this list. A new kind is its own files, a
+// line here and one in core/body_id.hpp, one in scene/objects/object_scenes.hpp and one in
+// view/objects/object_drawings.hpp.
 #pragma once
 
 #include <trocar/core/fields.hpp>

@@ -1,5 +1,5 @@
 // A clip applier closes on thread: what of it lies between the legs is clipped. The clip is part of that thread's State
-// from then on (suture/thread/clips.hpp); its record in the book of clips says how it was set.
+// from then on (suture/thread/clips.hpp); its record in the clip buffer says how it was set.
 #pragma once
 
 #include <trocar/interactions/couplings/strand_body.hpp>
@@ -16,12 +16,12 @@ void gather_thread(const SutureModel& m, const SutureState& s, const ToolModel& 
 
 /// Of all threads that with most stretches between the legs.
 /// @param clip  has closed on nothing else; out: its place on the thread, and which
-/// @param number  of the clip in the State's book
+/// @param number  of the clip in the State's buffer
 /// @return is there any thread between its legs?
 bool clip_thread(const SutureModels& models, const ToolModel& tool, const ToolShape& shape, std::int32_t number,
                  Suture::States& states, Clip& clip) noexcept;
 
-/// A clip of the book as it sits on its thread; null: on none, or it has detached.
+/// A clip of the buffer as it sits on its thread; null: on none, or it has detached.
 const suture::ThreadClip* thread_clip(const Suture::States& states, const Clip& clip, std::int32_t number) noexcept;
 
 }  // namespace trocar::interactions

@@ -27,9 +27,8 @@ constexpr double kNeedleTorque =
     0.003;                         // [N m] that fully pinched jaws bear of a needle's turning between their faces. [d]
 constexpr double kFullPinch = 25;  // [N] of a needle holder
 constexpr int kPartsAfter = 20;    // ticks beyond what a thread bears until it parts.            Our estimate
-constexpr double kCrushes =
-    2;  // breaking forces on an element: no pull of its own presses it harder on steel. Our estimate
-constexpr int kCrushedAfter = 3;      // ticks of that until it parts.                               Our estimate
+constexpr double kCrushes = 2;     // breaking forces on an element: its own pull presses it less on steel. Our estimate
+constexpr int kCrushedAfter = 3;   // ticks of that until it parts.                               Our estimate
 constexpr double kBendsWith = 0.05;   // [N] of a thread that leaves its swage aslant
 constexpr int kAtSwage = 4;           // elements
 constexpr double kTightens = 0.1;     // [N] a tick: a thread that is drawn at 50 mm/s tightens by a third of that

@@ -10,8 +10,7 @@
 
 namespace trocar::interactions {
 
-inline constexpr double kAcrossWire =
-    200;  ///< of a millimetre of track [N/m]; times 1/mm: what an area costs. Our estimate
+inline constexpr double kAcrossWire = 200;     ///< per millimetre of track [N/m]; per area: times 1/mm. Our estimate
 inline constexpr double kTipStiffness = 1000;  ///< of skin under a tip [N/m]
 inline constexpr double kThreadHole = 1000;    ///< of a hole about the thread [N/m]
 inline constexpr double kPricks = 0.25;        ///< cosine between tip and skin's normal above which it can pierce

@@ -18,7 +18,7 @@ inline constexpr double kBesideBlades = 0.0015;  ///< [m] beside the gap between
 geometry::Blade strip_of_blades(const ToolShape& shape, double at_hinge, double at_tips, double length) noexcept;
 
 /// The strip that the blades have closed on: from the hinge to the tips, as wide as they are open and a little more.
-/// @param beyond  how far it continues before the tips, for who leaves room [m]
+/// @param beyond  how far it continues before the tips, to leave room [m]
 geometry::Blade closed_blades(const ToolModel& model, const ToolShape& shape, double beyond = 0) noexcept;
 
 /// How a strand lies between blades.

@@ -46,7 +46,7 @@ struct FoldCut {
 };
 /// Parts a membrane along a blade, as cut_organ() does an organ. What still hangs on a border may be cut from the
 /// other; what would hang on none stays on a thread.
-/// @param depth   (nodes) way from the surface of the strand on its border, in the rest shape [m]
+/// @param depth   (nodes) way from the surface of the strand on its border, in the drawn shape [m]
 /// @param parted  (triangles of the sheet)
 FoldCut cut_membrane(const geometry::Blade& blade, const tissue::MembraneModel& sheet, std::span<const float> depth,
                      tissue::MembraneState& state, std::span<std::uint8_t> parted,

@@ -1,9 +1,8 @@
 // Where an electrode is at tissue, in the frame in which heat and scars stay with that tissue (tissue/heat/heat.hpp):
-//   organs, folds  places in the rest shape [m]; the nearest point of the touched skin or of the sheet, by its corners
-//   strands        (arc length in the rest shape, across, across) [m] in the frame that goes along the strand without
-//   twist
-// Walls conduct nothing: they have no place that heat could
-// have.
+//   organs, folds  places in the drawn shape [m]; the nearest point of the touched skin or of the sheet, by its corners
+//   strands        (arc length in the drawn shape, across, across) [m] in the frame that goes along the strand without
+//                  twist
+// Walls conduct nothing: they have no place that heat could have.
 //
 //   ElectrodeTouch t = electrode_touch(model, shape, tool_state, view);
 //   if (t.contact.body.exists()) energise(..., t.contact, ...);

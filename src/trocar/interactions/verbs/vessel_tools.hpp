@@ -39,7 +39,7 @@ struct VesselClip {
   double cover = 0;  ///< share of the vessel's width between the legs, when closed
   std::uint64_t tick = 0;
   std::int32_t vessel = -1;
-  std::int32_t clip = -1;  ///< number in the book of clips
+  std::int32_t clip = -1;  ///< number in the clip buffer
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>

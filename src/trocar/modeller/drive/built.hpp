@@ -36,7 +36,7 @@ struct ReadOut {
   double predicted_us = 0;                                      ///< of a tick, on a quiet core
   std::size_t bytes = 0;                                        ///< in memory (body_memory.hpp)
 };
-/// @param standing_ticks  simulated to see whether it hangs still; 0: not asked
+/// @param standing_ticks  simulated to check the equilibrium; 0: not checked
 std::vector<ReadOut> read_outs(const Built& built, std::uint64_t standing_ticks);
 
 /// About what a tick of a body costs at rest, contacts and loads beside [us], on one core of an Intel Xeon at 2.6

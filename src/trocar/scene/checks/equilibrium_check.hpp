@@ -1,5 +1,5 @@
 // Is a scene in equilibrium when nobody touches it? Drawn shapes are equilibria, but one that its springs do not hold
-// falls over all the same: organs sink while the hands are still on their way.
+// falls over: organs sag while the hands are still on their way.
 //
 //   const EquilibriumCheck equilibrium = check_equilibrium(model, 1000, [] { return in_time(); });
 //   for (const EquilibriumCheck::Organ& o : equilibrium.organs)
@@ -15,7 +15,7 @@
 
 namespace trocar::scene {
 
-inline constexpr double kMaxSag = 5e-4;  ///< off by more than this, an organ does not hold its drawn shape [m]
+inline constexpr double kMaxSag = 5e-4;  ///< an organ that sags more does not hold its drawn shape [m]
 
 struct EquilibriumCheck {
   struct Organ {
@@ -32,7 +32,7 @@ struct EquilibriumCheck {
   bool is_stable() const;
 };
 
-/// Simulates a scene at rest, with instruments drawn back, without breathing, peristalsis and what bleeds by itself.
+/// Simulates a scene at rest, with instruments drawn back, without breathing, peristalsis and bleeding.
 /// @param ticks    at most; a shape that its springs do not hold falls over within a second
 /// @param go_on    asked before every tick; false ends it early
 EquilibriumCheck check_equilibrium(const sim::Model& model, std::uint64_t ticks, const std::function<bool()>& go_on);
@@ -41,8 +41,8 @@ EquilibriumCheck check_equilibrium(const sim::Model& model, std::uint64_t ticks,
 /// lighter tissue, larger cells or more anchors may hold it)"
 std::string in_words(const EquilibriumCheck& equilibrium, const EquilibriumCheck::Organ& organ);
 
-/// Looks at half a second, for a second of wall time at most, and warns on stderr of what sinks: a trainee would take
-/// it for the exercise.
+/// Simulates half a second, in a second of wall time at most, and warns on stderr of organs that sag: a trainee would
+/// take that for the exercise.
 void warn_if_unstable(const sim::Model& model);
 
 }  // namespace trocar::scene

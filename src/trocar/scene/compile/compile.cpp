@@ -162,7 +162,7 @@ void compile_strand(const Strand& strand, const Tissue& tissue, Vec3d gravity, s
   model.strand_bodies.push_back(std::move(body));
 }
 
-/// The place on a strand nearest to p (in the rest shape).
+/// The place on a strand nearest to p (in the drawn shape).
 interactions::StrandPlace nearest_place(const interactions::StrandBody& body, Vec3d p) {
   interactions::StrandPlace best;
   double least = 1e30;

@@ -7,13 +7,13 @@
 namespace trocar::scene {
 namespace {
 
-constexpr double kReach = 0.045;    // [m] further apart than this in the rest shape, two bodies are not tested
+constexpr double kReach = 0.045;    // [m] further apart than this in the drawn shape, two bodies are not tested
 constexpr double kRoot = 0.008;     // [m] of a strand next to its host that takes no part in contact with it
 constexpr int kSolidSamples = 160;  // skin vertices of an organ, about, that are tested against its neighbours
 constexpr double kSlender = 16;     // interactions::slenderness: stouter organs are not tested against themselves
 constexpr double kCrease = 4;       // cells along the skin that are one part of it
 
-/// Poses of all surfaces in the rest shape.
+/// Poses of all surfaces in the drawn shape.
 struct Drawn {
   sim::State state;
   std::vector<tissue::SkinPose> pose;
@@ -37,7 +37,7 @@ struct Drawn {
   Drawn(const Drawn&) = delete;  // it points into itself
 };
 
-/// Adds a sample with its start vertex and its overlap in the rest shape.
+/// Adds a sample with its start vertex and its overlap in the drawn shape.
 void add_sample(interactions::SurfacePair& pair, const interactions::Surface& surface, int sample, Vec3d p,
                 double radius, std::vector<std::int32_t>& nearest) {
   const int vertex = interactions::nearest_vertex(surface, p);

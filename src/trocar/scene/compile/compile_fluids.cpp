@@ -50,8 +50,8 @@ void fill_gaps(const fluids::PoolModel& pool, std::vector<float>& floor) {
   }
 }
 
-/// Walls, and which organs lie on them. Where there are no walls, nothing is below the organs: in the rest shape they
-/// stay.
+/// Walls, and which organs lie on them. Where there are no walls, nothing is below the organs: they stay in
+/// the drawn shape.
 void lay_floor(const FluidsSetting& f, sim::Model& model) {
   const fluids::PoolModel& pool = model.wet.model.pool;
   std::vector<float>& floor = model.wet.floor;

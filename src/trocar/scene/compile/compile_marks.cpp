@@ -19,7 +19,7 @@ struct SkinPlace {
   double distance = 1e9;
 };
 
-/// The nearest place of a skin in the rest shape.
+/// The nearest place of a skin in the drawn shape.
 SkinPlace nearest_on(const tissue::Skin& skin, Vec3d p) {
   SkinPlace best;
   for (const auto& t : skin.triangles) {

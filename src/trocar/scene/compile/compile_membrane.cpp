@@ -64,7 +64,7 @@ tissue::Skin skin_of(const tissue::MembraneModel& sheet) {
 
 namespace {
 
-/// Way of each node from the strand's surface along its column, in the rest shape.
+/// Way of each node from the strand's surface along its column, in the drawn shape.
 std::vector<float> depth_of(const tissue::MembraneModel& sheet, const interactions::StrandBody& body, const Grid& g) {
   std::vector<float> depth(size_t(sheet.nodes()));
   for (int c = 0; c < g.columns; ++c) {

@@ -15,7 +15,7 @@ namespace {
 
 Vec3d corner(const tissue::Skin& skin, int vertex) { return vec_cast<double>(skin.rest[size_t(vertex)]); }
 
-/// Is p within a closed skin in the rest shape? By the solid angle that it sees of it: a full sphere, or nothing
+/// Is p within a closed skin in the drawn shape? By the solid angle that it sees of it: a full sphere, or nothing
 /// [van Oosterom & Strackee 1983].
 bool encloses(const tissue::Skin& skin, Vec3d p) {
   double angle = 0;

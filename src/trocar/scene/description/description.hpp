@@ -226,7 +226,7 @@ struct BondSetting {
 /// What a pouch is filled with.
 struct Contents {
   enum Kind { nothing, constant, liquid, gas } kind = nothing;
-  double pressure = 0;  ///< over the surroundings, in the rest shape [Pa]
+  double pressure = 0;  ///< over the surroundings, in the drawn shape [Pa]
   double bulk = 2e5;    ///< of a liquid [Pa]
   double density = 0;   ///< [kg/m^3]
 };

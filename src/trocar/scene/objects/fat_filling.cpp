@@ -23,7 +23,7 @@ double winding(Vec3d a, Vec3d b, Vec3d c) {
   return portable::atan2(det, div) / (2 * portable::pi);
 }
 
-/// A closed surface in the rest shape.
+/// A closed surface in the drawn shape.
 struct Closed {
   std::vector<Vec3d> points;
   std::vector<std::array<int, 3>> triangles;

@@ -16,8 +16,8 @@ struct FatFilling {
 
 bool within(const FatSetting::Fill& fill, Vec3d p);
 
-/// In what the setting fills, outside strands, organs and pouches in the rest shape. No more than a few beyond 4000 are
-/// made.
+/// In what the setting fills, outside strands, organs and pouches in the drawn shape. No more than a few beyond 4000
+/// are made.
 FatFilling filled(const FatSetting& setting, const sim::Model& model);
 
 }  // namespace trocar::scene

@@ -111,7 +111,7 @@ RigidModel compiled(const RigidSetting& s) {
   return m;
 }
 
-/// In the middle of a pouch's volume in the rest shape.
+/// In the middle of a pouch's volume in the drawn shape.
 void put_in(const RigidSetting& s, const sim::Model& model, RigidModel& m, std::vector<core::Fault>& faults) {
   const int pouch = model.membrane_index(s.pouch);
   if (pouch < 0 || !model.membranes[std::size_t(pouch)].sheet.closed()) {

@@ -10,7 +10,7 @@ struct Parting {
   geometry::Blade blade;  ///< that stands for it; of strands: none
   int element = -1;       ///< of a strand
   int moved = 0;          ///< nodes that snapped to the blade, and what parted
-  double depth = 0;       ///< of a fold: how deep from its strand's surface, in the rest shape [m]
+  double depth = 0;       ///< of a fold: how deep from its strand's surface, in the drawn shape [m]
 };
 
 }  // namespace trocar::sim

@@ -17,7 +17,7 @@ bool has_slings(const Model& model) noexcept;
 struct LoopClosure {
   std::int32_t suture = -1;
   std::int32_t strand = -1;
-  double s = 0;       ///< along it, in the rest shape [m]
+  double s = 0;       ///< along it, in the drawn shape [m]
   double cover = 0;   ///< share of the lumen's width that it takes
   double radius = 0;  ///< within it, drawn round [m]
 };

@@ -1,13 +1,13 @@
 // All bodies of a Model by kind: the one place that knows which kinds there are and how they are numbered. Functions of
 // a kind take its reference and are overloads of one name (sim/bodies, a file a kind), so that code that handles a
-// body says what is to be done and not what it is:
+// body names the operation and not the kind:
 //
 //   visit_bodies(model, [&](auto body) { hang(context, body); });            // each in turn
 //   visit(model, hold.body, [&](auto body) { advance(context, body); });     // that one; nothing where there is none
 //   visit(model, id, 0.0, [&](auto body) { return mass_of(model, body); });  // ... or 0
 //
-// An organ is a lattice or of tetrahedra (it can be cut then); what holds, covers or feeds it need not know. Their
-// numbers: lattices first.
+// An organ is a lattice or of tetrahedra (it can be cut then); code for holds, contacts and vessels need not know.
+// Their numbers: lattices first.
 #pragma once
 
 #include <trocar/sim/model/state.hpp>

@@ -1,5 +1,5 @@
-// What of a Model's bodies is near a place, in the rest shape: for those who hang something on it when a scene is
-// compiled.
+// The body of a Model that is nearest to a place, in the drawn shape: for bodies that are attached there when a scene
+// is compiled.
 #pragma once
 
 #include <string>

@@ -19,7 +19,7 @@ void make_counters(const Model& model, State& s) {
         counters(model.strands[i].failure_strain, size_t(model.strand_bodies[i].nodes())));
 }
 
-/// What a hand holds from the start lies between its jaws in the rest shape; they close on it in the first tick.
+/// What a hand holds from the start lies between its jaws in the drawn shape; they close on it in the first tick.
 void take_hold(const Model& model, const HandModel& hand, interactions::ToolState& tool) {
   if (hand.membrane < 0) return;
   const interactions::ToolShape shape = interactions::shape_of(hand.rack.front(), tool.pose(), tool.aperture);

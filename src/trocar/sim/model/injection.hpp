@@ -1,7 +1,6 @@
 // What needles inject: where each point is, what it has given and taken, what lies in organs, and the account of it.
 //
-//   injected = in the tissue + taken up by vessels + leaked + injected into vessels + spilled           [injection
-//   account]
+//   injected = in the tissue + taken up by vessels + leaked + injected into vessels + spilled    [injection account]
 //
 // to the picolitre, at every tick. What leaks and spills passes into the fluids' account, where a scene has fluids.
 #pragma once

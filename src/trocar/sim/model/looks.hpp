@@ -1,5 +1,5 @@
-// What surfaces look like and what anatomy is drawn around them, as files under scenes/looks/ say it: figures without a
-// picture, for drawing. The step reads nothing of it, and it is not in the Model's hash.
+// Materials: the appearance of surfaces and the anatomy drawn around them, from files under scenes/looks/: numbers
+// without images, for drawing. The step reads nothing of it, and it is not in the Model's hash.
 #pragma once
 
 #include <optional>

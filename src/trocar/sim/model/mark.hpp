@@ -1,5 +1,5 @@
-// A mark: a small disc, or a stripe around a strand, that exercises look for or work at. It is seen and drawn, and
-// nothing feels it.
+// A mark: a small disc, or a stripe around a strand, that exercises look for or work at. It is visible and drawn, and
+// has no contact.
 #pragma once
 
 #include <array>

@@ -161,7 +161,7 @@ struct MembraneBody {
   tissue::MembraneModel sheet;
   tissue::Skin skin;                            ///< the sheet's own nodes and triangles, one skin vertex per node
   double pinch_reach = 0;                       ///< of a pouch (interactions::SheetView) [m]
-  std::vector<float> depth;                     ///< (nodes) way from the strand's surface, in the rest shape [m]
+  std::vector<float> depth;                     ///< (nodes) way from the strand's surface, in the drawn shape [m]
   std::vector<interactions::BorderHold> holds;  ///< (held nodes)
   double failure_strain = 0;                    ///< 0: it never tears
   std::int32_t duct = -1;                       ///< of a pouch: the strand whose lumen opens into it; -1: none
@@ -343,7 +343,7 @@ struct Model {
   Vec3d gravity;
   std::vector<SolidModel> solids;
   std::vector<CuttableOrgan> cuttables;
-  std::vector<StaticOrgan> statics;  ///< those of both that answer at once
+  std::vector<StaticOrgan> statics;  ///< those of both that are quasi-static
   std::vector<StrandAnatomy> strands;
   std::vector<interactions::StrandBody>
       strand_bodies;  ///< (strands) their mechanics, side by side as interactions want them
@@ -369,9 +369,8 @@ struct Model {
   std::vector<MarkModel> marks;
   std::vector<VisibilityTarget> targets;
   std::vector<VisibilitySample> samples;
-  std::vector<DrawnDetail> drawn_detail;  ///< nothing that the step reads: not in the hash
-  std::shared_ptr<const MaterialLibrary>
-      looks;  ///< neither is this: what surfaces look like (looks.hpp), null: all neutral
+  std::vector<DrawnDetail> drawn_detail;         ///< nothing that the step reads: not in the hash
+  std::shared_ptr<const MaterialLibrary> looks;  ///< materials (looks.hpp), not in the hash; null: all neutral
   std::uint64_t hash = 0;
 
   /// The instrument that hand `hand` has in its trocar.
@@ -388,7 +387,7 @@ struct Model {
   int surfaces() const { return organs() + int(walls.size()); }  ///< organs first
   const std::string& organ_name(int organ) const;
   const std::string& organ_look(int organ) const;
-  const tissue::Skin& skin(int organ) const;              ///< in the rest shape
+  const tissue::Skin& skin(int organ) const;              ///< in the drawn shape
   int organ_index(const std::string& organ) const;        ///< -1 if there is none
   int strand_index(const std::string& strand) const;      ///< -1 if there is none
   int membrane_index(const std::string& membrane) const;  ///< -1 if there is none

@@ -1,10 +1,10 @@
-// What moves by itself: breathing, which carries what the diaphragm carries, and peristalsis
+// Motion without hands: breathing, which carries what the diaphragm carries, and peristalsis
 // (tissue/network/force_wave.hpp). Both are functions of the tick alone; nothing of them is State.
 //
 // Breathing displaces whatever holds bodies in space: springs to space, rigidly held nodes, fixed ends and foundations
 // of strands, borders of folds. The displacement is the known curve of a breath [Lujan et al. 1999],
 //   u(t) = a sin^4(pi t / T),
-// end-expiration in the rest shape, at which bodies rest longest, inspiration half a breath later. A scene begins at
+// end-expiration in the drawn shape, where bodies stay longest, inspiration half a breath later. A scene begins at
 // rest: at t = 0 the displacement and its first three derivatives are zero.
 #pragma once
 

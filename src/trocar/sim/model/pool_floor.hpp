@@ -1,4 +1,4 @@
-// The bed of the pool where organs are part of it (`pool_on`): walls in the rest shape, organs as they lie now. Four
+// The bed of the pool where organs are part of it (`pool_on`): walls as in the scene, organs where they lie now. Four
 // rows of it follow in a tick, so that it costs little; all of it every 32 ms where there are 128.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Where the endoscope is, and what it sees as the State has it noted (stages/visibility.hpp looks).
+// Pose of the endoscope, and the visibility of targets as the State stores it (stages/visibility.hpp computes it).
 #pragma once
 
 #include <trocar/sim/model/state.hpp>

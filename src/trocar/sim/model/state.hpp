@@ -139,7 +139,7 @@ struct State {
 };
 
 State initial_state(const Model& model);
-/// Bodies in the rest shape and nothing else: for compile, before the Model is complete.
+/// Bodies in their drawn shape and nothing else: for compile, before the Model is complete.
 State drawn_bodies(const Model& model);
 
 /// How a hand's instrument is bent now; straight where none bends.
@@ -147,7 +147,7 @@ kinematics::Joints joints_of(const State& state, size_t hand) noexcept;
 /// How far a trocar's fulcrum is from its place now, and where it is [m].
 Vec3d port_shift(const State& state, size_t hand) noexcept;
 Vec3d port_of(const Model& model, const State& state, size_t hand) noexcept;
-/// A pose that a hand leads, which is about the trocar's place, about the fulcrum as it is: the handle is the hand's.
+/// A commanded pose, which is about the port's place, as a pose about the fulcrum as it is: the handle is the hand's.
 kinematics::FulcrumPose held_pose(const Model& model, const State& state, size_t hand,
                                   const kinematics::FulcrumPose& pose) noexcept;
 /// A hand's instrument as it is now.
@@ -155,7 +155,7 @@ interactions::ToolShape shape_of(const Model& model, const State& state, size_t 
 /// The tip of its closed jaws, without the rest.
 kinematics::TipFrame tip_frame_of(const Model& model, const State& state, size_t hand) noexcept;
 
-/// The place that a hand leads: the straight instrument's tip, of a redundant one the tip that it has.
+/// The place that a hand controls: the straight instrument's tip, of a redundant one the tip that it has.
 Vec3d led_place(const Model& model, const State& state, size_t hand) noexcept;
 
 /// Where an organ's nodes are: valid until its next tick.

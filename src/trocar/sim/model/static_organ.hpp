@@ -1,6 +1,6 @@
-// Organs whose file says "solver": "static": they answer at once (tissue/elastostatic/elastostatic.hpp) and not step by
-// step, until they are handed over to their own network, for good. Everything else about them is as of any organ: the
-// solver writes the rows of its nodes, which is all that others see of it.
+// Quasi-static organs, whose file says "solver": "static": their surface is solved once per tick
+// (tissue/elastostatic/elastostatic.hpp), not integrated in time, until they switch to their own network permanently.
+// Everything else is as for any organ: the solver writes the rows of its nodes, which is all that other code reads.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace trocar::sim {
 
-inline constexpr std::uint32_t kFadeTicks = 100;  ///< in which the difference between both solvers comes in
+inline constexpr std::uint32_t kFadeTicks = 100;  ///< over which the difference between both solvers is added
 
-/// What the elastostatic solver is, of an organ.
+/// The elastostatic solver of an organ.
 struct StaticOrgan {
   std::int32_t organ = -1;
   tissue::ElastostaticModel solver;
   double beyond = 0;        ///< ElastostaticState::turn that is too much for it [rad]
-  bool hands_over = false;  ///< then; else it is only told
+  bool hands_over = false;  ///< then it switches to the network; else it only warns
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
@@ -28,7 +28,7 @@ struct StaticOrgan {
 
 struct StaticOrganState {
   tissue::ElastostaticState body;
-  std::uint32_t handed_over = 0;  ///< ticks since, at most kFadeTicks + 1; 0: it has not been
+  std::uint32_t handed_over = 0;  ///< ticks since the switch, at most kFadeTicks + 1; 0: no switch yet
 
   bool at_once() const noexcept { return handed_over == 0; }
 

@@ -1,4 +1,4 @@
-// What every stage of a step is given, and how it reports what happened.
+// The arguments of every stage of a step, and how a stage emits events.
 #pragma once
 
 #include <trocar/sim/model/step_report.hpp>

@@ -1,4 +1,4 @@
-// What a tick says about itself: what happened in it, and whether all is well.
+// Report of a tick: its events, and flags for what went wrong.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ struct Event {
     thread_cut
   } kind = none;
   std::int32_t tool = 0;
-  /// The clip's or the cut's number in the State's book; grasped: the body held (BodyId::code);
+  /// The clip's or the cut's number in the State's buffer; grasped: the body held (BodyId::code);
   /// parted: the body that current has cut, likewise; torn: the body that tore, likewise, under the hand that pulls or
   /// presses most; exchanged: the new instrument's number in the rack; released, slipped and declared: -1;
   /// pierced, injected: the organ that a needle has gone into or is about to fill.
@@ -84,7 +84,7 @@ inline constexpr EventWords kEventWords[] = {
 constexpr const EventWords& words_of(Event::Kind kind) noexcept { return kEventWords[std::size_t(kind) - 1]; }
 inline constexpr int kMaxEvents = 24, kRoomForTears = 8;  ///< all; of those, only for tears
 
-/// What a tick says about itself. Flags of tissue::StepReport keep their meaning; the others are the step's own.
+/// Report of a tick. Flags of tissue::StepReport keep their meaning; the others are the step's own.
 struct StepReport {
   enum Flag : std::uint32_t {
     kTooManyLoads = 1u << 16,  ///< contacts did not fit the reserved capacity: some were left out this tick

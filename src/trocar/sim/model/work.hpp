@@ -26,7 +26,7 @@ struct Bleed {
   std::int32_t opening = -1;    ///< slot in State::openings
   std::int32_t side = 0;        ///< 0: the stump towards the vessel's beginning
   bool vein = false;            ///< dark blood
-  bool fed = false;             ///< a way leads here from a source
+  bool fed = false;             ///< an open path connects it with a source
 };
 
 /// Fluid of needles that comes into the open in this tick.

@@ -1,13 +1,13 @@
-// Stages: bodies and what ties them to each other and to space.
+// Stages: bodies, and couplings to each other and to space.
 #pragma once
 
 #include <trocar/sim/model/step_context.hpp>
 
 namespace trocar::sim {
 
-/// Loads start afresh with the springs that hang organs in space.
+/// Clears the loads of the last tick and adds those of the springs that hold organs in space.
 void apply_anchor_loads(StepContext& context) noexcept;
-/// Folds pull on what carries them.
+/// Folds pull on the bodies that carry them.
 void apply_border_loads(StepContext& context) noexcept;
 /// Strands: implicit, ends where their hosts put them, pulling on them.
 void advance_strands(StepContext& context) noexcept;

@@ -85,7 +85,7 @@ void push_hands(StepContext& c, const interactions::VesselPoint& p, Vec3d at, do
 
 }  // namespace
 
-// Bends count in the rest shape: arteries are held taut lengthwise, a pulse does not buckle them.
+// Bends count in the drawn shape: arteries are held taut lengthwise, a pulse does not buckle them.
 void apply_pulse_loads(StepContext& c) noexcept {
   if (!c.model.vessels.there()) return;
   // A wave is through a vessel within a tick or two: its middle speaks for all of it.

@@ -1,4 +1,4 @@
-// Stages: vessels go with what carries them, the pulse moves it, blood flows and leaves by what is open.
+// Stages: vessels move with the bodies that carry them, the pulse moves those, blood flows and leaves by openings.
 #pragma once
 
 #include <trocar/sim/bodies/vessel_wounds.hpp>

@@ -1,4 +1,4 @@
-// Stages: what touches what.
+// Stages: contacts.
 #pragma once
 
 #include <trocar/sim/model/step_context.hpp>

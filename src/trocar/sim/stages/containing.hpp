@@ -8,11 +8,11 @@
 
 namespace trocar::sim {
 
-/// Around all bodies, walls and ports in the rest shape, and 3 cm more (our choice).
+/// Around all bodies in their drawn shape, all walls and ports, and 3 cm more (our choice).
 tissue::Box cavity_around(const Model& model);
 
-/// Stage: what has left Model::cavity is turned back. Only speeds change: outward ones end, and inwards nothing gets
-/// more than would take it back within a quarter of a second. A body goes out by about its own thickness.
+/// Stage: turns back bodies that have left Model::cavity. Only speeds change: outward ones end, and inwards nothing
+/// gets more than would take it back within a quarter of a second. A body goes out by about its own thickness.
 void clamp_to_cavity(StepContext& c) noexcept;
 
 }  // namespace trocar::sim

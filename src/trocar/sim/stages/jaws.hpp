@@ -1,4 +1,4 @@
-// Stage: jaws grip, set clips, cut.
+// Stage: jaws grasp, set clips, cut.
 #pragma once
 
 #include <trocar/sim/model/step_context.hpp>

@@ -1,4 +1,4 @@
-// Stage: where skins are.
+// Stages: poses of skins, views of nodes.
 #pragma once
 
 #include <trocar/sim/model/step_context.hpp>

@@ -6,7 +6,7 @@
 
 namespace trocar::sim {
 
-/// What drops gave to tissue in the last tick (State::impacts) pushes it in this one.
+/// Impulses of drops on tissue in the last tick (State::impacts) push it in this one.
 void apply_drop_impacts(StepContext& context) noexcept;
 
 void move_fluids(StepContext& context) noexcept;

@@ -54,7 +54,7 @@ void cut_cuttables(StepContext& c, size_t t, const geometry::Blade& blade) noexc
   });
 }
 
-/// Where in the book these blades' cut of a membrane's strand stands that was made in this tick; else its end.
+/// Index in the buffer of these blades' cut of a membrane's strand in this tick; else the buffer's end.
 int place_in_buffer(const State& s, size_t t, std::int32_t strand) noexcept {
   for (int i = 0; i < s.cut_count; ++i) {
     const interactions::Cut& cut = s.cuts[size_t(i)];

@@ -20,7 +20,7 @@ void fill_from(const geometry::CellMask& mask, Vec3d corner, double cell, std::s
       for (int i = 0; i < kBrickSide; ++i) out[n++] = mask.at(first[0] + i, first[1] + j, first[2] + k);
 }
 
-/// Outer radius at arc length s, in the rest shape.
+/// Outer radius at arc length s, in the drawn shape.
 double radius_at(const StrandAnatomy& strand, const interactions::StrandBody& body, double s) noexcept {
   const interactions::StrandPlace at = place_at(body, s);
   const std::size_t e = std::size_t(at.element);

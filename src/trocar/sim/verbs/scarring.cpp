@@ -100,7 +100,7 @@ void scar(StepContext& c, const ElectrodeTouch& touch, MembraneRef membrane) noe
   scar_springs(c, model_of(c.model, membrane).sheet.network, membrane.id(), middle_of(touch));
 }
 
-/// At the cell's middle and half way from there to its corners, in the rest shape: heat does not move with what snaps
+/// At the cell's middle and half way from there to its corners, in the drawn shape: heat does not move with what snaps
 /// to a blade.
 void scar(StepContext& c, const ElectrodeTouch& touch, CuttableRef organ) noexcept {
   const BodyId body = organ.id();

@@ -2,16 +2,17 @@
 // abdomen's skin, as [Cannon et al. 2003] choose triads from a grid by a measure of angles. What is asked of a pair,
 // and by what source:
 //
-//   manipulation angle   between the shafts at the target: 60 degrees are best, 45 to 75 good [Hanna, Shimi & Cuschieri
-//   1997] azimuths             of each shaft from the optical axis, seen from in front: equal ones, to both sides
-//   [ibid.] elevation            of each shaft out of the patient's plane: 60 degrees with that angle [ibid.] lean of
-//   each shaft from the skin's normal: at most 60 degrees (our estimate) lever                length in the body to
-//   length out of it: 1 is best, its half and double are halved (our estimate) reach                share of the
-//   target's points within depth and lean (our estimate) clearance            of handles to each other, to the
-//   endoscope and to the patient: 40 mm are enough (our estimate)
-//
+//   manipulation angle   between the shafts at the target: 60 degrees are best, 45 to 75 good
+//                        [Hanna, Shimi & Cuschieri 1997]
+//   azimuths             of each shaft from the optical axis, seen from in front: equal ones, to both sides [ibid.]
+//   elevation            of each shaft out of the patient's plane: 60 degrees with that angle [ibid.]
+//   lean                 of each shaft from the skin's normal: at most 60 degrees (our estimate)
+//   lever                length in the body to length out of it: 1 is best, its half and double are halved
+//                        (our estimate)
+//   reach                share of the target's points within depth and lean (our estimate)
+//   clearance            of handles to each other, to the endoscope and to the patient: 40 mm are enough (our estimate)
 //   ways in              of the straight ways from a port to the target's points, those through organs that are not the
-//   target: where all are, a tenth is left (our choice; organs can be held aside)
+//                        target: where all are, a tenth is left (our choice; organs can be held aside)
 //
 // How wide each criterion is (kManipulationWidth, ...) is our choice. A score is the product, 0 to 1.
 #pragma once

@@ -95,7 +95,7 @@ struct ElastostaticState {
   std::vector<float> u;  ///< (stride) displacements in the frame [m]
   OrganFrame frame;
   /// How far the answer is from a small one: turn of the organ as a whole beside its frame's, or the largest
-  /// displacement beside that over ElastostaticModel::spread, whichever is more. Again every kInnerTurns ticks [rad].
+  /// displacement beside that over ElastostaticModel::spread, whichever is more. Updated every kInnerTurns ticks [rad].
   double turn = 0;
   std::uint32_t turns = 0;  ///< whose turn it is of the inner nodes
   std::int32_t still = 0;   ///< 1: it lies as it was drawn, and its rows say so
@@ -153,7 +153,7 @@ struct CarriedBy {
 
 /// One tick. Loads as for a network but in any order; those that are shares of one point of the skin follow each other
 /// with the same number in `point`. Loads on inner nodes are left out (kBadLoad). Writes the rows of kept nodes, and of
-/// a part of the others. An organ that is held rigidly, lies in the rest shape and has no loads costs nothing.
+/// a part of the others. An organ that is held rigidly, lies in the drawn shape and has no loads costs nothing.
 /// @param point       (loads) of which point a load is a share
 /// @param reactions   (loads) force that each exerted on its node [N]
 /// @return kBadLoad in flags also where points were left without force

@@ -32,7 +32,7 @@ inline constexpr double kAtmosphere = 101325;  ///< [Pa]
 
 struct Enclosure {
   enum Kind : std::int32_t { none, constant, liquid, gas } kind = none;
-  double pressure = 0;  ///< p0 in the rest shape, at the centre of the volume, over the surroundings [Pa]
+  double pressure = 0;  ///< p0 in the drawn shape, at the centre of the volume, over the surroundings [Pa]
   double bulk = 0;      ///< K of a liquid [Pa]
   double density = 0;   ///< of what is inside [kg/m^3]
   double volume = 0;    ///< V0 [m^3]; build() sets it

@@ -13,8 +13,7 @@ namespace {
 constexpr int kSamples = 256;      ///< of the centre line
 constexpr double kTail = 4;        ///< widths beyond which g (3e-4 there) counts as nothing
 constexpr double kSteepest = 0.6;  ///< of a pair's line against the centre line's direction (cosine): no caps
-constexpr double kRise =
-    3;  ///< [s] within which forces come up, so that a scene begins in the rest shape        Our estimate
+constexpr double kRise = 3;        ///< [s] in which forces rise: a scene begins in the drawn shape. Our estimate
 
 /// Where a node lies beside the line.
 struct Beside {

@@ -73,7 +73,7 @@ struct ForceWaveModel {
 };
 
 /// Compiles a wave for an organ.
-/// @param rest, volume  (nodes) in the rest shape [m], [m^3]
+/// @param rest, volume  (nodes) in the drawn shape [m], [m^3]
 /// Throws std::invalid_argument where no part of it lies around the line.
 ForceWaveModel build(const ForceWaveDescription& description, std::span<const Vec3d> rest,
                      std::span<const double> volume);

@@ -225,12 +225,12 @@ void Guard::list_fast(std::span<const NodeState> nodes) noexcept {
   }
 }
 
-/// The time step is stable where springs point in the rest shape. A light node that was thrown out of its place has all
-/// of them on one side, together stiffer than the step bears: it can leap to and fro for ever, through its neighbours
-/// and back. One that is so fast and turns round within a sub-step is held to steps within which it finds its place
-/// again. That only takes energy away; the node's own momentum goes with it, as giving that to its neighbours fed other
-/// leaps. Loads come first: one that knows the node's speed at the beginning of the tick would carry on a node that no
-/// longer feels its springs.
+/// The time step is stable where springs point in the drawn shape. A light node that was thrown out of its place has
+/// all of them on one side, together stiffer than the step bears: it can leap to and fro for ever, through its
+/// neighbours and back. One that is so fast and turns round within a sub-step is held to steps within which it finds
+/// its place again. That only takes energy away; the node's own momentum goes with it, as giving that to its neighbours
+/// fed other leaps. Loads come first: one that knows the node's speed at the beginning of the tick would carry on a
+/// node that no longer feels its springs.
 void Guard::catch_leaps(const NodeState* in, NodeState* out) const noexcept {
   for (int k = 0; k < m_fast_count; ++k) {
     const int r = m_fast[std::size_t(k)];

@@ -25,7 +25,7 @@ namespace trocar::tissue {
 /// A protected cell.
 struct TetRest {
   int row[4];
-  float rest6;  ///< six times its volume in the rest shape [m^3]
+  float rest6;  ///< six times its volume in the drawn shape [m^3]
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>

@@ -59,13 +59,12 @@ struct NetworkDescription {
   std::vector<double> mass;         ///< per node [kg] > 0
   std::vector<std::uint8_t> fixed;  ///< per node, Held bits; empty = all free
   std::vector<SpringDescription> springs;
-  std::vector<std::array<int, 4>>
-      tets;                   ///< cells protected against inversion, positive volume in the rest shape; may be empty
-  double global_damping = 0;  ///< gamma [1/s], against space; keep <= 1
-  Vec3d gravity{0, 0, 0};     ///< [m/s^2]
-  double opening_time = 0;    ///< for collapsed cells to take their shape again [s]; 0: kOpeningTime
-  double kappa = 0;           ///< of the volume force of the tets (volume_force.hpp) [Pa]; 0: none
-  double max_stiffness_scale = 1;  ///< largest value set_spring_scale may give; enters the time step bound
+  std::vector<std::array<int, 4>> tets;  ///< cells protected against inversion, of positive volume; may be empty
+  double global_damping = 0;             ///< gamma [1/s], against space; keep <= 1
+  Vec3d gravity{0, 0, 0};                ///< [m/s^2]
+  double opening_time = 0;               ///< for collapsed cells to take their shape again [s]; 0: kOpeningTime
+  double kappa = 0;                      ///< of the volume force of the tets (volume_force.hpp) [Pa]; 0: none
+  double max_stiffness_scale = 1;        ///< largest value set_spring_scale may give; enters the time step bound
 };
 
 /// Const after build(); shared by any number of States.

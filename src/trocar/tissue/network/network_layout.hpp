@@ -144,7 +144,7 @@ inline constexpr std::uint8_t kOldestFold = 200, kGone = 255;
 /// their order: no scatter.
 struct VolumeArgs {
   const CornerPack* corners = nullptr;
-  const float* rest6 = nullptr;         ///< in the rest shape [m^3]
+  const float* rest6 = nullptr;         ///< in the drawn shape [m^3]
   const std::uint8_t* phase = nullptr;  ///< (cells) kGone: counts as it was drawn; null: none is gone
   const int* cell = nullptr;            ///< (whole packs) whose phase that is; -1: none
   const CellPack* around = nullptr;
@@ -160,7 +160,7 @@ struct VolumeArgs {
   int packs = 0, slices = 0;
 
   NodeState* nodes = nullptr;
-  float* node_answer = nullptr;  ///< (rows) out: sum |dV/dx|^2 / m over the node's volume in the rest shape
+  float* node_answer = nullptr;  ///< (rows) out: sum |dV/dx|^2 / m over the node's volume in the drawn shape
   Quad* places = nullptr;        ///< (rows) scratch
   ForcePack* answers = nullptr;  ///< (1 + packs) scratch: nothing, then what the cells of a pack say
   ForcePack* forces = nullptr;   ///< (1 + 4 packs) scratch: nothing, then what they do, a corner after the other

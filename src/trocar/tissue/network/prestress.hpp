@@ -1,6 +1,6 @@
 // Makes the drawn shape of a network its equilibrium under gravity, by choosing rest lengths.
 //
-// The linear network (springs in the rest shape, [KCM99 eq.2] linearised) loaded by its weight yields displacements u
+// The linear network (springs in the drawn shape, [KCM99 eq.2] linearised) loaded by its weight yields displacements u
 // with K u = f. The tension k (n . (u_b - u_a)) of each spring balances the weight exactly on the drawn shape; the law
 // (5) is then inverted for the rest length that carries this tension at the drawn length. Anchors (springs from nodes
 // to points in space) take part and get their rest points the same way. Our method; conjugate gradients in double.
@@ -32,7 +32,7 @@ struct PrestressReport {
   int iterations = 0;
   double residual = 0;        ///< largest unbalanced force on a free node, with the new rest lengths [N]
   double largest_strain = 0;  ///< largest |e/l| it put into a spring
-  int failed_springs = 0;     ///< springs whose tension no rest length gives (left in the rest shape)
+  int failed_springs = 0;     ///< springs whose tension no rest length gives (left at the drawn length)
 };
 
 /// Rewrites the rest lengths of `network` (from its positions, gravity, masses, held axes) and the rest points of

@@ -10,7 +10,7 @@ namespace trocar::tissue {
 /// Times the tissue's stiffness, > 0, at a drawn place [m]. Empty: 1 everywhere.
 using StiffnessField = std::function<double(Vec3d place)>;
 
-/// Every spring's stiffness and damping, by the factor at its middle in the rest shape. The volume force stays as it
+/// Every spring's stiffness and damping, by the factor at its middle in the drawn shape. The volume force stays as it
 /// is.
 inline void stiffen(NetworkDescription& network, const StiffnessField& field) {
   if (!field) return;

@@ -56,7 +56,7 @@ struct VolumeCells {
   std::vector<int> cell;            ///< (whole packs) which it is, -1: none: cells lie in the order of their rows
   std::vector<int> place;           ///< (cells) where it is
   std::vector<int> count;           ///< (rows) cells at a node
-  std::vector<float> drawn;         ///< (rows) volume of a node in the rest shape [m^3]
+  std::vector<float> drawn;         ///< (rows) volume of a node in the drawn shape [m^3]
   std::vector<float> kappa;         ///< (rows) 0: it does not press [Pa]
   std::vector<Quad> weight;         ///< (rows) as RowPack; w: 1/m [1/kg]
   /// @param columns  how many packs of cells all slices together have at most: columns_of() of the body as built, and
@@ -97,7 +97,7 @@ void note_volumes(std::span<const TetRest> cells, const Bulk& bulk, std::span<co
                   VolumeCells& noted) noexcept;
 
 /// One impulse of `dt` [s] to nodes that are free.
-/// @param noted  for cells that are upright in the rest shape  @param phase  (cells) kGone: left out; or empty
+/// @param noted  for cells that are upright in the drawn shape  @param phase  (cells) kGone: left out; or empty
 void push_volumes(const VolumeCells& noted, std::span<const std::uint8_t> phase, const Bulk& bulk, double dt,
                   double weight_dt, std::span<NodeState> nodes, VolumeWork& work) noexcept;
 

@@ -3,11 +3,10 @@
 // an explicit network would need tens of sub-steps.
 //
 //   stretch     element e: tension EA law(strain), law of [KCM99 eq.5], A = pi (R^2 - r^2) of that element
-//   bending     node i: (EI / l^3) |P (x_{i-1} - 2 x_i + x_{i+1} - R_i b_i)|^2 / 2, b_i in the rest shape, P across the
-//   chain;
-//               the turns R_i follow from one another without twist along the chain, in the rest shape and as it is
-//               (Bishop frames), from a node that is held; a loose piece takes the spin that suits it best. P and R_i
-//               are those at the start of the tick. Torsion has no stiffness of its own.
+//   bending     node i: (EI / l^3) |P (x_{i-1} - 2 x_i + x_{i+1} - R_i b_i)|^2 / 2, b_i in the drawn shape, P across
+//               the chain; the turns R_i follow from one another without twist along the chain, in the drawn shape and
+//               as it is (Bishop frames), from a node that is held; a loose piece takes the spin that suits it best. P
+//               and R_i are those at the start of the tick. Torsion has no stiffness of its own.
 //   foundation  node i: k_i u (1 + c |u|^2), u = x_i - x0_i: what the sheet that carries the strand does
 //   damping     along elements and in bending, stiffness times a time; against space gamma
 //   gravity     the drawn shape is the equilibrium: the linear strand's answer to its weight is put into rest lengths,

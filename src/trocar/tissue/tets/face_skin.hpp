@@ -5,8 +5,8 @@
 //   pose_skin(view_of(model, state), skin.skin, pose);
 //
 // Every vertex rides on the four corners of a cell (x = W q, weights may be slightly negative): the surface is as
-// smooth in the rest shape in any affine motion of the cell. Edges between own and bare faces stay sharp, with vertices
-// on both sides. Curving: a point between corners moves towards their tangent planes [Boubekeur & Alexa 2008].
+// smooth in the drawn shape in any affine motion of the cell. Edges between own and bare faces stay sharp, with
+// vertices on both sides. Curving: a point between corners moves towards their tangent planes [Boubekeur & Alexa 2008].
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// What exercises can be written with, as JSON for people and programs: every fact and every event with its arguments,
-// and what a scene lacks for it.
+// Vocabulary of exercises, as JSON for people and programs: every fact and every event with its arguments, and what a
+// scene lacks for it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -7,7 +7,7 @@
 namespace trocar::training {
 namespace {
 
-constexpr std::int32_t kCritical = 1;  // as a happening's number
+constexpr std::int32_t kCritical = 1;  // as an event instance's number
 
 class OffTarget final : public EventDetector {
  public:

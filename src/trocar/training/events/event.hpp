@@ -1,5 +1,5 @@
 // An event: something that happened in a tick, with attributes. Some are what the step reports (grasped, cut), some are
-// noticed by watching the State (pulled too hard for too long). Exercises name them to say which acts count.
+// detected by watching the State (pulled too hard for too long). Exercises name them to say which acts count.
 //
 // A new event is one file that defines an EventKind, and one line in events.inl.
 #pragma once
@@ -18,7 +18,7 @@ struct Foreseen {
   interactions::Clip clip;  ///< that the instance points at
 };
 
-/// Those of one kind in a tick; what does not fit is not told.
+/// Those of one kind in a tick; those that do not fit are not reported.
 struct EventInstances {
   std::array<EventInstance, 16> list;
   int count = 0;

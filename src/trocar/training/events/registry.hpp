@@ -7,7 +7,7 @@
 
 namespace trocar::training {
 
-/// Those that the step reports and nobody looks at more closely: grasped, released, ...
+/// Those that the step reports and no file of events/ refines: grasped, released, ...
 std::span<const EventKind> reported_events();
 
 #define TROCAR_EVENT(name) extern const EventKind name;

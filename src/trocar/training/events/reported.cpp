@@ -26,7 +26,7 @@ class Reported final : public EventDetector {
   }
 };
 
-/// Once a body for as long as it continues tearing.
+/// Once a body for as long as it continues to tear.
 class Torn final : public EventDetector {
  public:
   Torn(const sim::Model&, const Arguments&) {}

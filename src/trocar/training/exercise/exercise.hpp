@@ -72,7 +72,7 @@ inline constexpr int kMostChoice = 99999, kMostPerturbation = 99999;
 /// Choices with which it succeeded in a rehearsal.
 struct RecordedChoices {
   std::uint64_t seed = 0;  ///< of the anatomy
-  Choices choices;         ///< but for those to continue as it is written
+  Choices choices;         ///< elsewhere it continues as it is written
 };
 
 struct Exercise {
@@ -95,7 +95,7 @@ struct Exercise {
   std::string group;  ///< one of kGroups; empty: none
   int level = 1;      ///< to kMostLevel
 
-  const RecordedChoices* recorded_choices_for(std::uint64_t seed) const;  ///< null: nobody has
+  const RecordedChoices* recorded_choices_for(std::uint64_t seed) const;  ///< null: there are none
   const Penalty* penalty(const std::string& code) const;
   const StepText* step(const std::string& name) const;
   /// Of a single number, in SI; what the exercise does not have is `otherwise`.

@@ -34,7 +34,7 @@ bool of_the_needle(std::string_view name) { return name.starts_with("suture.") |
 
 class Needs {
  public:
-  Needs(const Rules& rules, const Snapshot& snapshot) : m_rules(rules), m_moment(snapshot) {}
+  Needs(const Rules& rules, const Snapshot& snapshot) : m_rules(rules), m_snapshot(snapshot) {}
 
   StepNeeds of(const StepRule& rule) {
     condition(rule.when);
@@ -93,15 +93,15 @@ class Needs {
 
   void who_can(std::string_view name) {
     bool Abilities::*const can = ability_for(name);
-    const bool needle = of_the_needle(name) && has_suture(m_moment.model);
-    for (size_t h = 0; h < hands(m_moment.model); ++h) {
-      if (can && m_moment.model.tool(m_moment.state, h).can().*can) ++m_votes[h];
-      if (needle && held_of_suture(m_moment.model, m_moment.state, h) == 1) ++m_votes[h];
+    const bool needle = of_the_needle(name) && has_suture(m_snapshot.model);
+    for (size_t h = 0; h < hands(m_snapshot.model); ++h) {
+      if (can && m_snapshot.model.tool(m_snapshot.state, h).can().*can) ++m_votes[h];
+      if (needle && held_of_suture(m_snapshot.model, m_snapshot.state, h) == 1) ++m_votes[h];
     }
   }
 
   const Rules& m_rules;
-  const Snapshot& m_moment;
+  const Snapshot& m_snapshot;
   StepNeeds m_needs;
   std::array<int, sim::kMaxTools> m_votes{};
   bool m_picture = false, m_other = false;

@@ -1,4 +1,4 @@
-// The demonstrator of an exercise: reads the State as an eye would and writes only Input, as hands do.
+// The demonstration of an exercise: reads the State as an eye would and writes only Input, as hands do.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,8 @@ namespace trocar::training {
 /// How an expert works.
 struct Manner {
   Tremor tremor;
-  /// Asked at each moment of choice, by its number: the way in which it continues (ways.hpp). Null: as the exercise's
-  /// file says.
+  /// Asked at each decision point, by its number: the perturbation from there on (perturbation.hpp). Null: as the
+  /// exercise's file says.
   std::function<int(int choice)> perturbation = {};
 };
 

@@ -65,7 +65,7 @@ class Performer final : public Expert {
   Surgeon m_surgeon;
   std::vector<std::vector<Goal>> m_parts;
   size_t m_part = 0, m_task = 0;
-  int m_choices = 0;          ///< moments of choice so far
+  int m_choices = 0;          ///< decision points so far
   double m_since_choice = 0;  ///< [s]
   Goal* m_goal = nullptr;     ///< that is worked on
   bool m_repairing = false;   ///< its if_failed

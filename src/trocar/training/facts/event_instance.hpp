@@ -12,11 +12,11 @@ namespace trocar::training {
 struct EventInstance {
   std::int32_t hand = -1;
   BodyId body;
-  std::int32_t number = -1;           ///< of a clip or a cut in the State's book
+  std::int32_t number = -1;           ///< of a clip or a cut in the State's buffer
   const std::string* name = nullptr;  ///< of the body or the vessel; null: none
   Vec3d tip, where;                   ///< the instrument's tip; the place on the body, else the tip [m]
   const char* detail = "";
-  const interactions::Clip* foreseen = nullptr;  ///< a clip that is not in the book, as it has not closed yet
+  const interactions::Clip* foreseen = nullptr;  ///< a clip that is not in the buffer: it has not closed yet
 };
 
 }  // namespace trocar::training

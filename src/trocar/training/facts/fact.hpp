@@ -4,7 +4,7 @@
 //
 // A new fact is one file that defines a Fact, and one line in facts.inl.
 //
-//   Value horizon(const Moment& moment, const Arguments&) { return ...; }
+//   Value horizon(const Snapshot& snapshot, const Arguments&) { return ...; }
 //   extern const Fact kScopeHorizon{"scope.horizon_deg", {}, -180, 180, "how far the picture is turned ...",
 //                                   anywhere, &stateless<horizon>};
 #pragma once

@@ -43,7 +43,7 @@ std::string faces_every_way(const sim::Model& model, const Arguments& a) {
   return tr("expected a mark on an organ or a disc, got \"{}\", which has no single normal", target.name);
 }
 
-/// Against where it was when it was first looked at: in the rest shape.
+/// Against where it was when it was first looked at: in the drawn shape.
 class Moved final : public Observer {
  public:
   Moved(const sim::Model&, const Arguments& a) : m_mark(a[0].index), m_way(patient_direction(a[1].word)) {}

@@ -16,8 +16,8 @@ using interactions::FatBodyState;
 
 constexpr double kStride = 0.001;  // [m] between places of a strand that are looked at
 constexpr double kOnIt = 0.9;      // spacings from a strand's surface: a lobule whose middle is so near lies on it
-constexpr double kWasIn = 1.2;     // the same in the rest shape: so wide that gaps between lobules count as fat
-constexpr int kInFat = 3;          // sectors with fat in the rest shape from which on a place counts
+constexpr double kWasIn = 1.2;     // the same in the drawn shape: so wide that gaps between lobules count as fat
+constexpr int kInFat = 3;          // sectors with fat in the drawn shape from which on a place counts
 constexpr int kRows = 8;           // of sights: 64 in a triangle
 
 /// f(body, state) of all fat.

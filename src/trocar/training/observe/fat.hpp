@@ -13,7 +13,7 @@ namespace trocar::training {
 /// docs/science/fat.md
 inline constexpr int kSectors = 8, kBareSectors = 7;
 
-/// The longest stretch of a strand along which it is bare and lay in fat in the rest shape: what never lay in it has
+/// The longest stretch of a strand along which it is bare and lay in fat in the drawn shape: what never lay in it has
 /// not been bared. The Model outlives it.
 class BaredStretch {
  public:

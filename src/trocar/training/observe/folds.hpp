@@ -17,7 +17,7 @@ class FoldColumns {
   int count() const { return int(m_s.size()); }
   double s(int column) const { return m_s[size_t(column)]; }  ///< where it begins on the strand [m]
   bool whole(const sim::Model& model, const sim::State& state, int column) const;
-  /// Its point that lies so far from the strand's surface, in the rest shape [m].
+  /// Its point that lies so far from the strand's surface, in the drawn shape [m].
   Vec3d point(const sim::Model& model, const sim::State& state, int column, double away) const;
   /// Length of the border between two places of the strand along which it is whole [m].
   double whole_between(const sim::Model& model, const sim::State& state, double from, double to) const;

@@ -17,7 +17,7 @@ const sim::MarkModel* disc_on_organ(const sim::Model& model, std::int32_t target
   return mark.on == sim::MarkModel::organ ? &mark : nullptr;
 }
 
-/// From all sources at once along the edges of a skin in the rest shape: which source is nearest to each vertex.
+/// From all sources at once along the edges of a skin in the drawn shape: which source is nearest to each vertex.
 std::vector<std::int16_t> nearest_source(const tissue::Skin& skin, std::span<const sim::MarkModel* const> sources) {
   using Reached = std::tuple<float, std::int32_t, std::int16_t>;  // way [m], vertex, source
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> front;

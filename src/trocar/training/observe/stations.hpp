@@ -1,5 +1,5 @@
 // Stations along a gut: marks on its wall at even distances, by which a surgeon says how far along something is. Which
-// one a place of the wall belongs to follows from the way along the skin in the rest shape, not through space: loops
+// one a place of the wall belongs to follows from the way along the skin in the drawn shape, not through space: loops
 // lie against each other, and the neighbour's wall is nearer than the own gut's middle.
 #pragma once
 

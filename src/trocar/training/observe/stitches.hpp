@@ -19,8 +19,8 @@ std::string_view needs_suture(const sim::Model& model);
 std::string_view needs_needle(const sim::Model& model);
 std::string_view needs_thread(const sim::Model& model);
 
-/// From a bite's entry or exit to a mark's middle, in the rest shape; the nearest of all bites that there are. Below 0:
-/// none.
+/// From a bite's entry or exit to a mark's middle, in the drawn shape; the nearest of all bites that there are. Below
+/// 0: none.
 double bite_to_mark(const sim::Model& model, const sim::State& state, int target, bool entry);
 /// Ways through that body that needle or thread is in, from end to end.
 int passages_through(const sim::State& state, BodyId body);

@@ -1,5 +1,5 @@
 // What the hands do wrong, whatever the exercise is about: pull or pinch too hard, lose their grip, move or push in
-// where the camera does not look, strike each other. Each watch is asked at its rate and notes mishaps;
+// where the camera does not look, strike each other. Each watch is asked at its rate and adds incidents;
 // the files of events/ make events of them.
 #pragma once
 
@@ -38,7 +38,7 @@ struct Incident {
   const char* detail = "";
 };
 
-/// Incidents of one tick; what does not fit is not told.
+/// Incidents of one tick; those that do not fit are not reported.
 struct Incidents {
   std::array<Incident, 16> list;
   int count = 0;

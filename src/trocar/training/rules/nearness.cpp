@@ -81,7 +81,7 @@ double share_of(const Nearness& n) {
 
 class NearnessReader {
  public:
-  NearnessReader(const Snapshot& snapshot, const Names& names) : m_moment(snapshot), m_names(names) {}
+  NearnessReader(const Snapshot& snapshot, const Names& names) : m_snapshot(snapshot), m_names(names) {}
 
   std::vector<Nearness> of(const Condition& c, bool negated) const {
     switch (c.kind()) {
@@ -104,13 +104,13 @@ class NearnessReader {
   Nearness of_fact(const Condition& c, bool negated) const {
     const FactWatches::Watched& watched = c.facts()->all()[size_t(c.watch())];
     const FactWords& words = words_of(*watched.fact);
-    const Value value = c.facts()->value(c.watch(), m_moment);
+    const Value value = c.facts()->value(c.watch(), m_snapshot);
     const Test& test = c.test();
     Nearness n;
     n.fact = watched.fact;
     n.watch = c.watch();
     n.label = tr(words.label);
-    n.subject = subject_of(watched, m_moment.model, m_names);
+    n.subject = subject_of(watched, m_snapshot.model, m_names);
     n.known = value.known;
     n.is_truth = watched.fact->is_truth;
     n.fulfilled = test.of(value) == (negated ? TriState::no : TriState::yes);
@@ -192,7 +192,7 @@ class NearnessReader {
     return best;
   }
 
-  const Snapshot& m_moment;
+  const Snapshot& m_snapshot;
   const Names& m_names;
 };
 

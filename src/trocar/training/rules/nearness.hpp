@@ -1,8 +1,8 @@
 // How near a condition is to being fulfilled: what it consists of as rows with value, target and unit, for the trainee.
 // Derived from the condition itself. Of alternatives ("any") those rows are shown that are nearest.
 //
-//   for (const Nearness& row : nearness(rule.when, moment, rules.names())) show(row.label, row.value, row.low,
-//   row.high);
+//   for (const Nearness& row : nearness(rule.when, snapshot, rules.names()))
+//     show(row.label, row.value, row.low, row.high);
 #pragma once
 
 #include <limits>

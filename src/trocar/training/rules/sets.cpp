@@ -125,7 +125,7 @@ class SetReader {
       fault(order, scene::unknown_name("order", order.text, {"by_name", "by_seed"}));
   }
 
-  /// Seed 0 is the order as it stands: the scene in the rest shape.
+  /// Seed 0 keeps the order of the file: the standard patient.
   void shuffle(std::uint64_t seed) {
     if (seed == 0) return;
     core::Random random(seed);

@@ -38,7 +38,7 @@ class FactWatches {
 
  private:
   std::deque<Watched> m_watched;
-  std::int32_t m_clips = 0, m_cuts = 0;  ///< in the State's books
+  std::int32_t m_clips = 0, m_cuts = 0;  ///< in the State's buffers
 };
 
 /// Every event with its arguments once; the same for acts.

@@ -9,8 +9,8 @@
 namespace trocar::training {
 namespace {
 
-/// A clip on a strand: the legs go around it, are looked at half closed, and close slowly. Anyone who does not see what
-/// he has to see, or has not all of it between the legs, draws back and tries elsewhere.
+/// A clip on a strand: the legs go around it, are looked at half closed, and close slowly. A hand that does not see
+/// what it must see, or has not all of it between the legs, draws back and tries elsewhere.
 class ClipAt final : public Skill {
  public:
   ClipAt(const sim::Model& model, const SkillArgs& args) : m_hand(args.hand()), m_strand(args("of").index) {

@@ -8,7 +8,7 @@
 namespace trocar::training {
 namespace {
 
-/// A clip on the artery that bleeds, beside the place: around the strand that carries it, or around itself. Anyone who
+/// A clip on the artery that bleeds, beside the place: around the strand that carries it, or around itself. A hand that
 /// does not get there, or sees no tip, draws back; what slid along a leg's end is met a little further on that side
 /// next time.
 class ClipVessel final : public Skill {

@@ -1,5 +1,5 @@
 // A hand skill: what a surgeon has learnt to do without thinking (approach a tube, close a clip slowly, suck a pool
-// dry), run tick by tick on an Surgeon. A skill knows no exercise and no body of a scene: those are its parameters. It
+// dry), run tick by tick on a Surgeon. A skill knows no exercise and no body of a scene: those are its parameters. It
 // looks at the State as eyes and fingers would, ends when it is done, or gives up and says why.
 //
 // A new skill is one file, here or in a room for its field, that defines a Skill and its SkillKind, and one line in
@@ -29,7 +29,7 @@ class SkillArgs {
  public:
   SkillArgs(const SkillKind& kind, const Arguments& arguments) : m_kind(&kind), m_arguments(&arguments) {}
 
-  /// What was not given is `given == false`, and so is what this kind of skill does not know.
+  /// An argument that was not given, or that this kind of skill does not have, has `given == false`.
   const Argument& operator()(std::string_view name) const;
   int hand() const { return (*this)("hand").index; }
   double number(std::string_view name, double otherwise) const;

@@ -1,15 +1,13 @@
 // The analysis view: what tissue, instruments and blood do, as figures in colour instead of as an eye sees them. Any
 // camera can look at it. Everything is worked out from a const State and its Model; nothing is guessed:
 //   springs   every spring as a line, coloured by e/l, l being its rest length (of strands: what heat has left of it);
-//   of
-//             bodies that can be cut the edges of their cells, against the shape as drawn. What is cut is gone
+//             of bodies that can be cut the edges of their cells, against the shape as drawn. What is cut is gone
 //   strain    surfaces coloured by the largest stretch in them: organs and folds against the shape as drawn, strands
 //             (tubes, ligaments) against the rest lengths of their elements
 //   forces    arrows of what instruments do to tissue, and of what trocars do to the abdominal wall
 //   pressure  vessels coloured by the blood's pressure in them, also where they run below the peritoneum
 //   solvers   an organ coloured by how far its other solver has it elsewhere, with that one's outline as wires; only
-//   where
-//             a second simulation runs beside (ViewOptions::beside)
+//             where a second simulation runs beside (ViewOptions::beside)
 // Forces of contact are kept by the State as normal forces averaged over some ten ticks, and as one sum for each
 // instrument with friction; forces between organs are Work and cannot be shown.
 //

@@ -5,7 +5,7 @@
 namespace trocar::view {
 namespace {
 
-/// Lines one after the other, restarted each time.
+/// Lines one after the other, from the start in each picture.
 class Lines {
  public:
   Lines(const AnalysisOptions& options, FalseColourMesh& to)

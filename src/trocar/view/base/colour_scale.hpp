@@ -1,8 +1,7 @@
 // From a number to a colour, for false-colour pictures. Two scales, made of colours that stay apart with every kind of
 // colour vision [Okabe & Ito 2008]:
 //   diverging   blue, sky, near white, orange, vermilion: which side by hue (blue against yellow-red is what people
-//   with
-//               red-green blindness see best), how far by lightness, which falls alike to both ends
+//               with red-green blindness see best), how far by lightness, which falls alike to both ends
 //   sequential  dark violet, blue, grey, ochre, light yellow: lightness rises all the way, so a grey copy reads alike
 //
 //   const Colour c = colour_on(Scale::diverging, strain / range);   // -1 .. 1

@@ -68,7 +68,7 @@ Look drawn(const sim::Look& l) {
   return {l.name, material_of(l), l.translucent, l.moulded, relief_of(l.relief), l.surroundings};
 }
 
-/// A book with what was made of it; both live as long as some Model keeps the book.
+/// A library with what was made of it; both live as long as some Model keeps the library.
 struct DrawnLibrary {
   std::weak_ptr<const sim::MaterialLibrary> of;
   std::unique_ptr<const std::vector<Look>> looks;

@@ -27,7 +27,7 @@ struct Look {
   bool has(Generator generator) const { return count(generator) > 0; }
 };
 
-/// The model's look of that name, as long as a Model with the same book lives. One that is not there gives a neutral
+/// The model's look of that name, as long as a Model with the same library lives. One that is not there gives a neutral
 /// tissue and is reported once.
 const Look& look(const sim::Model& model, const std::string& name);
 /// Of all that continues from the model's walls.

@@ -43,7 +43,7 @@ inline constexpr double kClipLength = 0.0085;
 /// Does that clip close a cut end of its strand there, at arc length `end` [m]?
 bool closes_end(const interactions::Clip& clip, double end);
 ClipPress press_of(const interactions::Clip& clip, const sim::Model& model, const sim::State& state);
-/// Of a clip that sits on a thread, `number` in the book; radius 0: it has detached.
+/// Of a clip that sits on a thread, `number` in the buffer; radius 0: it has detached.
 ClipPress press_on_thread(const interactions::Clip& clip, int number, const sim::State& state);
 /// Clips on a strand.
 std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::State& state);

@@ -42,7 +42,7 @@ constexpr float kBeadStrays = 0.08f;              // of a jet's speed
 constexpr float kSprayStrays = 0.16f;
 constexpr int kMostSpray = 4;                                  // drops from a neck
 constexpr float kThinSpray = 0.05e-3f, kWideSpray = 0.25e-3f;  // [m] radius
-constexpr float kFirstThread = 0.005f;                         // [m] a column goes so far before threads detach it
+constexpr float kFirstThread = 0.005f;                         // [m] a column goes so far before threads detach
 constexpr float kThickThread = 0.34e-3f;                       // [m] radius
 constexpr float kFan = 0.10f;                                  // how far threads are aside, a share of their way
 constexpr int kMostThreads = 5;                                // from a drop of the simulation

@@ -1,4 +1,4 @@
-// How long computations report their progress, and can be stopped.
+// Long computations report their progress through this, and can be stopped.
 //
 //   read_volume(path, {.progress = [&](double share) { bar = share; return !stop; }});
 #pragma once

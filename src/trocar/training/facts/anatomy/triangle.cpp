@@ -21,7 +21,7 @@ Vec3d place_on(const Snapshot& snapshot, std::size_t strand, double s) {
   return point_at(body, snapshot.state.strands[strand], interactions::place_at(body, s));
 }
 
-/// Arc length of the strand's node that is nearest to `p`, in the rest shape.
+/// Arc length of the strand's node that is nearest to `p`, in the drawn shape.
 double nearest_as_drawn(const interactions::StrandBody& body, Vec3d p) {
   const std::vector<Vec3d>& rest = body.model.rest;
   const auto nearer = [p](Vec3d a, Vec3d b) { return length(a - p) < length(b - p); };
