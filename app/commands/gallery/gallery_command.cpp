@@ -130,8 +130,9 @@ void heights(const sim::Model& model, const sim::State& start, pictures::Shots& 
         kinematics::inverse(model.hands[0].port, place + above * towards, double(input.tools[0].roll));
     input.tools[0] = sim::tool_input(pose, 1);
     for (int i = 0; i < 1200; ++i) sim::step(model, input, state, work);
-    const std::string text = above > 0 ? tr("{:.0f} mm above an organ", 1e3 * above) : "touching an organ";
-    shots.take(state, "height " + text, "an instrument " + text);
+    const std::string name =
+        above > 0 ? fmt::format("{:.0f} mm", 1e3 * above) + " above an organ" : "touching an organ";
+    shots.take(state, "height " + name, "an instrument " + name);
   }
 }
 
