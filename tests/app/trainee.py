@@ -118,6 +118,11 @@ class Eyes:
         self.wait("time to pass", lambda: condition() or self.pose["tick"] >= tick, 30 + 60 * seconds)
         return bool(condition())
 
+    def some_pictures(self):
+        """[s] that three pictures take, as far as is known."""
+        rates = self.happened("rate")
+        return max(0.4, min(5.0, 3 / max(rates[-1]["pictures_per_second"], 0.1))) if rates else 0.4
+
     # What is seen of the patient.
     def tool(self, name=None):
         return next(t for t in self.pose["tools"] if t["name"] == (name or self.pose["led"]))
@@ -162,7 +167,7 @@ class MouseAndKeys:
 
     def press(self, widget, limit=30):
         self.eyes.where(widget, limit)
-        time.sleep(0.4)  # a menu that has just appeared finds its size
+        time.sleep(self.eyes.some_pictures())  # a menu that has just appeared finds its size
         self.eyes.read()
         x, y = self.eyes.where(widget, limit)
         xdo("mousemove", x, y)
