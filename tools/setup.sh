@@ -46,6 +46,7 @@ test=(
   python3-numpy python3-scipy  # metrics and frames for research, computed a second time, independently
   python3-pil          # pictures in these
   binutils             # objdump, nm: the step's machine code
+  git                  # the release script is tried in a repository
   xvfb xdotool         # drives the real window without a display
 )
 soak=(

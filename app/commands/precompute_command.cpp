@@ -47,14 +47,10 @@ void print_solvers(const Json& result) {
 void print_none(const std::string& scene, const Json& names) {
   std::string all;
   for (const Json& name : names) all += (all.empty() ? "" : ", ") + name.get<std::string>();
-  if (all.empty()) {
-    fmt::print("{}", tr("{}: the scene has no organ that can have a static solver\n", scene));
-    return;
-  }
   fmt::print("{}",
              tr("{}: no organ has a static solver. Write \"solver\": \"static\" at a solid in an organ's file, or name "
                 "organs with --organ: {}\n",
-                scene, all));
+                scene, all.empty() ? "there are none" : all));
 }
 
 int precompute(const PrecomputeChoice& o, bool json) {
