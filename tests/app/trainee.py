@@ -308,13 +308,14 @@ class Pad:
     def press(self, widget, limit=30):
         """Goes from button to button by the cross until the focus is there, as told by the log."""
         self.eyes.where(widget, limit)
-        time.sleep(0.5)
+        time.sleep(self.eyes.some_pictures())
         tried = set()
         for _ in range(60):
             self.eyes.read()
             at, goal = self.eyes.screen.get("focus"), self.eyes.screen["widgets"][widget]
             if at == widget:
-                time.sleep(0.3)  # a page that has just become ready takes the focus to its first button
+                # a page that has just become ready takes the focus to its first button
+                time.sleep(self.eyes.some_pictures())
                 self.eyes.read()
                 if self.eyes.screen.get("focus") == widget:
                     return self.tap("a")
