@@ -48,6 +48,25 @@ def trainer_of(m, count):
     return pid
 
 
+def grasped_at(place, eyes, hands, trainee, hand, what):
+    """Towards a place and through it, closing the jaws again and again. Whether they hold something."""
+    for depth in (12, 6, 0, -6, -12, -20):  # [mm] before the place
+        def goal():
+            tool = eyes.tool(hand)
+            return add(place, unit(add(tool["port_mm"], place, -1)), depth)
+        try:
+            trainee.move(goal, 4.0, f"{what}: to the organ", limit=60)
+        except Failed:
+            pass  # the organ's surface is in between
+        hands.close()
+        eyes.later(0.7)
+        if eyes.tool(hand)["holds"]:
+            return True
+        hands.let_go()
+        time.sleep(1)
+    return False
+
+
 def grasp(m, pid, what, middle):
     """Moves an instrument from its start towards the organ's middle until its jaws are at the surface, and closes."""
     eyes = Eyes(str(m.folder / "data/modeller/trainer_log.jsonl"), Child(pid))
@@ -64,20 +83,13 @@ def grasp(m, pid, what, middle):
 
     def holds():
         return eyes.tool(hand)["holds"]
-    for depth in (12, 6, 0, -6, -12, -20):  # [mm] before the middle
-        def goal():
-            tool = eyes.tool(hand)
-            return add(middle, unit(add(tool["port_mm"], middle, -1)), depth)
-        try:
-            trainee.move(goal, 4.0, f"{what}: to the organ", limit=60)
-        except Failed:
-            pass  # the organ's surface is in between
-        hands.close()
-        eyes.later(0.7)
-        if holds():
+    right, up = (eyes.pose["picture"][way] for way in ("right", "up"))
+    # A hollow organ's middle may lie beside its tissue: then above, below and to the sides of it.
+    for aside, above in ((0, 0), (0, 14), (0, -14), (16, 8), (-16, 8)):
+        if grasped_at(add(add(middle, right, aside), up, above), eyes, hands, trainee, hand, what):
             break
-        hands.let_go()
-        time.sleep(1)
+    if not holds():
+        shown(f"{what}_missed")
     check(holds(), f"{what} was grasped")
     shown(f"{what}_grasped")
     hands.let_go()
