@@ -209,7 +209,8 @@ void Modeller::draw_status() {
   }
   const std::vector<core::Fault>* faults = m_built ? &m_built->built.faults : nullptr;
   const std::vector<modeller::Finding>* findings = findings_now();
-  if (faults && !faults->empty()) {
+  const bool one_click_mends = findings && !findings->empty() && !findings->front().steps.empty();
+  if (faults && !faults->empty() && !one_click_mends) {
     ui::mark(ui::Mark::error);
     const core::Fault& f = faults->front();
     const std::string place = tr("{}, line {}: {}", fs::path(f.at.file).filename().string(), f.at.line, f.message);

@@ -70,8 +70,7 @@ void Modeller::make_organ(const std::string& segment) {
     m_things_of = m_document->version();
     select("solid:" + wish.name);
     m_frame_when_built = true;
-    tell(tr("{}: {:.1f} mL, its segment {:.1f} mL. Attached and in view: press F5 to operate.", wish.name, made.mL,
-            made.segment_mL));
+    tell(tr("{}: {:.1f} mL, its segment {:.1f} mL. Press F5 to operate.", wish.name, made.mL, made.segment_mL));
     m_log.event("organ", {{"name", wish.name}, {"mL", made.mL}, {"segment_mL", made.segment_mL}});
   });
 }

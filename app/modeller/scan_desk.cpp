@@ -574,6 +574,9 @@ void ScanDesk::draw_panel(const Area& panel) {
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus);
   const volumes::Volume& v = m_scan->volume();
+  // The last step stays in sight however low the window is.
+  const float last = 2 * ImGui::GetFrameHeightWithSpacing() + 12 * ui::scale();
+  ImGui::BeginChild("steps", {0, ImGui::GetContentRegionAvail().y - last}, false, ImGuiWindowFlags_NavFlattened);
   ui::title(tr("Scan"));
   ui::text(m_scan->path().filename().string(), ui::kGrey);
   ui::text(m_under ? tr("Under the pointer: {:.0f} {}", *m_under, v.unit) : std::string(tr("Under the pointer: -")));
@@ -581,6 +584,7 @@ void ScanDesk::draw_panel(const Area& panel) {
   draw_segments();
   draw_tools();
   draw_whole_segment();
+  ImGui::EndChild();
   ui::heading(tr("Next"));
   if (ui::button(tr("Make an organ of it"), {.width = 220, .primary = true})) m_wanted_organ = m_segment;
   ImGui::End();

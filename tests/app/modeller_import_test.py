@@ -29,6 +29,7 @@ SURFACES = {
     "ovary": DATA / "anatomy/hubmap_ccf/VH_F_Ovary_L.glb",
     "tetrahedra": DATA / "anatomy/sofa/liver.msh",
 }
+REMEDIES = ("Attach here", "Rest it on its underside", "Bring into view", "Scale to")
 CT = DATA / "volumes/totalsegmentator/example_ct_dicom_raw"
 
 
@@ -98,16 +99,16 @@ def grasp(m, pid, what, middle):
 def operate(m, what, middle, count):
     m.hands.press("Operate")
     remedies = []
-    for _ in range(4):
+
+    def offered():
+        return [w for w in m.eyes.screen["widgets"] if w.startswith(REMEDIES)]
+    for _ in range(6):
         m.eyes.wait("checks or the trainer", lambda: m.eyes.screen and
-                    (len(m.eyes.happened("operate", started=True)) >= count or
-                     any(w in m.eyes.screen["widgets"] for w in ("Attach here", "Bring into view")) or
-                     any(w.startswith("Scale to") for w in m.eyes.screen["widgets"])), 120)
+                    (len(m.eyes.happened("operate", started=True)) >= count or offered()), 120)
         if len(m.eyes.happened("operate", started=True)) >= count:
             break
         shown(f"{what}_checks")
-        widget = next(w for w in m.eyes.screen["widgets"]
-                      if w in ("Attach here", "Bring into view") or w.startswith("Scale to"))
+        widget = offered()[0]
         remedies.append(widget)
         m.hands.press(widget)
         time.sleep(3)
@@ -121,6 +122,19 @@ def operate(m, what, middle, count):
         time.sleep(1)
         m.keys("Escape")
     print(f"{what}: grasped, remedies: {remedies or 'none'}")
+
+
+def press_below(m, widget):
+    """Scrolls the panel on the right down to a button and presses it."""
+    for _ in range(20):
+        time.sleep(1)  # what the last button did may move the others
+        m.eyes.read()
+        if widget in m.eyes.screen["widgets"]:
+            break
+        width = int(subprocess.run(["xdotool", "getdisplaygeometry"], capture_output=True, text=True).stdout.split()[0])
+        xdo("mousemove", width - 150, 300)
+        xdo("click", 5)
+    m.hands.press(widget)
 
 
 def leave(m):
@@ -171,10 +185,10 @@ def session(m, only):
         m.hands.press("preset")
         m.hands.press("preset Liver")
         shown("ct_threshold")
-        m.hands.press("Apply")
-        m.hands.press("Largest part")
-        m.hands.press("Fill holes")
-        m.hands.press("Smooth")
+        press_below(m, "Apply")
+        press_below(m, "Largest part")
+        press_below(m, "Fill holes")
+        press_below(m, "Smooth")
         shown("ct_segment")
         m.hands.press("Make an organ of it")
         m.eyes.wait("an organ", lambda: m.eyes.happened("organ") or m.eyes.happened("refused"), 180)
@@ -199,11 +213,13 @@ def main():
         m = Modeller(os.path.abspath(o.program), folder)
         try:
             session(m, o.only)
+        except Failed:
+            shown("failed")
+            raise
         finally:
             m.kill()
     except Failed as failed:
         print(f"FAILED: {failed}")
-        shown("failed")
         return 1
     finally:
         shutil.rmtree(folder, ignore_errors=True)

@@ -68,6 +68,20 @@ TEST(Readiness, RemediesAttachScaleAndBringIntoView) {
   EXPECT_NEAR(built_mL(document, "bean"), 33.9, 3);
 }
 
+TEST(Readiness, HeavyOrganRestsOnItsUnderside) {
+  const Workplace place;
+  Document document = begun(place / "scene.json", false, "mine");
+  apply(
+      document, "ellipsoid",
+      R"({"name": "slab", "tissue": "liver", "cell_mm": 14, "centre_mm": [0, -150, -200], "half_mm": [110, 20, 40]})");
+  apply(document, "hold", R"({"of": "slab", "centre_mm": [-100, -150, -200], "radius_mm": 15})");
+  EXPECT_FALSE(build(document).good());
+  for (int clicks = 0; clicks < 3 && !findings_of(document).empty(); ++clicks)
+    EXPECT_EQ(mend_first(document), About::attachment);
+  EXPECT_TRUE(findings_of(document).empty());
+  EXPECT_TRUE(build(document).good());
+}
+
 TEST(Readiness, UnknownTissueIsFoundWithItsName) {
   const Workplace place;
   Document document = first_organ(place / "scene.json", "Mine");

@@ -32,8 +32,9 @@ Built build(const Document& document) {
   const Clock::time_point begin = Clock::now();
   Built out;
   out.version = document.version();
+  std::optional<scene::Description> read;
   try {
-    std::optional<scene::Description> read = document.description(out.faults);
+    read = document.description(out.faults);
     out.findings = readiness(document, read ? &*read : nullptr, out.faults);
     if (read && out.faults.empty()) {
       hold_what_nothing_holds(*read, out.notes);
@@ -41,7 +42,7 @@ Built build(const Document& document) {
     }
   } catch (const core::BadInput& bad) {
     out.faults = bad.faults();
-    if (out.findings.empty()) out.findings = readiness(document, nullptr, out.faults);
+    if (out.findings.empty()) out.findings = readiness(document, read ? &*read : nullptr, out.faults);
   }
   out.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return out;

@@ -27,6 +27,8 @@ constexpr double kFarthest = 0.25;  // [m] at which an endoscope still shows som
 constexpr double kUsualDistance = 0.12, kClearOfTips = 0.085;  // [m] from the lens
 constexpr double kLeastShare = 0.05;                           // of a body's surface that has to be in the picture
 constexpr double kUsualOrgan = 0.1;                            // [m] longest side
+constexpr double kWidestHold = 0.5;                            // [m] radius: the widest of scene files
+constexpr std::array kRests = {1.0 / 3, 0.5, 2.0 / 3};         // shares of a body that rests on its underside
 
 JsonValue step_named(const char* name) {
   JsonValue step = scene::json_object();
@@ -67,17 +69,21 @@ std::vector<Checked> checked_bodies(const Document& document, const scene::Descr
   return out;
 }
 
+JsonValue hold_step(const std::string& body, const scene::Anchor& hold) {
+  JsonValue step = step_named("hold");
+  scene::put(step, "of", scene::json_text(body));
+  scene::put(step, "centre_mm", point(hold.centre * 1e3));
+  scene::put(step, "radius_mm", number(std::max(0.1, hold.radius * 1e3)));
+  return step;
+}
+
 void check_attachment(const Checked& body, std::vector<Finding>& out) {
   if (body.attached) return;
-  JsonValue step = step_named("hold");
-  scene::put(step, "of", scene::json_text(body.id()));
-  scene::put(step, "centre_mm", point(body.hold.centre * 1e3));
-  scene::put(step, "radius_mm", number(std::max(0.1, body.hold.radius * 1e3)));
   out.push_back({About::attachment,
                  body.id(),
                  tr("{} is not attached: it would fall.", body.thing.name),
                  tr("Attach here"),
-                 {std::move(step)}});
+                 {hold_step(body.id(), body.hold)}});
 }
 
 void check_size(const Document& document, const Checked& body, std::vector<Finding>& out) {
@@ -215,6 +221,53 @@ void check_surfaces(const Document& document, const std::vector<core::Fault>& fa
   }
 }
 
+/// The ball that rests a body on that share of its extent along gravity. Its surface is all but flat there.
+scene::Anchor underside(const geometry::Bounds& box, Vec3d gravity, double share) {
+  const Vec3d down = length(gravity) > 0 ? normalised(gravity) : Vec3d{0, 0, -1};
+  const Vec3d size = box.high - box.low;
+  const double deep = std::fabs(down.x) * size.x + std::fabs(down.y) * size.y + std::fabs(down.z) * size.z;
+  scene::Anchor anchor;
+  anchor.radius = kWidestHold;
+  anchor.centre = (box.low + box.high) / 2.0 + down * (kWidestHold + (0.5 - share) * deep);
+  return anchor;
+}
+
+double share_held(const geometry::TriMesh& mesh, const std::vector<scene::Anchor>& anchors) {
+  std::size_t held = 0;
+  for (const Vec3d& p : mesh.positions)
+    held += std::any_of(anchors.begin(), anchors.end(),
+                        [&p](const scene::Anchor& a) { return length(p - a.centre) < a.radius; });
+  return double(held) / double(std::max<std::size_t>(1, mesh.positions.size()));
+}
+
+/// Solids whose attachments cannot carry them rest on their underside, more of it with each click.
+void check_support(const Document& document, const scene::Description& d, const std::vector<core::Fault>& faults,
+                   std::vector<Finding>& out) {
+  for (const Thing& thing : outline(document)) {
+    const auto solid =
+        std::find_if(d.solids.begin(), d.solids.end(), [&](const scene::Solid& s) { return s.name == thing.name; });
+    if (thing.kind != "solid" || solid == d.solids.end()) continue;
+    const bool falls = std::any_of(faults.begin(), faults.end(), [&](const core::Fault& f) {
+      return f.message.find("'" + thing.name + "' to be held against gravity") != std::string::npos;
+    });
+    if (!falls) continue;
+    Finding finding{About::attachment,
+                    "solid:" + thing.name,
+                    tr("{} is too heavy for what it is attached by.", thing.name),
+                    "",
+                    {}};
+    const geometry::TriMesh mesh = surface_mesh(*solid);
+    const double held = share_held(mesh, solid->anchors);
+    const auto share = std::find_if(kRests.begin(), kRests.end(), [held](double s) { return held < 0.9 * s; });
+    if (share != kRests.end() && !mesh.triangles.empty()) {
+      const scene::Anchor rest = underside(geometry::bounds(mesh.positions), d.gravity, *share);
+      finding.remedy = tr("Rest it on its underside");
+      finding.steps.push_back(hold_step(finding.thing, rest));
+    }
+    out.push_back(std::move(finding));
+  }
+}
+
 bool has_organ(const scene::Description& d) {
   return !d.solids.empty() || !d.pouches.empty() || !d.strands.empty() || !d.membranes.empty();
 }
@@ -281,7 +334,12 @@ std::vector<Finding> readiness(const Document& document, const scene::Descriptio
   std::vector<Finding> out;
   check_tissues(document, out);
   check_surfaces(document, faults, out);
-  if (out.empty() && !faults.empty()) out.push_back({About::file, "", core::to_string(faults.front()), "", {}});
+  if (description) check_support(document, *description, faults, out);
+  if (out.empty() && !faults.empty()) {
+    const core::Fault& f = faults.front();
+    const std::string file = fs::path(f.at.file).filename().string();
+    out.push_back({About::file, "", tr("{}, line {}: {}", file, f.at.line, f.message), "", {}});
+  }
   if (!description || !faults.empty()) return out;
   if (!has_organ(*description)) {
     out.push_back({About::organ, "", tr("There is no organ. Add one (Add), or import one (File > Import)."), "", {}});
