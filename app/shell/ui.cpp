@@ -252,9 +252,18 @@ void begin_middle(const char* name, float width) {
   ImGui::PopStyleVar(2);
 }
 
+namespace {
+ImVec2 upper_corner(ImVec2 a, ImVec2 b) { return {std::max(a.x, b.x), std::max(a.y, b.y)}; }
+ImVec2 lower_corner(ImVec2 a, ImVec2 b) { return {std::min(a.x, b.x), std::min(a.y, b.y)}; }
+}  // namespace
+
 void note_widget(const std::string& id) {
-  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   if (!ImGui::IsItemVisible()) return;
+  const ImDrawList& list = *ImGui::GetWindowDrawList();  // of a button half scrolled away, the half that can be pressed
+  const ImVec2 low = upper_corner(ImGui::GetItemRectMin(), list.GetClipRectMin());
+  const ImVec2 high = lower_corner(ImGui::GetItemRectMax(), list.GetClipRectMax());
+  constexpr float kPressable = 4;  // [px]
+  if (high.x - low.x < kPressable || high.y - low.y < kPressable) return;
   g_widgets.push_back({id, int(0.5f * (low.x + high.x)), int(0.5f * (low.y + high.y)), ImGui::IsItemFocused()});
 }
 

@@ -131,8 +131,8 @@ def press_below(m, widget):
         m.eyes.read()
         if widget in m.eyes.screen["widgets"]:
             break
-        width = int(subprocess.run(["xdotool", "getdisplaygeometry"], capture_output=True, text=True).stdout.split()[0])
-        xdo("mousemove", width - 150, 300)
+        x, y = m.eyes.screen["widgets"]["Make an organ of it"]
+        xdo("mousemove", x, y - 250)
         xdo("click", 5)
     m.hands.press(widget)
 
@@ -148,6 +148,8 @@ def leave(m):
 
 def session(m, only):
     m.eyes.on("start", 180)
+    m.keys("F11")  # as large as the display
+    time.sleep(2)
     shown("start")
     count = 0
 
@@ -184,11 +186,12 @@ def session(m, only):
         m.hands.press("4 Threshold", 120)
         m.hands.press("preset")
         m.hands.press("preset Liver")
+        time.sleep(1)  # the list closes
         shown("ct_threshold")
-        press_below(m, "Apply")
-        press_below(m, "Largest part")
-        press_below(m, "Fill holes")
-        press_below(m, "Smooth")
+        for button, said in (("Apply", "Threshold"), ("Largest part",) * 2, ("Fill holes",) * 2, ("Smooth",) * 2):
+            press_below(m, button)
+            m.eyes.wait(f"an answer to {button}",
+                        lambda: any(e["said"].startswith(said) for e in m.eyes.happened("scan")), 120)
         shown("ct_segment")
         m.hands.press("Make an organ of it")
         m.eyes.wait("an organ", lambda: m.eyes.happened("organ") or m.eyes.happened("refused"), 180)
