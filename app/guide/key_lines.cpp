@@ -39,7 +39,8 @@ class KeyLines {
       if (!scope && !named("endoscope")) add(tr("Endoscope: {}, then {}.", key("endoscope"), key("move")));
       if (scope && !named("move"))
         add(tr("Endoscope: {} turns, {} moves along it, {} rolls.", key("move"), key("depth"), key("roll")));
-      if (scope && q.model.scope.angle != 0 && !named("light_post")) add(tr("Look around corners (light post): {}.", key("light_post")));
+      if (scope && q.model.scope.angle != 0 && !named("light_post"))
+        add(tr("Look around corners (light post): {}.", key("light_post")));
     } else if (q.needs.hand >= 0 && q.led != q.needs.hand) {
       add(tr("Control {}: {}.", attempt::hand_name(q.model, q.needs.hand), hand_key(q.needs.hand, q.device)));
     }

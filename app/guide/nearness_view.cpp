@@ -56,24 +56,45 @@ std::string row_text(const Nearness& row) {
   return row.wanted ? row.label : tr("not: {}", row.label);
 }
 
+constexpr float kBeside = 6;  // [px at scale 1] between texts of a row
+
+std::string value_text(const Nearness& row) { return row.is_truth ? std::string() : row.shown_value(); }
+std::string target_text(const Nearness& row) { return row.is_truth ? std::string() : "(" + row.target() + ")"; }
+float figures_width(const Nearness& row) {
+  return ImGui::CalcTextSize((value_text(row) + target_text(row)).c_str()).x +
+         (row.is_truth ? 0 : kBeside * ui::scale());
+}
+float indent_of_rows() { return ImGui::GetTextLineHeight() + 4 * ui::scale(); }
+
+/// Does a row's name need a line of its own?
+bool takes_two_lines(const Nearness& row, float width) {
+  const float name = ImGui::CalcTextSize(row_text(row).c_str()).x;
+  return !row.is_truth && indent_of_rows() + name + kBeside * ui::scale() + figures_width(row) > width;
+}
+
+float row_height(const Nearness& row, float width) {
+  const float lines = takes_two_lines(row, width) ? 2 : 1;
+  return lines * ImGui::GetTextLineHeight() + (row.is_truth ? 0 : (kBar + kGap) * ui::scale());
+}
+
 void draw_nearness_row(const Nearness& row) {
   const float scale = ui::scale(), line = ImGui::GetTextLineHeight(), width = ImGui::GetContentRegionAvail().x;
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float indent = line + 4 * scale;
+  const float indent = indent_of_rows(), gap = kBeside * scale, right = figures_width(row);
+  const bool two = takes_two_lines(row, width);
   draw_ring(row, {at.x + 0.45f * line, at.y + 0.5f * line}, 0.38f * line);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const std::string value = row.is_truth ? std::string() : row.shown_value();
-  const std::string target = row.is_truth ? std::string() : "(" + row.target() + ")";
-  const float gap = 6 * scale, right = ImGui::CalcTextSize((value + target).c_str()).x + (row.is_truth ? 0 : gap);
-  const std::string label = ui::shortened(row_text(row), std::max(30 * scale, width - indent - right - gap));
+  const std::string label = ui::shortened(row_text(row), width - indent - (two || row.is_truth ? 0 : right + gap));
   draw.AddText({at.x + indent, at.y}, ImGui::GetColorU32(row.fulfilled ? ui::kBlue : ui::kWhite), label.c_str());
   if (!row.is_truth) {
-    const float x = at.x + width - right;
-    draw.AddText({x, at.y}, ImGui::GetColorU32(colour_of_row(row)), value.c_str());
-    draw.AddText({x + ImGui::CalcTextSize(value.c_str()).x + gap, at.y}, ImGui::GetColorU32(ui::kGrey), target.c_str());
-    draw_nearness_bar(row, {at.x + indent, at.y + line + 2 * scale}, width - indent, kBar * scale);
+    const float x = at.x + width - right, y = at.y + (two ? line : 0);
+    const std::string value = value_text(row);
+    draw.AddText({x, y}, ImGui::GetColorU32(colour_of_row(row)), value.c_str());
+    draw.AddText({x + ImGui::CalcTextSize(value.c_str()).x + gap, y}, ImGui::GetColorU32(ui::kGrey),
+                 target_text(row).c_str());
+    draw_nearness_bar(row, {at.x + indent, y + line + 2 * scale}, width - indent, kBar * scale);
   }
-  ImGui::Dummy({width, line + (row.is_truth ? 0 : (kBar + kGap) * scale)});
+  ImGui::Dummy({width, row_height(row, width)});
 }
 
 }  // namespace
@@ -98,10 +119,9 @@ NearnessBar bar_of(const Nearness& row) {
   return bar;
 }
 
-float nearness_height(const std::vector<Nearness>& rows) {
-  const float line = ImGui::GetTextLineHeight(), gap = ImGui::GetStyle().ItemSpacing.y;
+float nearness_height(const std::vector<Nearness>& rows, float width) {
   float height = 0;
-  for (const Nearness& row : rows) height += line + gap + (row.is_truth ? 0 : (kBar + kGap) * ui::scale());
+  for (const Nearness& row : rows) height += row_height(row, width) + ImGui::GetStyle().ItemSpacing.y;
   return height;
 }
 

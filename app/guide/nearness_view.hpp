@@ -9,8 +9,8 @@ namespace trocar::app {
 
 /// Within the open ImGui window, as wide as it is.
 void draw_nearness(const std::vector<training::Nearness>& rows);
-/// As high as draw_nearness() will be [px].
-float nearness_height(const std::vector<training::Nearness>& rows);
+/// As high as draw_nearness() will be in a window of that width [px].
+float nearness_height(const std::vector<training::Nearness>& rows, float width);
 
 /// Where a row's bar shows the value and the target, as shares of its width.
 struct NearnessBar {

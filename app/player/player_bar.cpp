@@ -157,6 +157,8 @@ void draw_timeline(const BarContent& c, attempt::Timeline& line, float scale, Pl
 /// A small button; those who look for it find it by its tip.
 bool small_button(const char* label, const char* tip, bool lit = false) {
   if (lit) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyle().Colors[ImGuiCol_ButtonActive]);
+  const float wide = ImGui::CalcTextSize(label, nullptr, true).x + 2 * ImGui::GetStyle().FramePadding.x;
+  if (wide > ImGui::GetContentRegionAvail().x) ImGui::NewLine();
   const bool pressed = ImGui::Button(label);
   if (lit) ImGui::PopStyleColor();
   ui::note_widget(tip);

@@ -221,6 +221,11 @@ bool slider(const std::string& label, double& value, double low, double high, co
   return changed;
 }
 
+void beside(float width) {
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width * g_scale <= right) ImGui::SameLine();
+}
+
 void take_focus() { ImGui::SetFocusID(ImGui::GetItemID(), ImGui::GetCurrentWindow()); }
 
 void begin_screen(const char* name) {

@@ -46,6 +46,9 @@ bool button(const std::string& label, const ButtonLook& look = {});
 bool checkbox(const std::string& label, bool& value);
 bool slider(const std::string& label, double& value, double low, double high, const char* format, bool logarithmic);
 
+/// What comes next, `width` wide [px at scale 1], goes beside the last thing, or below it where there is no room.
+void beside(float width);
+
 /// The last thing drawn takes the focus of keys and gamepad.
 void take_focus();
 

@@ -45,16 +45,17 @@ void draw_about() {
 
 void draw_more_page(const StartContent& c, StartMemory& memory, StartAnswer& answer) {
   ui::title(tr("More"));
-  const auto big = [](const char* title) { return ui::button(title, {.width = 190, .height = 38}); };
+  constexpr float kWidth = 190;
+  const auto big = [](const char* title) { return ui::button(title, {.width = kWidth, .height = 38}); };
   if (big(tr("Settings"))) answer.choice = StartChoice::settings;
   first_focus(memory);
-  ImGui::SameLine();
+  ui::beside(kWidth);
   if (big(tr("Help"))) answer.choice = StartChoice::help;
-  ImGui::SameLine();
+  ui::beside(kWidth);
   if (big(tr("Results and reports"))) memory.open(StartPage::recordings);
-  ImGui::SameLine();
+  ui::beside(kWidth);
   if (big(tr("Change person"))) memory.open(StartPage::person);
-  ImGui::SameLine();
+  ui::beside(kWidth);
   if (big(tr("Quit"))) answer.choice = StartChoice::quit;
   ImGui::BeginChild("list", {0, 0}, false, ImGuiWindowFlags_NavFlattened);
   draw_devices(c);

@@ -32,10 +32,10 @@ void draw_directions(Settings& s) {
     set_directions(s, directions);
   };
   choice(tr("As on the screen"), Directions::screen, 180, tr("The tip follows the hand."));
-  ImGui::SameLine();
+  ui::beside(250);
   choice(tr("As in the theatre (fulcrum)"), Directions::theatre, 250,
          tr("The tip moves against the hand, as an instrument does that pivots in the abdominal wall."));
-  ImGui::SameLine();
+  ui::beside(110);
   choice(tr("Custom"), Directions::custom, 110, tr("Each direction by itself"));
   if (custom) draw_custom_directions(s);
 }
@@ -63,7 +63,7 @@ void draw_stereo_settings(Settings& s, bool quad_buffers) {
   ui::text(tr("Two eyes (3D screens and glasses)"), ui::kBlue);
   int k = 0;
   for (const pictures::StereoName& n : pictures::kStereoNames) {
-    if (k++ % 3 != 0) ImGui::SameLine();
+    if (k++ % 3 != 0) ui::beside(190);
     if (ui::button(n.name, {.width = 190, .primary = s.stereo == n.name, .tip = n.meaning})) s.stereo = n.name;
   }
   if (s.stereo == "off") return;

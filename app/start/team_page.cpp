@@ -69,7 +69,7 @@ void draw_host(const StartContent& c, StartMemory& memory, StartAnswer& answer) 
   field(tr("Address"), "##host address", form.address, sizeof form.address, 170);
   field(tr("Port"), "##host port", form.port, sizeof form.port, 80);
   field(tr("Key"), "##host key", form.key, sizeof form.key, 230);
-  ImGui::SameLine();
+  ui::beside(80);
   if (ui::button(tr("Copy") + std::string("##key"), {.width = 80})) ImGui::SetClipboardText(form.key);
   ui::text(tr("0.0.0.0: other computers may join. 127.0.0.1: only this one. Give the other person this computer's "
               "address, the port and the key."),

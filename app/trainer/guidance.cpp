@@ -97,21 +97,26 @@ void draw_tabs(HelpPage& page) {
 Choice draw_help(const Equipment& equipment, bool left_handed, HelpPage& page) {
   Choice choice = Choice::none;
   ui::begin_middle("help", 1160);
+  constexpr float kDrawing = 460, kShareOfDrawing = 0.46f;  // [px at scale 1] below it words beside the drawing are cut
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ui::title(page.both ? tr("Both hands at once") : tr("Keys and buttons"));
   draw_tabs(page);
   const float room = 0.97f * size.y - 150 * ui::scale();
   ImGui::BeginChild("page", {0, std::min(room, 500 * ui::scale())}, false);
   const float whole = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize, gap = 16 * ui::scale();
-  const bool columns = size.x > 760 * ui::scale();
-  const float drawing = columns ? 0.46f * (whole - gap) : whole;
-  ImGui::BeginChild("device", {drawing, columns ? 0.0f : 0.75f * drawing}, false, ImGuiWindowFlags_NoNav);
-  draw_device(equipment, left_handed, page, drawing);
-  ImGui::EndChild();
-  if (columns) ImGui::SameLine(0, gap);
-  ImGui::BeginChild("lines", {0, 0}, false);
-  draw_lines(equipment, left_handed, page);
-  ImGui::EndChild();
+  if (whole > kDrawing * ui::scale() / kShareOfDrawing) {
+    const float drawing = kShareOfDrawing * (whole - gap);
+    ImGui::BeginChild("device", {drawing, 0}, false, ImGuiWindowFlags_NoNav);
+    draw_device(equipment, left_handed, page, drawing);
+    ImGui::EndChild();
+    ImGui::SameLine(0, gap);
+    ImGui::BeginChild("lines", {0, 0}, false);
+    draw_lines(equipment, left_handed, page);
+    ImGui::EndChild();
+  } else {
+    draw_device(equipment, left_handed, page, std::min(whole, kDrawing * ui::scale()));
+    draw_lines(equipment, left_handed, page);
+  }
   ImGui::EndChild();
   if (ui::button(tr("Close help"), {.width = 180, .primary = true})) choice = Choice::resume;
   ImGui::SetItemDefaultFocus();

@@ -56,7 +56,7 @@ float height_of(const std::string& text, float width) {
 float now_height(const NowText& t, const std::vector<training::Nearness>& rows, float wrap) {
   const float marked = wrap - 22 * ui::scale();
   float height = height_of(t.head, wrap) + height_of(t.name, marked) + height_of(t.hint, wrap) +
-                 height_of(t.refusal, marked) + nearness_height(rows);
+                 height_of(t.refusal, marked) + nearness_height(rows, wrap);
   for (const std::string& line : t.keys) height += height_of(line, wrap);
   return height;
 }
