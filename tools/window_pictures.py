@@ -17,7 +17,7 @@ from trainee import Eyes, Failed, MouseAndKeys, xdo  # noqa: E402
 
 SIZE = "1280x720"
 PERSON = "Anna Muster"
-PICTURES_OF_TILES = 150  # [s] they are drawn one after the other
+PICTURES_OF_TILES = 200  # [s] they are drawn one after the other
 
 
 class Window:
@@ -77,22 +77,18 @@ def operation_pictures(program, folder, images):
         w.eyes.where("Start", 120)
         w.shot("window_details", 4)
         w.hands.press("Start", 120)
-        exercise_and_result(w)
+        w.runs(300)
+        w.hands.look(0.05, 0.05, 0.012)
+        w.shot("window_exercise", 2)
+    with Window(program, folder, ["train", "basics/camera-0", "--input", "demo", "--trainee", PERSON, "--size", SIZE],
+                images) as w:
+        w.runs(300)
+        w.eyes.on("result", 180)
+        w.shot("window_result", 2)
     with Window(program, folder, ["train", "cholecystectomy/clip-and-cut", "--input", "demo", "--size", SIZE],
                 images) as w:
         w.runs(18500, 1200)
         w.shot("window_operation")
-
-
-def exercise_and_result(w):
-    w.runs(300)
-    w.hands.look(0.05, 0.05, 0.012)
-    w.shot("window_exercise", 2)
-    w.hands.pause()
-    w.hands.press("End exercise")
-    w.hands.press("Yes, end exercise")
-    w.eyes.on("result", 60)
-    w.shot("window_result", 2)
 
 
 def modeller_pictures(program, folder, images):

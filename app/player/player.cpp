@@ -74,7 +74,7 @@ PlayerEnd Player::run() {
 void Player::lay_out() {
   const float scale = m_window.scale(), width = float(m_window.width()), height = float(m_window.height());
   const float panel = std::floor(std::min(kPlayerPanelWidth * scale, 0.5f * width));
-  const float bar = std::floor(std::min(kBarHeight * scale, 0.5f * height));
+  const float bar = std::floor(std::min(bar_height(width - panel, scale), 0.5f * height));
   m_main = {0, 0, std::max(1.0f, width - panel), std::max(1.0f, height - bar)};
   m_panel = {m_main.width, 0, panel, height};
   m_bar = {0, m_main.height, m_main.width, bar};

@@ -226,6 +226,11 @@ void draw_buttons(const BarContent& c, float scale, PlayerCommands& commands) {
 
 }  // namespace
 
+float bar_height(float width, float scale) {
+  constexpr float kUsual = 164, kButtons = 590, kTwoMoreRows = 68;  // [px at scale 1]
+  return scale * (width < kButtons * scale ? kUsual + kTwoMoreRows : kUsual);
+}
+
 void draw_bar(const BarContent& content, attempt::Timeline& line, float width, float top, float height,
               PlayerCommands& commands, std::uint64_t& seek) {
   const float scale = ui::scale();

@@ -18,7 +18,8 @@ struct BarContent {
   bool captions = true, inside = false, now_you = false;
 };
 
-inline constexpr float kBarHeight = 164;  ///< times the display's scale [px]
+/// How high the bar is that shows its buttons and a timeline, at that width and scale of texts [px].
+float bar_height(float width, float scale);
 
 /// @param seek set to the tick that the pointer asks for; unchanged where it does not
 void draw_bar(const BarContent& content, attempt::Timeline& line, float width, float top, float height,

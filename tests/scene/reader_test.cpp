@@ -437,6 +437,8 @@ TEST(Reader, AMeshOutsideOfTheTreeIsNotOpened) {
 TEST(Reader, AnUnknownNameIsToldInWordsThatFit) {
   EXPECT_EQ(unknown_name("command", "chek", {"check", "list"}),
             "expected a known command, got \"chek\" (did you mean \"check\"?); known: check, list");
+  EXPECT_EQ(unknown_name("exercise", "camra-0", {"basics/camera-0"}),
+            "expected a known exercise, got \"camra-0\" (did you mean \"basics/camera-0\"?); known: basics/camera-0");
   EXPECT_EQ(unknown_name("organ", "x", {}), "expected an organ, got \"x\"; none is known");
 }
 

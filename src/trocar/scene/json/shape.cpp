@@ -440,8 +440,12 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   if (word.size() > 64) return {};
   const std::string* best = nullptr;
   std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+  const bool is_leaf = word.find('/') == word.npos;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
+    const std::size_t slash = candidate.rfind('/');
+    std::size_t distance = edit_distance(word, candidate);
+    if (is_leaf && slash != candidate.npos)
+      distance = std::min(distance, edit_distance(word, std::string_view(candidate).substr(slash + 1)));
     if (distance >= best_distance) continue;
     best = &candidate;
     best_distance = distance;

@@ -148,7 +148,7 @@ class JsonObject {
   const JsonValue* good(std::string_view key) const;
 };
 
-/// The candidate nearest to `word` by edit distance, empty where none is near (for "did you mean").
+/// The candidate nearest to `word`, empty where none is near; "camra-0" is near "basics/camera-0", too.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// `word` was expected to be one of `known`: "expected a known tissue (liver, uterus), got "utreus" (did you mean
