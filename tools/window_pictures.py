@@ -52,6 +52,7 @@ class Window:
     def type_into(self, field, text):
         self.hands.press(field)
         xdo("key", "ctrl+a")
+        time.sleep(0.4)
         xdo("type", "--delay", "30", text)
         time.sleep(0.4)
 

@@ -25,6 +25,7 @@
 #include "shell/display_panel.hpp"
 #include "shell/layout_panel.hpp"
 #include "shell/ui.hpp"
+#include "start/past.hpp"
 #include "trainer/demonstrator.hpp"
 #include "trainer/guidance.hpp"
 #include "trainer/panel.hpp"
@@ -526,8 +527,9 @@ void AttemptWindow::draw_over(const attempt::Snapshot& now, Choice& choice) {
   if (m_stage.overlay() != TrainerWindow::Overlay::none) return;
   const bool gamepad = m_stage.window.gamepads().present();
   if (m_over) {
+    const std::string& person = m_log.attempt().trainee;
     choice = draw_result(
-        {m_summary, mode_text(), m_log.attempt().trainee, m_stage.options.store != nullptr,
+        {m_summary, mode_text(), is_reserved_name(person) ? std::string() : person, m_stage.options.store != nullptr,
          !m_log.attempt().recording.empty(), m_watch_failure.empty() ? m_stage.reports.say() : m_watch_failure},
         m_name_on_report);
   } else if (m_hint) {
