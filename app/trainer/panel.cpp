@@ -278,7 +278,7 @@ void draw_pull(const PanelContent& c) {
                  ImGui::GetColorU32(limit < c.pull_limit ? ui::kOrange : ui::kWhite), 2 * ui::scale());
   const std::string label = over   ? tr("pull {:.1f} N  TOO HARD", pull)
                             : near ? tr("pull {:.1f} N  careful", pull)
-                                   : tr("pull {:.1f} N", pull);
+                                   : tr("pull {:.1f} N (max {:g} N)", pull, c.pull_limit);
   draw.AddText({at.x + 6 * ui::scale(), at.y + 0.5f * (height - ImGui::GetTextLineHeight())},
                ImGui::GetColorU32(over || near ? ImVec4{0, 0, 0, 1} : ui::kWhite), label.c_str());
   ImGui::Dummy({width, height});
