@@ -28,7 +28,11 @@ void label(const char* text) {
 
 const char* unit_word(double metres) { return metres >= 1 ? tr("metres") : metres >= 0.01 ? tr("cm") : tr("mm"); }
 
-std::string size_in_words(Vec3d mm) { return tr("{:.4g} x {:.4g} x {:.4g} mm", mm.x, mm.y, mm.z); }
+/// Four digits, and all digits of what is larger.
+std::string short_length(double mm) { return mm < 1e4 ? fmt::format("{:.4g}", mm) : fmt::format("{:.0f}", mm); }
+std::string size_in_words(Vec3d mm) {
+  return tr("{} x {} x {} mm", short_length(mm.x), short_length(mm.y), short_length(mm.z));
+}
 
 std::string volume_in_words(double mL) {
   if (mL >= 1e6) return tr("{:.0f} L", 1e-3 * mL);

@@ -121,6 +121,8 @@ void Modeller::obey_key(int key, int mods) {
       toggle_drive();
     else if (m_measuring)
       m_measuring = false, m_measured.clear();
+    else if (m_handle)
+      m_handle.reset();
     else
       select("");
   }

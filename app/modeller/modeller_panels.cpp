@@ -171,7 +171,7 @@ void Modeller::draw_outline() {
     if (t.kind != kind) ui::heading(modeller::label_of_kind(t.kind, true));
     kind = t.kind;
     const std::string id = t.kind + ":" + t.name;
-    if (ImGui::Selectable((t.name + "##" + id).c_str(), id == m_selected)) select(id);
+    if (ImGui::Selectable((t.name + "##" + id).c_str(), id == m_selected)) select(id), m_handle.reset();
     ui::note_widget(id);
   }
   if (m_things.empty())

@@ -63,6 +63,7 @@ void draw_program_keys(const HelpPage& page) {
     key_row("P Esc", tr("pause and menu"));
     key_row("F1, F12", tr("this help; save a picture"));
     key_row("F2", tr("another layout of the picture, while the exercise is not scored"));
+    key_row("F11", tr("full screen, and back"));
     key_row("F3, F4", tr("a second window with the endoscope's picture; details in the panel"));
   }
   ImGui::EndTable();

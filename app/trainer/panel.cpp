@@ -335,7 +335,7 @@ void draw_details_line(const PanelContent& c) {
 /// Figures that no trainee needs in order to continue.
 void draw_details(const PanelContent& c, float height) {
   ImGui::BeginChild("details", {0, height}, false, ImGuiWindowFlags_NoNav);
-  if (c.now.speed < 0.97) ui::text(tr("Speed: {:.2f} of real time", c.now.speed), ui::kGrey);
+  ui::text(tr("Speed: {:.2f} of real time", c.now.speed), ui::kGrey);
   if (attempt::hand_count(c.lesson.model) > 0)
     ui::text(tr("Force at the trocar: {:.1f} N", push_at_trocars(c)), ui::kGrey);
   draw_patient(c);

@@ -159,8 +159,8 @@ Choice draw_result(const ResultScreen& screen, bool& name_on_report) {
   ui::begin_middle("result", kWindow);
   draw_verdict(screen.summary, screen.mode);
   draw_details(screen.summary);
-  if (!screen.say.empty()) ui::text(screen.say, ui::kOrange);
   const Choice choice = draw_actions(screen, name_on_report);
+  if (!screen.say.empty()) ui::text(screen.say, ui::kOrange);  // below: no button moves
   ImGui::End();
   return choice;
 }
