@@ -70,8 +70,8 @@ bool begin_picture_list(const std::string& id, const std::string& label, const m
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float height = ImGui::GetFrameHeight(), width = 1.6f * height;
   const std::string indented = std::string(std::size_t(width / ImGui::CalcTextSize(" ").x) + 1, ' ') + label;
-  constexpr float kList = 320;  // [px at scale 1] wide: names with their stiffness
-  ImGui::SetNextWindowSizeConstraints({kList * ui::scale(), 0}, {2 * kList * ui::scale(), 480 * ui::scale()});
+  constexpr float kList = 380;  // [px at scale 1] wide: names with their stiffness
+  ImGui::SetNextWindowSizeConstraints({kList * ui::scale(), 0}, {kList * ui::scale(), 480 * ui::scale()});
   const bool open = ImGui::BeginCombo(id.c_str(), indented.c_str(), ImGuiComboFlags_HeightLarge);
   if (!open) {
     ui::note_widget(id.substr(id.find_first_not_of('#')));

@@ -160,7 +160,7 @@ Choice draw_result(const ResultScreen& screen, bool& name_on_report) {
   draw_verdict(screen.summary, screen.mode);
   draw_details(screen.summary);
   const Choice choice = draw_actions(screen, name_on_report);
-  if (!screen.say.empty()) ui::text(screen.say, ui::kOrange);  // below: no button moves
+  ui::text(screen.say.empty() ? " " : screen.say, ui::kOrange);  // its line is always there, so that no button moves
   ImGui::End();
   return choice;
 }
