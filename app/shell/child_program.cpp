@@ -65,8 +65,16 @@ int spawn_child(pid_t& child, const std::string& program, std::vector<std::strin
   posix_spawn_file_actions_addopen(&streams, 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&streams, output, 1);
   posix_spawn_file_actions_adddup2(&streams, errors, 2);
+  posix_spawnattr_t attributes;  // a shell that starts programs in the background lets them ignore SIGINT
+  posix_spawnattr_init(&attributes);
+  sigset_t usual;
+  sigemptyset(&usual);
+  sigaddset(&usual, SIGINT);
+  posix_spawnattr_setsigdefault(&attributes, &usual);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   const int failed =
-      posix_spawnp(&child, path.c_str(), &streams, nullptr, pointers(words).data(), pointers(variables).data());
+      posix_spawnp(&child, path.c_str(), &streams, &attributes, pointers(words).data(), pointers(variables).data());
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&streams);
   return failed;
 }

@@ -2,6 +2,7 @@
 #include "shell/child_program.hpp"
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <thread>
 
@@ -34,6 +35,14 @@ TEST(ChildProgram, SeesAddedVariablesBesideThoseOfThisProgram) {
 
 TEST(ChildProgram, EndsWhenItIsAskedTo) {
   ChildProgram child({"-c", "sleep 20"}, "/bin/sh");
+  child.ask_to_end();
+  EXPECT_EQ(status_at_end(child), 130);
+}
+
+TEST(ChildProgram, EndsWhenItIsAskedToBesideABackgroundProgram) {
+  const auto before = std::signal(SIGINT, SIG_IGN);
+  ChildProgram child({"-c", "sleep 20"}, "/bin/sh");
+  std::signal(SIGINT, before);
   child.ask_to_end();
   EXPECT_EQ(status_at_end(child), 130);
 }
