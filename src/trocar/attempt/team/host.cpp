@@ -167,7 +167,7 @@ struct TeamHost::Desk {
     if (hello->version != TROCAR_VERSION)
       return refuse(
           tr("the host runs Trocar {}, this is {}: both versions must be equal", TROCAR_VERSION, hello->version));
-    if (at == seats.end()) return refuse(tr("this session has no role {}", hello->role));
+    if (at == seats.end()) return refuse(tr("this exercise has no role {}", hello->role));
     if (at->shown.here) return refuse(tr("the role {} is already taken", hello->role));
     if (hello->ticks > made) return refuse("it is ahead of the host: restart it");
     at->link = std::move(link);
