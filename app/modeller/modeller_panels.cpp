@@ -212,8 +212,7 @@ void Modeller::draw_status() {
   const bool one_click_mends = findings && !findings->empty() && !findings->front().steps.empty();
   if (faults && !faults->empty() && !one_click_mends) {
     ui::mark(ui::Mark::error);
-    const core::Fault& f = faults->front();
-    const std::string place = tr("{}, line {}: {}", fs::path(f.at.file).filename().string(), f.at.line, f.message);
+    const std::string place = modeller::fault_in_words(faults->front());
     ui::text(ui::shortened(faults->size() > 1 ? tr("{}  (and {} more)", place, faults->size() - 1) : place,
                            m_bottom.width - 160),
              ui::kOrange);

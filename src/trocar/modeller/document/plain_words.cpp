@@ -1,5 +1,6 @@
 #include <array>
 #include <cctype>
+#include <filesystem>
 
 #include <trocar/core/text.hpp>
 #include <trocar/modeller/document/plain_words.hpp>
@@ -138,6 +139,11 @@ const char* stiffness_in_words(double young) {
   if (young < kSoft) return tr("soft");
   if (young < kMedium) return tr("medium");
   return young < kFirm ? tr("firm") : tr("very firm");
+}
+
+std::string fault_in_words(const core::Fault& fault) {
+  const std::string file = std::filesystem::path(fault.at.file).filename().string();
+  return tr("{}, line {}: {}", file, fault.at.line, fault.message);
 }
 
 }  // namespace trocar::modeller

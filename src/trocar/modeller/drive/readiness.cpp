@@ -8,6 +8,7 @@
 #include <trocar/geometry/surface_files/unit_guess.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/modeller/document/outline.hpp>
+#include <trocar/modeller/document/plain_words.hpp>
 #include <trocar/modeller/drive/readiness.hpp>
 #include <trocar/modeller/materials/materials.hpp>
 #include <trocar/modeller/operations/body_mesh.hpp>
@@ -335,11 +336,7 @@ std::vector<Finding> readiness(const Document& document, const scene::Descriptio
   check_tissues(document, out);
   check_surfaces(document, faults, out);
   if (description) check_support(document, *description, faults, out);
-  if (out.empty() && !faults.empty()) {
-    const core::Fault& f = faults.front();
-    const std::string file = fs::path(f.at.file).filename().string();
-    out.push_back({About::file, "", tr("{}, line {}: {}", file, f.at.line, f.message), "", {}});
-  }
+  if (out.empty() && !faults.empty()) out.push_back({About::file, "", fault_in_words(faults.front()), "", {}});
   if (!description || !faults.empty()) return out;
   if (!has_organ(*description)) {
     out.push_back({About::organ, "", tr("There is no organ. Add one (Add), or import one (File > Import)."), "", {}});
