@@ -1,7 +1,7 @@
 # The three functions every folder uses. A module is a static library of the sources in its folder's rooms; its tests and
 # benchmarks are the files in the folder of the same name under tests/ and bench/:
 #   tests/NAME/*_test.cpp  the quick ones, label `unit`, or `scene` where whole scenes are compiled and run
-#   tests/NAME/*_soak.cpp  the long ones, label `soak`, run by `./test.sh soak`
+#   tests/NAME/*_soak.cpp  the long ones, in parts (tests/soak.toml), run by `./test.sh soak PART`
 #   bench/NAME/*_bench.cpp
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -114,9 +114,6 @@ endfunction()
 # SECONDS is about how long it takes: the longest begin first, so that none is left to run alone at the end.
 function(trocar_test_entries target name label shards seconds_about)
   set(seconds 1800)
-  if("${label}" STREQUAL "soak")  # unquoted, soak would be the list of files of that name
-    set(seconds 3600)
-  endif()
   foreach(shard RANGE 1 ${shards})
     set(entry ${name})
     if(shards GREATER 1)
@@ -143,16 +140,15 @@ function(trocar_test_executable target sources depends libs)
   target_compile_definitions(${target} PRIVATE TROCAR_SOURCE_DIR="." TROCAR_BINARY_DIR="${built}")
 endfunction()
 
-# trocar_test(NAME [GROUPED] DEPENDS module... [LIBS target...] [LABEL unit|scene] [SHARDS n] [SOAK_SHARDS n]
-#             [SECONDS n]):
+# trocar_test(NAME [GROUPED] DEPENDS module... [LIBS target...] [LABEL unit|scene] [SHARDS n] [SECONDS n]):
 #   tests/NAME/*_test.cpp -> NAME_test, entry NAME (NAME.1, NAME.2, ... of several shards) under LABEL
-#   tests/NAME/*_soak.cpp -> NAME_soak, entry NAME_soak under soak
+#   tests/NAME/*_soak.cpp -> NAME_soak, whose cases are in parts of tests/soak.toml (tools/soak.py)
 function(trocar_test name)
-  cmake_parse_arguments(arg "GROUPED" "LABEL;SHARDS;SOAK_SHARDS;SECONDS" "DEPENDS;LIBS" ${ARGN})
+  cmake_parse_arguments(arg "GROUPED" "LABEL;SHARDS;SECONDS" "DEPENDS;LIBS" ${ARGN})
   list(TRANSFORM arg_DEPENDS PREPEND trocar_)
   file(GLOB quick CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   file(GLOB soak CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_soak.cpp)
-  foreach(given LABEL=unit SHARDS=1 SOAK_SHARDS=1 SECONDS=1)
+  foreach(given LABEL=unit SHARDS=1 SECONDS=1)
     string(REPLACE "=" ";" given ${given})
     list(GET given 0 key)
     if(NOT arg_${key})
@@ -171,7 +167,7 @@ function(trocar_test name)
   endif()
   if(soak)
     trocar_test_executable(${name}_soak "${soak}" "${arg_DEPENDS}" "${arg_LIBS}")
-    trocar_test_entries(${name}_soak ${name}_soak soak ${arg_SOAK_SHARDS} 1)
+    set_property(GLOBAL APPEND PROPERTY TROCAR_TEST_TARGETS ${name}_soak)
   endif()
 endfunction()
 

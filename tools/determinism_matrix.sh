@@ -3,8 +3,10 @@
 # three instruction sets, with one and two threads, every SIMD width, drawn and not drawn; then every recording is
 # verified by another build.
 #
-#   tools/determinism_matrix.sh [-k] [-x EXERCISE] [-i INPUT] [WORKDIR]
+#   tools/determinism_matrix.sh [-k] [-b BUILDS] [-x EXERCISE] [-i INPUT] [WORKDIR]
 #       WORKDIR  default build/matrix; about an hour on two cores without ccache
+#       -b       which builds, of g++ and clang++ for x86-64, x86-64-v3 and native: "g++-x86-64 clang++-native";
+#                default all six
 #       -x       default gynaecology/sterilisation; suturing/double-throw ties thread
 #       -i       whose hands: demo, or motion:FILE (default demo)
 #       -k       keep the recordings
@@ -15,9 +17,11 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 keep=false
 input=demo
 exercise=gynaecology/sterilisation
-while getopts kx:i: option; do
+wanted=
+while getopts kb:x:i: option; do
   case $option in
     k) keep=true ;;
+    b) wanted=" $OPTARG " ;;
     x) exercise=$OPTARG ;;
     i) input=$OPTARG ;;
     *) exit 2 ;;
@@ -44,6 +48,7 @@ supports() {
 builds=()
 for compiler in g++ clang++; do
   for march in x86-64 x86-64-v3 native; do
+    [[ -z $wanted || $wanted == *" $compiler-$march "* ]] || continue
     if ! supports $march; then
       echo "matrix: skipping $compiler $march, this processor lacks it" >&2
       continue
@@ -59,6 +64,7 @@ for compiler in g++ clang++; do
     builds+=("$name")
   done
 done
+[ ${#builds[@]} -gt 0 ] || { echo "matrix: none of the builds$wanted can be made here" >&2; exit 77; }
 
 field() {  # field NAME FILE: a top-level value of a JSON object
   python3 -c 'import json,sys; print(json.load(open(sys.argv[2]))[sys.argv[1]])' "$1" "$2"

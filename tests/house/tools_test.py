@@ -296,9 +296,26 @@ def LanguageCheckFindsEachFault():
         expect("21 exceptions: at most 20" in faults(), "too many exceptions passed")
 
 
+def SoakCheckFindsEachFault():
+    sys.path.insert(0, str(TOOLS))
+    from soak import faults, selected  # noqa: PLC0415
+    good = [{"name": "a", "minutes": 45, "cases": {"sim_soak": ["Abuse.*:Seeds/Suture.*/1?", "-Abuse.Long"]}},
+            {"name": "b", "minutes": 1, "tests": ["app.kills"], "fuzz": ["scene"], "cases": {"sim_soak": ["Abuse.Long"]}}]
+    long_tests = [("sim_soak", "Abuse.Short"), ("sim_soak", "Abuse.Long"), ("sim_soak", "Seeds/Suture.Is/12"),
+                  ("tests", "app.kills"), ("fuzz", "scene")]
+    expect(not list(faults(good, long_tests)), "good parts were refused")
+    for bad in (("sim_soak", "Other.Case"), ("sim_soak", "Seeds/Suture.Is/2"), ("tests", "app.more"), ("fuzz", "urdf")):
+        expect(list(faults(good, long_tests + [bad])), f"{bad} belongs to no part and passed")
+    expect(list(faults(good + good[1:], long_tests)), "a test of two parts passed")
+    expect(list(faults(good, long_tests[:3])), "a test that is not there passed")
+    expect(list(faults([dict(good[0], minutes=46), good[1]], long_tests)), "a part that takes too long passed")
+    expect(list(faults(good + [{"name": "c", "minutes": 1}], long_tests)), "a part without anything passed")
+    expect(selected("A.b", ["*", "-A.*"]) is False and selected("B.b", ["*", "-A.*"]), "a filter's minus was not obeyed")
+
+
 CASES = [LayerCheckFindsEachFault, EquationCheckFindsEachFault, ObjectCodeCheckFindsEachFault,
          EmptyTestExecutableIsFound, LinkCheckFindsEachFault, CommandBlockCheckFindsEachFault, LanguageCheckFindsEachFault,
-         NamedCheckFindsEachFault]
+         NamedCheckFindsEachFault, SoakCheckFindsEachFault]
 
 if __name__ == "__main__":
     wanted = sys.argv[1:] or [c.__name__ for c in CASES]
