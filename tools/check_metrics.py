@@ -3,6 +3,7 @@
 
     tools/check_metrics.py vectors                            the formulas below against published figures
     tools/check_metrics.py trials TROCAR MOTIONS.csv          against `trocar trials MOTIONS.csv --json`
+    tools/check_metrics.py made TROCAR                        the same, on trials that are made up
     tools/check_metrics.py trace TRACE.csv METRICS.json       against the metrics of one stored trace
     tools/check_metrics.py sample TRAINING_TEST               the same, on a trace that the test program writes
 
@@ -382,6 +383,33 @@ def check_trials(program, motions):
     return c.finish(f"{len(table)} trials of {len(counts)} people")
 
 
+def made_motions(path, persons=5, trials=6):
+    """Writes trials at about 1 Hz: people who wander from target to target, each trial with fewer detours."""
+    random = np.random.default_rng(7)
+    with open(path, "w", newline="") as file:
+        rows = csv.writer(file)
+        rows.writerow("operator trial t_ms xL yL zL rollL handleL xR yR zR rollR handleR subtask".split())
+        for person in range(persons):
+            skill = random.uniform(0.5, 1.5)
+            for trial in range(trials):
+                length = int(60 * skill * (0.4 + 0.6 * 0.7 ** trial)) + int(random.integers(5, 10))
+                place = random.uniform(-20, 20, 6)
+                t = int(random.integers(0, 5000))
+                for _ in range(length):
+                    place = place + random.normal(0, 8, 6) * (random.random(6) < 0.7)  # hands rest at times
+                    turn, handle = random.normal(0, 0.5, 2), random.uniform(0, 1, 2)
+                    rows.writerow([f"P{person}", f"T{trial + 1}", t, *place[:3], turn[0], handle[0], *place[3:], turn[1],
+                                   handle[1], 1])
+                    t += int(random.choice([1000, 1000, 1000, 760, 1500]))  # durations in whole samples of 20 ms
+
+
+def check_made(program):
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "made.csv")
+        made_motions(path)
+        return check_trials(program, path)
+
+
 def check_trace(trace, metrics):
     rate, shafts, marks, body = RATE, {}, [], []
     with open(trace, newline="") as file:
@@ -422,7 +450,8 @@ def check_sample(test_program):
 
 
 def main(arguments):
-    modes = {"vectors": (vectors, 0), "trials": (check_trials, 2), "trace": (check_trace, 2), "sample": (check_sample, 1)}
+    modes = {"vectors": (vectors, 0), "trials": (check_trials, 2), "made": (check_made, 1),
+             "trace": (check_trace, 2), "sample": (check_sample, 1)}
     if not arguments or arguments[0] not in modes or len(arguments) != 1 + modes[arguments[0]][1]:
         print(__doc__)
         return 2

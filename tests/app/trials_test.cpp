@@ -106,17 +106,5 @@ TEST_F(Trials, FaultsAreToldWithTheirPlace) {
   EXPECT_EQ(run({practice(), "--html", (m_folder / "no/such/folder.html").string()}), 3);
 }
 
-TEST_F(Trials, SharedTrialsShowTheLearningCurve) {
-  const fs::path shared = fs::path(TROCAR_SOURCE_DIR) / "../shared/data/kinematics/iras_laparoscopic";
-  if (!fs::exists(shared)) GTEST_SKIP() << "the shared motion data is not there: " << shared;
-  ASSERT_EQ(run({shared.string(), "--json"}), 0) << m_err;
-  const Json result = Json::parse(m_out);
-  EXPECT_EQ(result["attempts"].size(), 90u);
-  EXPECT_EQ(result["persons"].size(), 6u);
-  const Json& trend = (*metric(result, "duration_s"))["trend"];
-  EXPECT_LT(trend["slope_per_repetition"]["high"].get<double>(), -2) << "also without whoever learned most";
-  EXPECT_LT(trend["spearman_pooled"]["high"].get<double>(), -0.2);
-}
-
 }  // namespace
 }  // namespace trocar::app

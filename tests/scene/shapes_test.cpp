@@ -7,9 +7,6 @@
 
 #include <trocar/geometry/nurbs/closure.hpp>
 #include <trocar/geometry/nurbs/mesh.hpp>
-#include <trocar/geometry/nurbs_fit/fit.hpp>
-#include <trocar/geometry/repair/mend.hpp>
-#include <trocar/geometry/surface_files/surface_file.hpp>
 #include <trocar/geometry/surface_files/surface_writer.hpp>
 #include <trocar/geometry/surfaces/loft.hpp>
 #include <trocar/interactions/couplings/loads.hpp>
@@ -19,7 +16,7 @@
 #include <trocar/scene/files/writer.hpp>
 
 #include "../sim/small_scene.hpp"
-#include "files.hpp"
+#include "one_body.hpp"
 
 namespace trocar::scene {
 namespace {
@@ -27,34 +24,6 @@ namespace {
 namespace nurbs = geometry::nurbs;
 
 constexpr double kPi = portable::pi;
-
-/// A scene of one organ, and files beside it.
-struct Table {
-  Folder folder;
-
-  std::filesystem::path scene(const std::string& bodies) {
-    folder.write("organ.json", R"({"format": 1, )" + bodies + "}");
-    return folder.write("scene.json", R"({"format": 1, "name": "one", "organs": ["organ.json"],
-  "tissues": [{"name": "liver", "density_kg_m3": 1060, "young_Pa": 5400, "source": "ours"}],
-  "instruments": [{"name": "grasper", "kind": "grasper"}],
-  "ports": [{"name": "a", "position_mm": [0, 0, 200], "diameter_mm": 10}, {"name": "b", "position_mm": [50, 0, 200]}],
-  "tools": [{"instrument": "grasper", "port": "b", "tip_mm": [50, 0, 150]}],
-  "scope": {"port": "a", "tip_mm": [0, 0, 150]}})");
-  }
-  std::filesystem::path solid(const std::string& keys) {
-    return scene(R"("solids": [{"name": "body", "tissue": "liver", )" + keys +
-                 R"(, "anchors": [{"centre_mm": [0, 0, 0], "radius_mm": 60, "stiffness_N_m": 200}]}])");
-  }
-  std::filesystem::path pouch(const std::string& keys) {
-    return scene(R"("pouches": [{"name": "body", "tissue": "liver", "thickness_mm": 2, )" + keys +
-                 R"(, "held": [{"centre_mm": [0, 0, 0], "radius_mm": 20}]}])");
-  }
-  std::vector<std::string> faults(const std::filesystem::path& file) {
-    std::vector<std::string> told;
-    for (const core::Fault& f : check_file(file)) told.push_back(f.message);
-    return told;
-  }
-};
 
 void expect_only(const std::vector<std::string>& faults, const std::string& part) {
   ASSERT_EQ(faults.size(), 1u) << (faults.empty() ? "" : faults.back());
@@ -111,7 +80,7 @@ std::vector<std::string> all_shapes() {
 }
 
 TEST(ClosedShapes, WhatIsReadIsWrittenAndReadAgain) {
-  Table t;
+  OneBodyScene t;
   for (const std::string& shape : all_shapes()) {
     for (const auto& file : {t.solid(shape + R"(, "cell_mm": 6)"), t.pouch(shape)}) {
       EXPECT_EQ(t.faults(file), std::vector<std::string>{}) << shape;
@@ -123,7 +92,7 @@ TEST(ClosedShapes, WhatIsReadIsWrittenAndReadAgain) {
 }
 
 TEST(ClosedShapes, SeveralWaysToBeNoneAreTold) {
-  Table t;
+  OneBodyScene t;
   const std::string cell = R"(, "cell_mm": 6)";
   expect_only(t.faults(t.solid(R"("cell_mm": 6)")),
               "expected a shape (sections, mesh, voxels, surface, nurbs, tube or");
@@ -164,36 +133,12 @@ TEST(ClosedShapes, SeveralWaysToBeNoneAreTold) {
 
 Description read(const std::filesystem::path& file) { return read_scene(file); }
 
-const BodyReport& body_of(const CompileReport& report) {
-  for (const BodyReport& b : report.bodies)
-    if (b.name == "body") return b;
-  throw std::logic_error("no body");
-}
-
-/// Made at rest as drawn: how far the skin goes in a third of a second.
-/// @param of  only of this organ, below 0: of all
-double drift(const sim::Model& model, int of = -1) {
-  sim::State state = sim::initial_state(model);
-  sim::Work work = sim::make_work(model);
-  for (int i = 0; i < 300; ++i) sim::step(model, model.start, state, work);
-  double most = 0;
-  for (int organ = 0; organ < model.organs(); ++organ) {
-    if (of >= 0 && organ != of) continue;
-    const tissue::Skin& skin = model.skin(organ);
-    for (int v = 0; v < skin.size(); ++v)
-      if (skin.at_surface(v))
-        most = std::max(most, length(vec_cast<double>(work.poses[std::size_t(organ)].position[std::size_t(v)]) -
-                                     vec_cast<double>(skin.rest[std::size_t(v)])));
-  }
-  return most;
-}
-
-double volume_of(const std::string& shape, Table& t) {
+double volume_of(const std::string& shape, OneBodyScene& t) {
   return size_of(read(t.solid(shape + R"(, "cell_mm": 6)")).solids.at(0).shape).volume;
 }
 
 TEST(ClosedShapes, HaveTheVolumesThatTheyShould) {
-  Table t;
+  OneBodyScene t;
   const auto cylinder = [](double r, double l) { return kPi * r * r * l * 1e-9; };
   EXPECT_NEAR(volume_of(kFlatTube, t) / cylinder(10, 60), 1, 0.02);
   EXPECT_NEAR(volume_of(kHollowTube, t) / (cylinder(12, 60) - cylinder(8, 60)), 1, 0.02);
@@ -201,7 +146,7 @@ TEST(ClosedShapes, HaveTheVolumesThatTheyShould) {
 }
 
 TEST(ClosedShapes, AreFilledAndHangStill) {
-  Table t;
+  OneBodyScene t;
   for (const std::string& shape : all_shapes())
     for (const bool cuttable : {false, true}) {
       SCOPED_TRACE(shape + (cuttable ? " cuttable" : ""));
@@ -220,7 +165,7 @@ TEST(ClosedShapes, AreFilledAndHangStill) {
 }
 
 TEST(ClosedShapes, ArePouchesThatHangStill) {
-  Table t;
+  OneBodyScene t;
   for (const std::string& shape : {egg(), std::string(kTube), std::string(kSpindle)}) {
     SCOPED_TRACE(shape);
     const sim::Model model = compile(read(t.pouch(shape + R"(, "spacing_mm": 4)")));
@@ -236,7 +181,7 @@ TEST(ClosedShapes, ArePouchesThatHangStill) {
 }
 
 TEST(ClosedShapes, ThinPartsThatCellsLoseAreToldAndMuchOfABodyIsRefused) {
-  Table t;
+  OneBodyScene t;
   const std::string filled = R"(, "cuttable": true, "cell_mm": 5)";
   CompileReport report;
   compile(read(t.solid(R"("tube": {"line_mm": [[-30, 0, 0], [30, 0, 0]],
@@ -259,7 +204,7 @@ geometry::TriMesh ball_mm() {
 }
 
 TEST(SurfaceShapes, AreReadFromEveryFormatWithItsUnit) {
-  Table t;
+  OneBodyScene t;
   const geometry::TriMesh ball = ball_mm();
   t.folder.write("ball.obj", geometry::to_obj(ball));
   t.folder.write("ball.stl", geometry::to_stl(ball));
@@ -290,7 +235,7 @@ TEST(SurfaceShapes, AreReadFromEveryFormatWithItsUnit) {
 }
 
 TEST(SurfaceShapes, WhatIsNotClosedIsMendedAndTold) {
-  Table t;
+  OneBodyScene t;
   geometry::TriMesh open = ball_mm();
   open.triangles.erase(open.triangles.begin() + 20, open.triangles.begin() + 23);
   t.folder.write("open.obj", geometry::to_obj(open));
@@ -319,7 +264,7 @@ TEST(SurfaceShapes, WhatIsNotClosedIsMendedAndTold) {
 /// Edges with three triangles and with four: a fin that stands on a ball encloses nothing, another ball that touches
 /// the first along an edge is a body.
 TEST(SurfaceShapes, AnSTLThatIsNoManifoldIsMendedAndToldOrRefusedWithWhatIsLeftOpen) {
-  Table t;
+  OneBodyScene t;
   const geometry::TriMesh ball = ball_mm();
   geometry::TriMesh finned = ball;
   const auto [a, b, c] = ball.triangles[20];
@@ -342,7 +287,7 @@ TEST(SurfaceShapes, AnSTLThatIsNoManifoldIsMendedAndToldOrRefusedWithWhatIsLeftO
 }
 
 TEST(SurfaceShapes, SliversOfOthersCostNoSubSteps) {
-  Table t;
+  OneBodyScene t;
   geometry::TriMesh mesh = ball_mm();
   for (std::size_t k = 0; k < 200; k += 5) {  // a vertex in a triangle, next to one of its edges
     const std::array<int, 3> c = mesh.triangles[k];
@@ -367,32 +312,8 @@ TEST(SurfaceShapes, SliversOfOthersCostNoSubSteps) {
   }
 }
 
-class SurfacesOfAnAtlas : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Organs, SurfacesOfAnAtlas,
-                         testing::Values("VH_F_Uterus.glb", "VH_F_Pancreas.glb", "VH_F_Gallbladder.glb"));
-
-TEST_P(SurfacesOfAnAtlas, AreMendedFilledAndHangStillInFewSubSteps) {
-  const auto path = std::filesystem::path(TROCAR_SOURCE_DIR) / "../shared/data/anatomy/hubmap_ccf" / GetParam();
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  Table t;
-  t.folder.write("organ.glb", text_of(path));
-  const bool sack = std::string(GetParam()) == "VH_F_Gallbladder.glb";  // of two sides, a wall of a millimetre
-  const std::string solid = fmt::format(
-      R"("solids": [{{"name": "body", "tissue": "liver", "surface": {{"file": "organ.glb"}}, "cell_mm": {},
-         "anchors": [{{"centre_mm": [0, 250, -50], "radius_mm": 400, "stiffness_N_m": 300}}])",
-      sack ? 2 : 5);
-  for (const char* filled : {"}]", R"(, "cuttable": true}])"}) {
-    if (sack && filled[0] == ',') continue;  // cells of a millimetre: more than a solid may have
-    CompileReport report;
-    const sim::Model model = compile(read(t.scene(solid + filled)), &report);
-    EXPECT_LE(body_of(report).substeps, 12);
-    EXPECT_FALSE(report.warnings.empty()) << "what was mended is told";
-    EXPECT_LT(drift(model), 1e-5);
-  }
-}
-
 TEST(ControlPoints, OfNurbsWithPolesOnly) {
-  Table t;
+  OneBodyScene t;
   const std::string masses = R"(, "masses": "control_points")";
   EXPECT_EQ(t.faults(t.solid(egg() + masses)), std::vector<std::string>{});
   expect_only(t.faults(t.solid(kTube + masses)), "expected control points of \"nurbs\", got another shape");
@@ -406,7 +327,7 @@ TEST(ControlPoints, OfNurbsWithPolesOnly) {
 
 /// What a solid with masses at control points is made of.
 struct Controlled {
-  Table t;
+  OneBodyScene t;
   Description d = read(t.solid(egg() + R"(, "masses": "control_points", "skin_edge_mm": 3)"));
   CompileReport report;
   sim::Model model = compile(d, &report);
@@ -496,7 +417,7 @@ TEST(ControlPoints, GiveWayAsALatticeOfTheSameBodyDoes) {
 }
 
 TEST(ControlPoints, AnswerAtOnceAsWell) {
-  Table t;
+  OneBodyScene t;
   CompileReport report;
   const sim::Model model =
       compile(read(t.solid(egg() + R"(, "masses": "control_points", "skin_edge_mm": 4, "solver": "static")")), &report);
@@ -560,43 +481,8 @@ TEST(ControlPoints, WhatPushesTheSkinPushesTheNodesByTheSameForceAndMoment) {
   EXPECT_GT(widest, 8) << "rows of W are wider than eight";
 }
 
-struct Atlas {
-  const char* file;
-  int around, along;
-};
-class ControlPointsOfAnAtlas : public testing::TestWithParam<Atlas> {};
-INSTANTIATE_TEST_SUITE_P(Organs, ControlPointsOfAnAtlas,
-                         testing::Values(Atlas{"VH_F_Ovary_L.glb", 8, 10}, Atlas{"VH_F_Spleen.glb", 16, 24},
-                                         Atlas{"VH_F_Pancreas.glb", 12, 16}));
-
-TEST_P(ControlPointsOfAnAtlas, HangStillInFewSubSteps) {
-  const auto path = std::filesystem::path(TROCAR_SOURCE_DIR) / "../shared/data/anatomy/hubmap_ccf" / GetParam().file;
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  const geometry::TriMesh mesh =
-      geometry::mend(geometry::merged_equal(geometry::joined(geometry::read_surface_file(path)))).mesh;
-  nurbs::BodyFitOptions options;
-  options.around = GetParam().around, options.along = GetParam().along;
-  Description d = small::description();
-  Solid s;
-  s.name = s.look = "body";
-  s.tissue = "flesh";
-  s.shape.nurbs = shape_of(nurbs::fit_body(mesh, options).surface);
-  s.masses = Masses::control_points;
-  const Vec3d middle = geometry::centre_of_volume(mesh);
-  for (Vec3d& p : s.shape.nurbs->net) p += Vec3d{0, 0, -0.5} - middle;
-  s.cell = 0.010;
-  s.skin_edge = 0.004, s.fine_edge = 0.003;
-  s.anchors.push_back({{0, 0, -0.5}, 0.2, 300, {}});
-  d.solids.push_back(s);
-  CompileReport report;
-  const sim::Model model = compile(d, &report);
-  EXPECT_LE(body_of(report).substeps, 20);
-  EXPECT_NEAR(body_of(report).volume / geometry::volume(mesh), 1, 0.03);
-  EXPECT_LT(drift(model, model.organ_index("body")), 1e-5);
-}
-
 TEST(Walls, DegreeKnotsAndWeightsMakeAnExactQuarterOfATube) {
-  Table t;
+  OneBodyScene t;
   const std::string net = R"("net_mm": [[[30,0,0],[30,30,0],[0,30,0]], [[30,0,50],[30,30,50],[0,30,50]],
       [[30,0,90],[30,30,90],[0,30,90]]])";
   const auto with = [&](const std::string& more) {

@@ -1,5 +1,5 @@
 // Against another program: openBF's published arteries [Boileau et al. 2015, benchmark cases "common carotid" and
-// "iliac bifurcation"], whose last cycle at five stations of each vessel is in the shared data. Its model is ours (flat
+// "iliac bifurcation"]; its last cycle at five stations of each vessel is in tests/data/openbf. Its model is ours (flat
 // momentum profile, wall held lengthways, friction of a velocity profile, Windkessel ends), but its junctions pass
 // total pressure on, ours static pressure. In its last cycle of the bifurcation 0.6 % of what enters does not come out,
 // and the pressure at the ends is 1.4 % below that of the mean inflow through their resistances (figures of its files
@@ -19,7 +19,7 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-const fs::path kData = fs::path(TROCAR_SOURCE_DIR) / ".." / "shared" / "data" / "vessels" / "openbf";
+const fs::path kData = fs::path(TROCAR_SOURCE_DIR) / "tests/data/openbf";
 constexpr double kPeriod = 1.1;  // [s]
 constexpr int kBeatTicks = 1100;
 const double kStations[] = {0, 0.25, 0.5, 0.75, 1};
@@ -47,7 +47,7 @@ Rows one_period(Rows rows) {
 }
 
 fs::path reference(const std::string& name, const std::string& vessel, const char* quantity) {
-  return kData / "reference_csv" / (name + "_" + vessel + "_" + quantity + ".csv");
+  return kData / (name + "_" + vessel + "_" + quantity + ".csv");
 }
 
 double mean_of(const std::vector<std::vector<double>>& rows, std::size_t column) {
@@ -58,7 +58,7 @@ double mean_of(const std::vector<std::vector<double>>& rows, std::size_t column)
 
 VesselSource inflow(const std::string& name) {
   VesselSource pump{.node = 0, .kind = VesselSource::Kind::pump};
-  for (const auto& row : numbers(kData / "boileau2015" / name / (name + "_inlet.dat"))) pump.wave.push_back(row[1]);
+  for (const auto& row : numbers(kData / (name + "_inlet.dat"))) pump.wave.push_back(row[1]);
   pump.wave.pop_back();  // the last stands at the period's end, where the first does
   return pump;
 }
@@ -218,8 +218,6 @@ void expect_like(const VesselGraph& g, const std::string& name, const std::vecto
   }
 }
 
-bool missing() { return !fs::exists(kData / "reference_csv"); }
-
 TEST(OpenBf, WallsHaveItsWaveSpeeds) {
   const VesselSegment parent = vessel(0, 1, 8.6e-2, 500e3, 0.7581e-2, 0.9e-3);
   const VesselSegment daughter = vessel(1, 2, 8.5e-2, 700e3, 0.5492e-2, 0.68e-3);
@@ -227,18 +225,11 @@ TEST(OpenBf, WallsHaveItsWaveSpeeds) {
   expect_within("openBF wave speed, daughters", wave_speed(daughter, {}) / 7.383 - 1, 1e-4);
 }
 
-TEST(OpenBf, CommonCarotidArteryHasItsWaveforms) {
-  if (missing()) GTEST_SKIP() << "the shared openBF cases are not at " << kData;
-  expect_like(carotid(), "cca", {"common_carotid_artery"});
-}
+TEST(OpenBf, CommonCarotidArteryHasItsWaveforms) { expect_like(carotid(), "cca", {"common_carotid_artery"}); }
 
-TEST(OpenBf, IliacBifurcationHasItsWaveforms) {
-  if (missing()) GTEST_SKIP() << "the shared openBF cases are not at " << kData;
-  expect_like(iliac_bifurcation(), "ibif", {"parent", "d1", "d2"});
-}
+TEST(OpenBf, IliacBifurcationHasItsWaveforms) { expect_like(iliac_bifurcation(), "ibif", {"parent", "d1", "d2"}); }
 
 TEST(OpenBf, MeanPressureIsThatOfTheInflowThroughTheEnds) {
-  if (missing()) GTEST_SKIP() << "the shared openBF cases are not at " << kData;
   const VesselGraph g = iliac_bifurcation();
   double inflow = 0;
   for (const double q : g.sources[0].wave) inflow += q / double(g.sources[0].wave.size());

@@ -1,6 +1,6 @@
-// Against the analytical results that svOneDSolver's own test cases state (shared data, units of cm, g, s): a tube with
-// a resistance, one with a Windkessel, a bifurcation with resistances, a stenosis; rigid walls, steady flow. The
-// stenosis' separation loss is our segment's `loss` [Young & Tsai 1973].
+// Against the analytical results that svOneDSolver's own test cases state (tests/data/svonedsolver, units of cm, g, s):
+// a tube with a resistance, one with a Windkessel, a bifurcation with resistances, a stenosis; rigid walls, steady
+// flow. The stenosis' separation loss is our segment's `loss` [Young & Tsai 1973].
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -14,7 +14,7 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-const fs::path kCases = fs::path(TROCAR_SOURCE_DIR) / ".." / "shared" / "data" / "vessels" / "svonedsolver" / "cases";
+const fs::path kCases = fs::path(TROCAR_SOURCE_DIR) / "tests/data/svonedsolver";
 constexpr double kBarye = 0.1, kResistance = 1e5, kFlow = 1e-6;  // of cgs in SI
 
 /// The words of a case's lines, without comments.
@@ -75,21 +75,15 @@ void expect_pressures(const VesselGraph& g, const std::string& name, const std::
                   node_pressure(sim.model, sim.state, e.node) / (kBarye * e.pressure) - 1, 1e-3);
 }
 
-#define NEEDS_CASES \
-  if (!fs::exists(kCases)) GTEST_SKIP() << "the shared svOneDSolver cases are not at " << kCases
-
 TEST(SvOneDSolver, TubeWithAResistance) {
-  NEEDS_CASES;
   expect_pressures(read_case("tube_r.in"), "tube_r", {{0, 11005.30965}, {1, 10000}});
 }
 
 TEST(SvOneDSolver, TubeWithAWindkessel) {
-  NEEDS_CASES;
   expect_pressures(read_case("tube_rcr.in"), "tube_rcr", {{0, 11005.30965}, {1, 10000}});
 }
 
 TEST(SvOneDSolver, BifurcationWithResistances) {
-  NEEDS_CASES;
   const VesselGraph g = read_case("bifurcation_R.in");
   expect_pressures(g, "bifurcation", {{0, 3997.46433118937}, {1, 3984.67700709878}, {2, 3958.0048}, {3, 3958.0048}});
   Simulation sim(g);
@@ -100,7 +94,6 @@ TEST(SvOneDSolver, BifurcationWithResistances) {
 }
 
 TEST(SvOneDSolver, StenosisWithItsSeparationLoss) {
-  NEEDS_CASES;
   VesselGraph g = read_case("tube_stenosis_r.in");
   // Young & Tsai: viscous loss of a corrected length, and K_t / 2 (S0 / S1 - 1)^2 rho (Q / S0)^2; ours is
   // loss rho / 2 (Q / S1)^2.
