@@ -112,4 +112,11 @@ std::string renamed_from(const std::string& text, const JsonValue& root, const f
   return scene::json_set_all(text, std::move(renames));
 }
 
+JsonValue renamed_value(const std::string& key, const JsonValue& value, const fs::path& from, const fs::path& to) {
+  JsonValue one = scene::json_object();
+  scene::put(one, key, value);
+  std::vector<core::Fault> ignored;
+  return scene::parse_json(renamed_from(scene::to_text(one), one, from, to), "", ignored).root.members.at(0).value;
+}
+
 }  // namespace trocar::modeller

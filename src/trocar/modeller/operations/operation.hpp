@@ -56,6 +56,10 @@ struct Operation {
   std::string title(const scene::JsonObject& o) const;
 };
 
+/// The draft's texts become one entry of the document's history. @throws core::BadInput for a file that a document
+/// cannot name, as it lies outside its folder, or that all documents share
+void commit(Document& document, const std::string& title, const Draft& draft);
+
 const std::vector<Operation>& operations();
 const Operation* find_operation(std::string_view name);  ///< null where there is none
 
