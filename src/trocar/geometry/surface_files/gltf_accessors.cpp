@@ -48,11 +48,13 @@ class GltfAccessor {
     const std::optional<std::size_t> count = m_gltf.whole(m_item, "count");
     if (!m_type || !count) return refuse("expected an accessor with componentType and count, got another one");
     bound_items(m_gltf.in(), *count / std::size_t(components == 1 ? 3 : 1), "items of an accessor");
-    const int view = m_gltf.named(m_item, "bufferView", "bufferViews");
-    if (view < 0) return refuse("expected an accessor with a bufferView, got one without");
-    std::vector<double> values(*count * std::size_t(components));
-    if (!take(view, m_gltf.whole(m_item, "byteOffset").value_or(0), *count, values)) return std::nullopt;
     const int sparse = m_json.member(m_item, "sparse");
+    const bool has_view = m_json.member(m_item, "bufferView") >= 0;
+    const int view = has_view ? m_gltf.named(m_item, "bufferView", "bufferViews") : -1;
+    if (has_view && view < 0) return std::nullopt;
+    if (!has_view && sparse < 0) return refuse("expected an accessor with a bufferView or sparse, got one without");
+    std::vector<double> values(*count * std::size_t(components));  // zeros, where only sparse says what there is
+    if (has_view && !take(view, m_gltf.whole(m_item, "byteOffset").value_or(0), *count, values)) return std::nullopt;
     if (sparse >= 0 && !replace(sparse, *count, values)) return std::nullopt;
     normalise(values);
     return values;

@@ -31,7 +31,7 @@ std::string unescaped(std::string_view uri) {
 
 GltfDocument::Chunks GltfDocument::chunks_of(MeshSource& in) {
   const std::string_view all = in.all();
-  if (all.substr(0, 4) != "glTF") return {all.substr(all.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0), {}};
+  if (all.substr(0, 4) != "glTF") return {all.substr(in.at()), {}, 0};
   in.set_form(MeshSource::Form::binary);
   const auto whole = [&](const char* what) {
     std::int64_t value = 0;
@@ -41,14 +41,16 @@ GltfDocument::Chunks GltfDocument::chunks_of(MeshSource& in) {
   in.go_to(4);
   if (const std::int64_t version = whole("the version"); version != 2)
     in.lose(4, tr("expected glTF of version 2, got {}", version));
-  if (const std::int64_t length = whole("the length of the file"); std::uint64_t(length) != all.size())
-    in.lose(8, tr("expected the file's length, {}, got {}", all.size(), length));
+  const std::int64_t all_bytes = whole("the length of the file");
+  if (std::uint64_t(all_bytes) > all.size())
+    in.lose(8, tr("expected at most the file's length, {}, got {}", all.size(), all_bytes));
   Chunks chunks;
-  for (int chunk = 0; in.left() > 0; ++chunk) {
+  chunks.behind = all.size() - std::size_t(all_bytes);
+  for (int chunk = 0; in.left() > chunks.behind; ++chunk) {
     const std::size_t at = in.at();
     const std::int64_t length = whole("the length of a chunk"), type = whole("the type of a chunk");
-    if (std::uint64_t(length) > in.left())
-      in.lose(at, tr("expected a chunk of at most {} bytes, got {}", in.left(), length));
+    const std::size_t room = in.left() - std::min(in.left(), chunks.behind);
+    if (std::uint64_t(length) > room) in.lose(at, tr("expected a chunk of at most {} bytes, got {}", room, length));
     if ((chunk == 0) != (type == kJsonChunk))
       in.lose(at + 4, tr("expected JSON in the first chunk and nowhere else, got {:#010x}", type));
     if (chunk == 0) chunks.json = all.substr(in.at(), std::size_t(length));

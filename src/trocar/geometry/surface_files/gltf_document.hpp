@@ -24,6 +24,7 @@ class GltfDocument {
   MeshSource& in() { return m_in; }
   const JsonItems& json() const { return m_json; }
   bool in_one_file() const { return m_in_one_file; }  ///< .glb
+  std::size_t bytes_behind() const { return m_chunks.behind; }
 
   /// The values of one of the root's lists: "nodes", "accessors". Nothing where there is none.
   const std::vector<int>& list(std::string_view name);
@@ -39,6 +40,7 @@ class GltfDocument {
  private:
   struct Chunks {
     std::string_view json, binary;
+    std::size_t behind = 0;  ///< bytes of the file behind the last one
   };
   struct Buffer {
     int item = -1;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -108,7 +109,8 @@ class GltfNodes {
 
   Affine from_matrix(int node) {
     const auto m = numbers<16>(node, "matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
-    if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+    constexpr double kRounded = 1e-5;  // as programs with single precision write it
+    if (std::max({std::fabs(m[3]), std::fabs(m[7]), std::fabs(m[11]), std::fabs(m[15] - 1)}) > kRounded)
       m_gltf.fault(m_json.member(node, "matrix"), "expected a matrix whose last row is 0 0 0 1, got another one");
     return {Mat3d::from_columns({m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}), {m[12], m[13], m[14]}};
   }

@@ -37,6 +37,7 @@ class GltfReader {
     for (const GltfPlaced& placed : gltf_placed(m_gltf)) add_part(placed);
     m_left_out.add("skins (the shape is the one without them)", std::int64_t(m_gltf.list("skins").size()));
     m_left_out.add("animations", std::int64_t(m_gltf.list("animations").size()));
+    m_left_out.add("bytes behind the file's end", std::int64_t(m_gltf.bytes_behind()));
     m_left_out.tell(m_file.notes);
     return std::move(m_file);
   }
