@@ -113,6 +113,26 @@ TEST(Gltf, SparseAccessorsHaveTheirValuesPutIn) {
             std::string::npos);
 }
 
+TEST(Gltf, SparseAccessorsWithoutAViewBeginWithZeros) {
+  MeshBytes f;
+  f.all<float>(1, 0, 0, 0, 2, 0, 0, 0, 3).all<std::uint16_t>(1, 2, 3, 0);
+  for (const auto& t : axes_mesh().triangles) f.all<std::uint16_t>(t[0], t[1], t[2]);
+  const std::string json = R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    "accessors": [{"componentType": 5126, "count": 4, "type": "VEC3", "sparse": {"count": 3,
+      "indices": {"bufferView": 1, "componentType": 5123}, "values": {"bufferView": 0}}},
+      {"bufferView": 2, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6},
+      {"buffer": 0, "byteOffset": 44, "byteLength": 24}], "buffers": [{"byteLength": 68}]})";
+  EXPECT_EQ(read_surfaces(glb_of(json, f.bytes), "a.glb").parts.at(0).mesh.positions, axes_mesh().positions);
+}
+
+TEST(Gltf, MatricesMayBeRounded) {
+  const char* rounded = R"({"mesh": 0, "matrix": [1, 0, 0, 1e-7, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 0.9999999]})";
+  EXPECT_NEAR(with_nodes(rounded).parts.at(0).mesh.positions[1].x, 6, 1e-12);
+  EXPECT_NE(faults_of_nodes(R"({"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.99]})"), "");
+}
+
 TEST(Gltf, QuantizedPositionsAreRead) {
   MeshBytes f;
   for (const Vec3d& p : axes_mesh().positions) f.all<std::int16_t>(p.x * 10000, -p.y * 10000, p.z * 10000, 77);
@@ -221,7 +241,7 @@ TEST(Gltf, ChunksOfBinaryFilesThatLieAreFaults) {
     return gltf_faults(bytes);
   };
   EXPECT_NE(with_byte(4, 1).find("at byte 4: expected glTF of version 2, got 1"), std::string::npos);
-  EXPECT_NE(with_byte(8, 1).find("expected the file's length, "), std::string::npos);
+  EXPECT_NE(with_byte(10, 1).find("expected at most the file's length, "), std::string::npos);
   EXPECT_NE(with_byte(15, '\x7f').find("at byte 12: expected a chunk of at most "), std::string::npos);
   EXPECT_NE(with_byte(16, 'B').find("at byte 16: expected JSON in the first chunk"), std::string::npos);
 }

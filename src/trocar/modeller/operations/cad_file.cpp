@@ -1,14 +1,14 @@
 #include <cstdlib>
-#include <fstream>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/files.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/run_program.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/geometry/formats/tet_files.hpp>
 #include <trocar/geometry/surface_files/surface_file.hpp>
 #include <trocar/modeller/operations/cad_file.hpp>
 
@@ -48,20 +48,24 @@ scene::JsonValue as_text(const Json& value) {
   return scene::parse_json(value.dump(), "nurbs", faults).root;
 }
 
+std::string lower(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  return text;
+}
+
 }  // namespace
 
-bool holds_tetrahedra(const fs::path& file) {
-  if (file.extension() == ".msh") return true;
-  if (file.extension() != ".vtk") return false;
-  char head[512] = {};
-  std::ifstream(file, std::ios::binary).read(head, sizeof head - 1);
-  return std::string_view(head, sizeof head).find("UNSTRUCTURED_GRID") != std::string_view::npos;
+bool is_tet_file(const fs::path& file) {
+  const std::string ending = lower(file.extension().string());
+  if (ending != ".vtk" && ending != ".msh") return false;
+  std::error_code error;
+  return fs::is_regular_file(file, error) &&
+         geometry::holds_tetrahedra(core::read_file(file, geometry::kMaxMeshBytes));
 }
 
 bool is_cad_file(const fs::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  const std::string ending = lower(file.extension().string());
   return ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs";
 }
 
@@ -92,6 +96,7 @@ std::vector<CadPart> read_cad_file(const fs::path& file, double within) {
   for (const Json& part : said["parts"]) {
     CadPart one;
     one.faces = part["faces"];
+    one.unit = said.value("unit_mm", 1.0) * 1e-3;
     const geometry::SurfaceFile mesh = geometry::read_surface_file(folder.path() / part["mesh"].get<std::string>());
     for (const geometry::SurfacePart& p : mesh.parts) geometry::append(one.mesh, p.mesh);
     for (Vec3d& p : one.mesh.positions) p = p * 1e-3;

@@ -31,7 +31,10 @@ class Draft {
   bool has(const fs::path& file) const;
   void put(const fs::path& file, std::string text) { m_texts[file] = std::move(text); }
   /// Something worth telling about what was done: a fit's residual.
-  void say(std::string sentence) { m_said = std::move(sentence); }
+  void say(const std::string& words) { m_said += (m_said.empty() ? "" : "; ") + words; }
+  void say(const std::vector<std::string>& all) {
+    for (const std::string& words : all) say(words);
+  }
   const std::string& said() const { return m_said; }
   const Texts& texts() const { return m_texts; }
 

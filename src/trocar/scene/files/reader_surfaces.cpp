@@ -43,14 +43,16 @@ std::optional<geometry::TriMesh> parts_of(const JsonObject& o, const geometry::S
   return {};
 }
 
-/// Nobody has said in what unit it is: does it look like millimetres?
-void doubt_unit(SurfaceSource& source) {
-  const geometry::Bounds box = geometry::bounds(source.mesh.positions);
-  const Vec3d size = 1e-3 * (box.high - box.low);
-  const double longest = std::max({size.x, size.y, size.z});
-  if (longest < geometry::kShortestBody || longest > geometry::kLongestBody)
-    source.warnings.push_back("without \"unit_mm\" its coordinates are millimetres; " +
-                              geometry::guess_unit(box).words);
+/// The file's own unit, or a millimetre where it says none, must make something of it that an organ may be; false, and
+/// a fault, where it does not. What the scene says itself is believed.
+bool is_sensible_unit(const JsonObject& o, const SurfaceSource& source, double unit) {
+  if (source.unit > 0) return true;
+  geometry::Extent extent = geometry::extent_of(source.mesh);
+  extent.box = {extent.box.low / unit, extent.box.high / unit};
+  extent.volume /= unit * unit * unit;
+  const std::string question = geometry::choose_unit(extent, unit, "\"unit_mm\"").question;
+  if (!question.empty()) o.fault("file", question);
+  return question.empty();
 }
 
 /// What to do about a file of several parts that are no body together.
@@ -66,19 +68,19 @@ std::string parts_to_choose(const geometry::SurfaceFile& file, const std::string
 /// Closed and outwards, mended where it may be; false, and a fault, where it cannot be.
 bool become_closed(const JsonObject& o, const std::string& parts, SurfaceSource& source) {
   const geometry::Diagnosis before = geometry::examine(source.mesh);
-  if (before.is_body()) return true;
+  if (before.is_body() && before.encloses()) return true;
   if (!source.mend) {
     o.fault("file", tr("expected a closed surface, as mending is off, got: {}{}", faults_of(before), parts));
     return false;
   }
   geometry::MendedMesh mended = geometry::mend(source.mesh);
-  if (!mended.after.is_body() || mended.mesh.triangles.empty()) {
+  if (!mended.after.is_body() || mended.mesh.triangles.empty() || !mended.after.encloses()) {
     const std::string left = one_by_one(mended.left, [](const std::string& words) { return words; });
     o.fault("file", tr("expected a surface that can be mended to a closed one, got: {}{}",
                        left.empty() ? faults_of(mended.after) : left, parts));
     return false;
   }
-  for (const geometry::Change& c : mended.changes) source.warnings.push_back("mended: " + c.words);
+  for (const geometry::Change& c : mended.changes) source.warnings.push_back(tr("it has defects; mended: {}", c.words));
   source.mesh = std::move(mended.mesh);
   return true;
 }
@@ -120,6 +122,7 @@ std::optional<SurfaceSource> Reading::surface_of(const JsonObject& o, SurfaceSou
   if (!bytes) return {};
   const fs::path path = place_of(folder, source.file);
   std::string parts;
+  double metres = 0;
   try {
     const geometry::SurfaceFile file = geometry::read_surfaces(
         *bytes, path.generic_string(),
@@ -128,15 +131,14 @@ std::optional<SurfaceSource> Reading::surface_of(const JsonObject& o, SurfaceSou
     if (!mesh) return {};
     source.mesh = std::move(*mesh);
     parts = parts_to_choose(file, source.part);
-    const double said = file.metres > 0 ? file.metres : 1e-3;
-    const double metres = source.unit > 0 ? source.unit : said;
-    if (!(file.metres > 0) && !(source.unit > 0)) doubt_unit(source);
+    if (file.axes != geometry::PatientAxes::none) source.warnings.push_back(geometry::turned_in_words(file.axes));
+    metres = source.unit > 0 ? source.unit : file.metres > 0 ? file.metres : 1e-3;
     for (Vec3d& p : source.mesh.positions) p = metres * p + source.place;
   } catch (const core::BadInput& e) {
     for (const core::Fault& f : e.faults()) tell(m_faults, f);
     return {};
   }
-  if (!is_sensible(o, source) || !become_closed(o, parts, source)) return {};
+  if (!is_sensible(o, source) || !become_closed(o, parts, source) || !is_sensible_unit(o, source, metres)) return {};
   return source;
 }
 
