@@ -58,7 +58,7 @@ std::string slivers(const geometry::TetMesh& mesh) {
 }
 
 /// In metres; the note of a guess is added. @throws core::BadInput where somebody must choose
-double unit_of(const fs::path& path, std::optional<double> given, const geometry::Extent& extent, double said,
+double unit_of_mesh(const fs::path& path, std::optional<double> given, const geometry::Extent& extent, double said,
                Json& notes) {
   if (given) return *given;
   const geometry::UnitChoice choice = geometry::choose_unit(extent, said, "--unit-mm");
@@ -77,7 +77,7 @@ Json describe_tets(const fs::path& path, std::optional<double> given) {
   if (!given) {
     const geometry::Extent extent{geometry::bounds(repaired.mesh.points), geometry::inspect(repaired.mesh).volume};
     const double said = file.axes == geometry::PatientAxes::none ? 0 : geometry::kPatientUnit;
-    const double unit = unit_of(path, given, extent, said, notes);
+    const double unit = unit_of_mesh(path, given, extent, said, notes);
     for (Vec3d& p : file.mesh.points) p = p * unit;
     repaired = geometry::repair(file.mesh);
   }
@@ -97,7 +97,7 @@ Json describe_surface(const fs::path& path, std::optional<double> given) {
   const modeller::ImportPreview read = modeller::preview_of(path);
   const bool drawing = read.kind == modeller::ImportPreview::Kind::drawing;
   Json notes = read.notes;
-  const double unit = unit_of(path, given, read.extent(), read.metres, notes);
+  const double unit = unit_of_mesh(path, given, read.extent(), read.metres, notes);
   Json out{{"file", path.string()},   {"kind", drawing ? "drawing" : "surface"},
            {"format", read.format},   {"unit_mm", 1e3 * unit},
            {"notes", notes},          {"surface_parts", Json::array()}};

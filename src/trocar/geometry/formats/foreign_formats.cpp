@@ -8,7 +8,7 @@ struct ForeignFormat {
   std::string_view begins;
   const char* words;
 };
-constexpr ForeignFormat kForeign[] = {
+constexpr ForeignFormat kForeignFormats[] = {
     {"PK\x03\x04", "a zip archive, as 3MF files are: unpack it, or save the mesh as STL or OBJ"},
     {"\x1f\x8b", "a gzip archive: unpack it"},
     {"Kaydara FBX", "FBX: save the mesh as glTF, OBJ or STL"},
@@ -31,7 +31,7 @@ constexpr ForeignFormat kXmlFormats[] = {
 }  // namespace
 
 std::string foreign_format(std::string_view bytes) {
-  for (const ForeignFormat& format : kForeign)
+  for (const ForeignFormat& format : kForeignFormats)
     if (bytes.starts_with(format.begins)) return tr(format.words);
   if (!bytes.starts_with("<")) return {};
   constexpr std::size_t kHead = 1000;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kVtkBegins = "# vtk DataFile";
 
-TetFile read_known(MeshSource& in, double scale) {
+TetFile read_known_tets(MeshSource& in, double scale) {
   const std::string_view first = in.peek_word(), rest = in.all().substr(in.at());
   if (first.starts_with('$')) return read_gmsh(in, scale);
   if (rest.starts_with(kVtkBegins)) return read_vtk(in, scale);
@@ -32,7 +32,7 @@ TetFile read_tets(std::string_view bytes, const std::string& path, double scale)
   if (bytes.size() > kMaxMeshBytes)
     throw core::BadInput({{{path, 1, 1}, tr("expected at most {} bytes, got {}", kMaxMeshBytes, bytes.size())}});
   MeshSource in(bytes, path);
-  TetFile file = read_known(in, scale);
+  TetFile file = read_known_tets(in, scale);
   if (file.axes == PatientAxes::none) return file;
   turn_to_our_axes(file.axes, file.mesh.points);
   file.notes.push_back(turned_in_words(file.axes));

@@ -64,6 +64,10 @@ std::vector<LengthUnit> likeliest_first(double longest) {
 
 Extent extent_of(const TriMesh& closed) { return {bounds(closed.positions), std::fabs(volume(closed))}; }
 
+Extent in_unit(const Extent& extent, double unit) {
+  return {{extent.box.low / unit, extent.box.high / unit}, extent.volume / (unit * unit * unit)};
+}
+
 std::string unit_in_words(double metres) {
   for (const LengthUnit& unit : kLengthUnits)
     if (std::fabs(metres / unit.metres - 1) < 1e-9) return tr(unit.name);

@@ -22,6 +22,8 @@ struct Extent {
   double volume = 0;  ///< inside; 0: not known, as of an open surface
 };
 Extent extent_of(const TriMesh& closed);
+/// An extent in metres, in a unit of so many metres.
+Extent in_unit(const Extent& extent, double unit);
 
 struct UnitGuess {
   /// Metres in the most likely of the units 1, 0.01 and 0.001; 0 where none makes an organ or instrument of it.

@@ -48,7 +48,7 @@ scene::JsonValue as_text(const Json& value) {
   return scene::parse_json(value.dump(), "nurbs", faults).root;
 }
 
-std::string lower(std::string text) {
+std::string lower_ending(std::string text) {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
   return text;
@@ -57,7 +57,7 @@ std::string lower(std::string text) {
 }  // namespace
 
 bool is_tet_file(const fs::path& file) {
-  const std::string ending = lower(file.extension().string());
+  const std::string ending = lower_ending(file.extension().string());
   if (ending != ".vtk" && ending != ".msh") return false;
   std::error_code error;
   return fs::is_regular_file(file, error) &&
@@ -65,7 +65,7 @@ bool is_tet_file(const fs::path& file) {
 }
 
 bool is_cad_file(const fs::path& file) {
-  const std::string ending = lower(file.extension().string());
+  const std::string ending = lower_ending(file.extension().string());
   return ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs";
 }
 

@@ -14,7 +14,7 @@ using scene::JsonObject;
 
 constexpr const char* kUnitKey = "unit_mm";
 
-void scale(geometry::TriMesh& mesh, double by) {
+void scale_mesh(geometry::TriMesh& mesh, double by) {
   for (Vec3d& p : mesh.positions) p = p * by;
 }
 
@@ -66,14 +66,12 @@ std::optional<FileMesh> mesh_from_file(const JsonObject& o, const fs::path& path
   if (out.mesh.triangles.empty()) return std::nullopt;
   const geometry::Extent open{geometry::bounds(out.mesh.positions), 0};  // its volume is known once it is closed
   const double about = o.has(kUnitKey) ? o.number(kUnitKey) * 1e-3 : geometry::choose_unit(open, file.metres, "").metres;
-  scale(out.mesh, about);
+  scale_mesh(out.mesh, about);
   out.mesh = mended(path, out.mesh, out.notes);
-  geometry::Extent extent = geometry::extent_of(out.mesh);
-  extent.box = {extent.box.low / about, extent.box.high / about};
-  extent.volume /= about * about * about;
+  const geometry::Extent extent = geometry::in_unit(geometry::extent_of(out.mesh), about);
   const std::optional<double> unit = chosen_unit(o, extent, file.metres, out.notes);
   if (!unit) return std::nullopt;
-  if (*unit != about) scale(out.mesh, *unit / about);
+  if (*unit != about) scale_mesh(out.mesh, *unit / about);
   return out;
 }
 

@@ -38,17 +38,15 @@ const CadPart* chosen_part(const JsonObject& o, const std::vector<CadPart>& part
 }
 
 /// The drawing's part in the unit that its numbers are in: as the file says, or as the step does.
-struct Drawn {
+struct DrawnPart {
   geometry::TriMesh mesh;  ///< [m]
   double scale = 1;        ///< of what the file says
   std::vector<std::string> notes;
 };
-std::optional<Drawn> drawn(const JsonObject& o, const fs::path& path, const CadPart& part) {
-  Drawn out;
+std::optional<DrawnPart> drawn_part(const JsonObject& o, const fs::path& path, const CadPart& part) {
+  DrawnPart out;
   out.mesh = mended(path, part.mesh, out.notes);
-  geometry::Extent extent = geometry::extent_of(out.mesh);
-  extent.box = {extent.box.low / part.unit, extent.box.high / part.unit};
-  extent.volume /= part.unit * part.unit * part.unit;
+  const geometry::Extent extent = geometry::in_unit(geometry::extent_of(out.mesh), part.unit);
   const std::optional<double> unit = chosen_unit(o, extent, part.unit, out.notes);
   if (!unit) return std::nullopt;
   out.scale = *unit / part.unit;
@@ -125,7 +123,7 @@ void from_file(const JsonObject& o, Draft& draft) {
     const std::vector<CadPart> parts = read_cad_file(path, o.number("within_mm", 0.05) * 1e-3);
     const CadPart* part = chosen_part(o, parts);
     if (!part) return;
-    std::optional<Drawn> there = drawn(o, path, *part);
+    std::optional<DrawnPart> there = drawn_part(o, path, *part);
     if (!there) return;
     if (o.text("as") == "nurbs" && !part->nurbs)
       return o.fault("as", tr("expected a part that is one closed NURBS, got one of {} faces: take it as a "

@@ -9,7 +9,6 @@
 #include <trocar/geometry/formats/mesh_source.hpp>
 #include <trocar/geometry/repair/mend.hpp>
 #include <trocar/geometry/surface_files/surface_file.hpp>
-#include <trocar/geometry/surface_files/unit_guess.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
 
 namespace trocar::scene {
@@ -43,17 +42,6 @@ std::optional<geometry::TriMesh> parts_of(const JsonObject& o, const geometry::S
   return {};
 }
 
-/// The file's own unit, or a millimetre where it says none, must make something of it that an organ may be; false, and
-/// a fault, where it does not. What the scene says itself is believed.
-bool is_sensible_unit(const JsonObject& o, const SurfaceSource& source, double unit) {
-  if (source.unit > 0) return true;
-  geometry::Extent extent = geometry::extent_of(source.mesh);
-  extent.box = {extent.box.low / unit, extent.box.high / unit};
-  extent.volume /= unit * unit * unit;
-  const std::string question = geometry::choose_unit(extent, unit, "\"unit_mm\"").question;
-  if (!question.empty()) o.fault("file", question);
-  return question.empty();
-}
 
 /// What to do about a file of several parts that are no body together.
 std::string parts_to_choose(const geometry::SurfaceFile& file, const std::string& chosen) {
@@ -75,9 +63,10 @@ bool become_closed(const JsonObject& o, const std::string& parts, SurfaceSource&
   }
   geometry::MendedMesh mended = geometry::mend(source.mesh);
   if (!mended.after.is_body() || mended.mesh.triangles.empty() || !mended.after.encloses()) {
-    const std::string left = one_by_one(mended.left, [](const std::string& words) { return words; });
-    o.fault("file", tr("expected a surface that can be mended to a closed one, got: {}{}",
-                       left.empty() ? faults_of(mended.after) : left, parts));
+    std::string left = one_by_one(mended.left, [](const std::string& words) { return words; });
+    if (left.empty()) left = faults_of(mended.after);
+    if (left.empty()) left = tr("one that encloses nothing");
+    o.fault("file", tr("expected a surface that can be mended to a closed one, got: {}{}", left, parts));
     return false;
   }
   for (const geometry::Change& c : mended.changes) source.warnings.push_back(tr("it has defects; mended: {}", c.words));
@@ -103,6 +92,12 @@ bool is_sensible(const JsonObject& o, const SurfaceSource& source) {
 }
 
 }  // namespace
+
+bool is_organ_sized(const JsonObject& o, const geometry::Extent& extent, double unit) {
+  const geometry::UnitChoice choice = geometry::choose_unit(geometry::in_unit(extent, unit), unit, "\"unit_mm\"");
+  if (!choice.question.empty()) o.fault("file", choice.question);
+  return choice.question.empty();
+}
 
 std::string Reading::bytes_beside(const fs::path& folder, const std::string& name) {
   const auto refuse = [&](std::string message) { throw core::BadInput({{{name, 1, 1}, std::move(message)}}); };
@@ -138,7 +133,8 @@ std::optional<SurfaceSource> Reading::surface_of(const JsonObject& o, SurfaceSou
     for (const core::Fault& f : e.faults()) tell(m_faults, f);
     return {};
   }
-  if (!is_sensible(o, source) || !become_closed(o, parts, source) || !is_sensible_unit(o, source, metres)) return {};
+  if (!is_sensible(o, source) || !become_closed(o, parts, source)) return {};
+  if (!(source.unit > 0) && !is_organ_sized(o, geometry::extent_of(source.mesh), metres)) return {};
   return source;
 }
 

@@ -5,7 +5,6 @@
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/nrrd.hpp>
 #include <trocar/geometry/formats/tet_files.hpp>
-#include <trocar/geometry/surface_files/unit_guess.hpp>
 #include <trocar/geometry/tets/stuffing.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
 
@@ -28,15 +27,6 @@ void refill(TetSource& source) {
     source.warnings.push_back(tr("filled with new cells it has {:.3g} of {:.3g} ml: a smaller \"refill_mm\" keeps more",
                                  1e6 * after, 1e6 * before));
   source.mesh = std::move(filled);
-}
-
-/// The unit that holds where a scene says none must make something of the mesh that an organ may be.
-bool is_sensible_unit(const JsonObject& o, const geometry::TetMesh& mesh, double unit) {
-  const geometry::Bounds box = geometry::bounds(mesh.points);
-  const geometry::Extent extent{{box.low / unit, box.high / unit}, geometry::volume(mesh) / (unit * unit * unit)};
-  const std::string question = geometry::choose_unit(extent, unit, "\"unit_mm\"").question;
-  if (!question.empty()) o.fault("file", question);
-  return question.empty();
 }
 
 void take(const JsonObject& o, TetSource source, Solid& s) {
@@ -90,7 +80,8 @@ void Reading::mesh_of(const JsonObject& o, TetSource source, const fs::path& fol
     const std::string shown = place_of(folder, source.file).generic_string();
     const geometry::TetFile file = geometry::read_tets(*bytes, shown, source.unit);
     geometry::TetRepair repaired = geometry::repair(file.mesh);
-    if (!o.has("unit_mm") && !is_sensible_unit(o, repaired.mesh, source.unit)) return;
+    const geometry::Extent extent{geometry::bounds(repaired.mesh.points), geometry::volume(repaired.mesh)};
+    if (!o.has("unit_mm") && !is_organ_sized(o, extent, source.unit)) return;
     if (file.axes != geometry::PatientAxes::none) source.warnings.push_back(geometry::turned_in_words(file.axes));
     for (const geometry::Mended& m : repaired.mended)
       source.warnings.push_back(tr("it has defects; mended: {}", geometry::in_words(m)));
