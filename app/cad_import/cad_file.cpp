@@ -31,9 +31,9 @@ struct NamedUnit {
   const char* name;
   double mm;
 };
-constexpr NamedUnit kStepUnits[] = {{"millimetre", 1}, {"centimetre", 10},  {"decimetre", 100}, {"metre", 1000},
-                                    {"inch", 25.4},    {"foot", 304.8},     {"mil", 0.0254},    {"micrometre", 1e-3},
-                                    {"kilometre", 1e6}, {"millimeter", 1}, {"meter", 1000}};
+constexpr NamedUnit kStepUnits[] = {{"millimetre", 1},  {"centimetre", 10}, {"decimetre", 100}, {"metre", 1000},
+                                    {"inch", 25.4},     {"foot", 304.8},    {"mil", 0.0254},    {"micrometre", 1e-3},
+                                    {"kilometre", 1e6}, {"millimeter", 1},  {"meter", 1000}};
 
 std::string lower(std::string text) {
   for (char& c : text)

@@ -26,7 +26,6 @@ void label(const char* text) {
   ImGui::SameLine(kLabels * ui::scale());
 }
 
-
 /// Four digits, and all digits of what is larger.
 std::string short_length(double mm) { return mm < 1e4 ? fmt::format("{:.4g}", mm) : fmt::format("{:.0f}", mm); }
 std::string size_in_words(Vec3d mm) {

@@ -89,7 +89,8 @@ TEST_F(Files, WhatAnEndedProgramLeftUnfinishedGoesAndWhatALivingOneWritesStays) 
   leave(in(fresh), minutes(1));
   EXPECT_EQ(write_file(in("a"), {"whole"}), "");
   EXPECT_FALSE(fs::exists(in(stale)));
-  for (const std::string& name : {fresh, living, another, no_writer, no_number}) EXPECT_TRUE(fs::exists(in(name))) << name;
+  for (const std::string& name : {fresh, living, another, no_writer, no_number})
+    EXPECT_TRUE(fs::exists(in(name))) << name;
   remove_unfinished(m_folder);
   EXPECT_FALSE(fs::exists(in(another)));
   EXPECT_TRUE(fs::exists(in(living)));

@@ -126,11 +126,13 @@ TEST(SurfaceFiles, TextInOtherEncodingsIsRefusedByName) {
 
 TEST(SurfaceFiles, FacesWithFewerThanThreeCornersAreLeftOutAndCounted) {
   const std::string obj = kAxesObj + "f 1 2\nf 3\nf 1 1 2\nf 2 3 2\nf 1 2 2 3 3 1\n";
-  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-                          "property float z\nelement face 3\nproperty list uchar int vertex_index\nend_header\n"
-                          "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n2 0 1\n3 1 1 2\n";
-  const std::string vtk = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n"
-                          "POLYGONS 3 11\n3 0 1 2\n2 0 1\n3 1 2 2\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 3\nproperty list uchar int vertex_index\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n2 0 1\n3 1 1 2\n";
+  const std::string vtk =
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n"
+      "POLYGONS 3 11\n3 0 1 2\n2 0 1\n3 1 2 2\n";
   const auto note = [](const std::string& bytes) { return read_surfaces(bytes, "a").notes.back(); };
   EXPECT_EQ(note(obj), "4 faces with fewer than three different corners left out");
   EXPECT_EQ(joined(read_surfaces(obj, "a")).triangles.size(), 5u);
@@ -153,8 +155,9 @@ TEST(SurfaceFiles, BytesBehindTheLastItemAreLeftOutAndCounted) {
 }
 
 TEST(SurfaceFiles, CommentsMayStandBehindDataAndBetweenThem) {
-  const std::string obj = "v 0 0 0 # one\nv 1 0 0#two\nv 0 2 0\n# between\nv 0 0 3\nf 1 3 2 # bottom\nf 1 2 4 #f 9\n"
-                          "f 1 4 3\nf 2 3 4\n";
+  const std::string obj =
+      "v 0 0 0 # one\nv 1 0 0#two\nv 0 2 0\n# between\nv 0 0 3\nf 1 3 2 # bottom\nf 1 2 4 #f 9\n"
+      "f 1 4 3\nf 2 3 4\n";
   std::string stl = kAxesStl, ply = kAxesPly, vtk = kAxesVtk;
   stl.replace(stl.find("vertex 0 2 0\n"), 13, "# a comment\nvertex 0 2 0 # another\n");
   ply.replace(ply.find("1 0 9 0\n"), 8, "# a comment\n1 0 9 0 # another\n");
@@ -163,7 +166,8 @@ TEST(SurfaceFiles, CommentsMayStandBehindDataAndBetweenThem) {
     EXPECT_EQ(sorted_corners(joined(read_surfaces(bytes, "a"))), sorted_corners(axes_mesh())) << bytes.substr(0, 20);
 }
 
-/// The corner on the axes at 1, 2 and 3, as a program that writes patient's axes has it: (1, 0, 0) is to the left in LPS.
+/// The corner on the axes at 1, 2 and 3, as a program that writes patient's axes has it: (1, 0, 0) is to the left in
+/// LPS.
 TEST(SurfaceFiles, MeshesAlongThePatientsAxesAreTurnedIntoOursAndThatIsTold) {
   const auto with_head = [](std::string bytes, const std::string& from, const std::string& to) {
     const std::size_t at = bytes.find(from);
@@ -265,8 +269,9 @@ TEST(SurfaceFiles, WhatIsNoSurfaceIsSaidToBeNone) {
   EXPECT_EQ(surface_faults("<?xml version=\"1.0\"?>"), expected + "XML");
   EXPECT_EQ(surface_faults("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">"),
             expected + "VTK's XML format (.vtp, .vtu): save it as legacy VTK (.vtk)");
-  EXPECT_EQ(surface_faults("PK\x03\x04..."), expected + "a zip archive, as 3MF files are: unpack it, or save the mesh as "
-                                                        "STL or OBJ");
+  EXPECT_EQ(surface_faults("PK\x03\x04..."), expected +
+                                                 "a zip archive, as 3MF files are: unpack it, or save the mesh as "
+                                                 "STL or OBJ");
   EXPECT_EQ(surface_faults("OFF\n8 6 0\n"), expected + "OFF: save the mesh as PLY, OBJ or STL");
   EXPECT_EQ(surface_faults("ISO-10303-21;\n"), expected + "STEP: name the file .step");
   EXPECT_EQ(surface_faults("\x1b[31mred"), expected + "'?[31mred'");
@@ -314,8 +319,9 @@ TEST(UnitGuess, TheExtentOfAnOrganSuggestsItsUnit) {
   EXPECT_EQ(guess_unit({bounds({}), 0}).metres, 0);
   EXPECT_EQ(guess(20).metres, 0.001);
   EXPECT_EQ(guess(20, 30).metres, 0.01) << "30 cubic millimetres are no organ's volume";
-  EXPECT_EQ(guess(20, 30).words,
-            "longest side 20: 20 mm and 0.03 mL in millimetres, 20 cm and 30 mL in centimetres, 20 m and 30 m3 in metres");
+  EXPECT_EQ(
+      guess(20, 30).words,
+      "longest side 20: 20 mm and 0.03 mL in millimetres, 20 cm and 30 mL in centimetres, 20 m and 30 m3 in metres");
 }
 
 TEST(UnitGuess, WhatIsTakenIsToldAndASizeThatIsNoOrgansIsAQuestion) {

@@ -168,8 +168,9 @@ TEST(PlyFiles, StripsAreTrianglesThatAllFaceTheSameWay) {
 }
 
 TEST(PolydataFiles, FieldsOfStringsMayStandInFrontOfPoints) {
-  const std::string fields = "FIELD FieldData 3\nSPACE 1 1 string\nours\nNames 1 2 string\nleft%20lobe\n\nflags 1 9 bit\n"
-                             "1 0 1 0 1 0 1 0 1\nPOINTS";
+  const std::string fields =
+      "FIELD FieldData 3\nSPACE 1 1 string\nours\nNames 1 2 string\nleft%20lobe\n\nflags 1 9 bit\n"
+      "1 0 1 0 1 0 1 0 1\nPOINTS";
   EXPECT_EQ(only_mesh(with(kAxesVtk, "POINTS", fields)).triangles.size(), 4u);
   MeshBytes f{true};
   f.text("FIELD FieldData 2\nNames 1 3 string\n").all<std::uint8_t>(0xc3).text("abc").all<std::uint8_t>(0x80, 70);
@@ -189,14 +190,16 @@ TEST(VtkGrids, FacesOfEveryKindAreASurfaceAndOtherCellsAreLeftOut) {
   const std::string head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n";
   const std::string cube = head + "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\n";
   // Two triangles, a quadrangle, a polygon, a pixel, a strip, a quadratic quadrangle; then a line.
-  const std::string cells = "CELLS 8 40\n3 0 3 2\n3 0 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 5 6\n4 7 6 3 2\n"
-                            "8 0 4 7 3 0 4 7 3\n2 0 1\nCELL_TYPES 8\n5 5 9 7 8 6 23 3\n";
+  const std::string cells =
+      "CELLS 8 40\n3 0 3 2\n3 0 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 5 6\n4 7 6 3 2\n"
+      "8 0 4 7 3 0 4 7 3\n2 0 1\nCELL_TYPES 8\n5 5 9 7 8 6 23 3\n";
   const SurfaceFile file = read_surfaces(cube + cells, "a");
   EXPECT_NEAR(volume(joined(file)), 1, 1e-12);
   EXPECT_TRUE(check_edges(joined(file)).closed());
   EXPECT_EQ(file.notes, (std::vector<std::string>{"1 lines left out"}));
-  EXPECT_EQ(text_faults(head + "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\nCELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n"),
-            "a:1:1: expected triangles, got 1 tetrahedra");
+  EXPECT_EQ(
+      text_faults(head + "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\nCELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n"),
+      "a:1:1: expected triangles, got 1 tetrahedra");
   EXPECT_EQ(text_faults(cube + "CELLS 1 3\n2 0 1\nCELL_TYPES 1\n5\n"),
             "a:7:1: expected 3 nodes of a cell of type 5, got 2");
 }

@@ -98,8 +98,7 @@ TEST(FromFile, ASizeThatIsNoOrgansAsksForTheUnit) {
   EXPECT_NE(fault.find("expected the unit of its coordinates by \"unit_mm\""), std::string::npos) << fault;
   EXPECT_NE(fault.find("in metres"), std::string::npos) << fault;
   EXPECT_FALSE(fs::exists(place / "a.stl"));
-  const std::string said =
-      said_of(document, R"({"file": "km.obj", "name": "a", "tissue": "uterus", "unit_mm": 1e-5})");
+  const std::string said = said_of(document, R"({"file": "km.obj", "name": "a", "tissue": "uterus", "unit_mm": 1e-5})");
   EXPECT_NE(said.find("27.00 mL"), std::string::npos) << said;
   const std::string tiny = said_of(document, R"({"file": "small.ply", "name": "b", "tissue": "uterus", "unit_mm": 1})");
   EXPECT_NE(tiny.find("organs hold 0.1 mL to 20 L"), std::string::npos) << tiny;
@@ -123,17 +122,18 @@ TEST(FromFile, TheNamesOfAFilesPartsAreToldWhereNoneIsOfThatName) {
   Document document = empty(place);
   std::ofstream(place / "two.obj") << geometry::to_obj(
       std::vector<geometry::SurfacePart>{{"left lobe", block()}, {"right lobe", block()}}, 1e-3);
-  EXPECT_NE(fault_of(document, "from_file",
-                     R"({"file": "two.obj", "name": "a", "tissue": "uterus", "part": "left_lobe"})")
-                .find("expected a known part of the file (left lobe, right lobe), got \"left_lobe\""),
-            std::string::npos);
+  EXPECT_NE(
+      fault_of(document, "from_file", R"({"file": "two.obj", "name": "a", "tissue": "uterus", "part": "left_lobe"})")
+          .find("expected a known part of the file (left lobe, right lobe), got \"left_lobe\""),
+      std::string::npos);
 }
 
 TEST(FromFile, TetrahedraAreReadAndTheirUnitIsKeptWithThem) {
   const Workplace place;
   Document document = empty(place);
-  const std::string mesh = "$NOD\n4\n1 0 0 0\n2 0.04 0 0\n3 0 0.04 0\n4 0 0 0.04\n$ENDNOD\n$ELM\n1\n1 4 1 1 4 1 2 3 4\n"
-                           "$ENDELM\n";
+  const std::string mesh =
+      "$NOD\n4\n1 0 0 0\n2 0.04 0 0\n3 0 0.04 0\n4 0 0 0.04\n$ENDNOD\n$ELM\n1\n1 4 1 1 4 1 2 3 4\n"
+      "$ENDELM\n";
   std::ofstream(place / "metres.msh") << mesh;
   const std::string said = said_of(document, R"({"file": "metres.msh", "name": "a", "tissue": "uterus"})");
   EXPECT_NE(said.find("10.67 mL in 1 tetrahedra; coordinates are taken as metres"), std::string::npos) << said;

@@ -177,8 +177,9 @@ void add_check(CLI::App& program, Chosen& chosen) {
                    "devices, operating rooms and programmes; meshes (.msh, .vtk, .obj, .stl, .ply, .glb, .gltf) and "
                    "drawings (.step, .iges) of other programs"))
       ->required();
-  c->add_option("--unit-mm", *unit_mm, tr("unit of a mesh's coordinates [mm]; default: what the file says or its size "
-                                       "suggests"))
+  c->add_option("--unit-mm", *unit_mm,
+                tr("unit of a mesh's coordinates [mm]; default: what the file says or its size "
+                   "suggests"))
       ->check(number_between(1e-6, 1e6, "mm"));
   c->callback([=, &chosen] {
     chosen.run = [=, &chosen] {

@@ -59,7 +59,7 @@ std::string slivers(const geometry::TetMesh& mesh) {
 
 /// In metres; the note of a guess is added. @throws core::BadInput where somebody must choose
 double unit_of_mesh(const fs::path& path, std::optional<double> given, const geometry::Extent& extent, double said,
-               Json& notes) {
+                    Json& notes) {
   if (given) return *given;
   const geometry::UnitChoice choice = geometry::choose_unit(extent, said, "--unit-mm");
   if (!choice.question.empty()) throw core::BadInput({{{path.generic_string(), 0, 0}, choice.question}});
@@ -98,9 +98,9 @@ Json describe_surface(const fs::path& path, std::optional<double> given) {
   const bool drawing = read.kind == modeller::ImportPreview::Kind::drawing;
   Json notes = read.notes;
   const double unit = unit_of_mesh(path, given, read.extent(), read.metres, notes);
-  Json out{{"file", path.string()},   {"kind", drawing ? "drawing" : "surface"},
-           {"format", read.format},   {"unit_mm", 1e3 * unit},
-           {"notes", notes},          {"surface_parts", Json::array()}};
+  Json out{{"file", path.string()}, {"kind", drawing ? "drawing" : "surface"},
+           {"format", read.format}, {"unit_mm", 1e3 * unit},
+           {"notes", notes},        {"surface_parts", Json::array()}};
   for (const modeller::ImportPreview::Part& part : read.parts)
     out["surface_parts"].push_back({{"name", part.name},
                                     {"triangles", part.triangles},
@@ -132,7 +132,7 @@ bool is_mesh_file(const fs::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  static constexpr const char* kMeshes[] = {".msh", ".vtk", ".vtp", ".vtu",  ".obj", ".stl", ".ply",
+  static constexpr const char* kMeshes[] = {".msh", ".vtk",  ".vtp",  ".vtu", ".obj",  ".stl", ".ply",
                                             ".glb", ".gltf", ".step", ".stp", ".iges", ".igs"};
   return std::find(std::begin(kMeshes), std::end(kMeshes), extension) != std::end(kMeshes);
 }

@@ -78,7 +78,8 @@ std::filesystem::path unfinished_name(const std::filesystem::path& path) {
   return fmt::format("{}.{}-{}{}", path.string(), ::getpid(), number++, kUnfinished);
 }
 
-std::string write_file(const std::filesystem::path& path, std::initializer_list<std::string_view> parts, unsigned mode) {
+std::string write_file(const std::filesystem::path& path, std::initializer_list<std::string_view> parts,
+                       unsigned mode) {
   struct stat there;
   const bool replaces = ::lstat(path.c_str(), &there) == 0 && S_ISREG(there.st_mode);
   if (replaces) mode = there.st_mode & 07777;
@@ -104,8 +105,7 @@ void put_file(const std::filesystem::path& path, std::string_view bytes) {
   std::error_code ignored;  // what it means is told by the write
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
   if (const std::string said = write_file(path, {bytes}); !said.empty())
-    throw BadInput(
-        {{{path.generic_string(), 0, 0}, tr("expected a file that can be written, got \"{}\"", said)}});
+    throw BadInput({{{path.generic_string(), 0, 0}, tr("expected a file that can be written, got \"{}\"", said)}});
 }
 
 void remove_unfinished(const std::filesystem::path& folder, const std::string& name) {

@@ -27,8 +27,8 @@ inline constexpr double kMaxCoordinate = 1e9;
 
 struct TetFile {
   TetMesh mesh;
-  std::string format;              ///< "Gmsh 2.2, text"
-  std::vector<std::string> notes;  ///< what was left out: other kinds of cells, nodes on edges; what was turned
+  std::string format;                    ///< "Gmsh 2.2, text"
+  std::vector<std::string> notes;        ///< what was left out: other kinds of cells, nodes on edges; what was turned
   PatientAxes axes = PatientAxes::none;  ///< that the file names: its points are turned into ours
 };
 

@@ -20,7 +20,8 @@ class VtkTets {
 
   TetFile read() {
     for (std::size_t c = 0; c < m_grid.cells.count(); ++c) cell(c);
-    if (m_out.mesh.cells.empty() && m_in.faults() == 0) m_in.lose(0, "expected tetrahedra, got " + m_left_out.instead());
+    if (m_out.mesh.cells.empty() && m_in.faults() == 0)
+      m_in.lose(0, "expected tetrahedra, got " + m_left_out.instead());
     m_in.finish();
     m_out.format = m_grid.format();
     m_out.axes = m_grid.axes();

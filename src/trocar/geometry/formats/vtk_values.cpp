@@ -7,23 +7,12 @@ namespace trocar::geometry {
 namespace {
 
 constexpr VtkType kVtkTypes[] = {
-    {"float", 4, false, true},
-    {"double", 8, false, true},
-    {"int", 4, true, true},
-    {"unsigned_int", 4, true, false},
-    {"long", 8, true, true},
-    {"unsigned_long", 8, true, false},
-    {"long_long", 8, true, true},
-    {"vtktypeint64", 8, true, true},
-    {"vtktypeuint64", 8, true, false},
-    {"vtktypeint32", 4, true, true},
-    {"vtkidtype", 4, true, true},
-    {"short", 2, true, true},
-    {"unsigned_short", 2, true, false},
-    {"char", 1, true, true},
-    {"unsigned_char", 1, true, false},
-    {"signed_char", 1, true, true},
-    {"bit", 0, true, false},
+    {"float", 4, false, true},          {"double", 8, false, true},      {"int", 4, true, true},
+    {"unsigned_int", 4, true, false},   {"long", 8, true, true},         {"unsigned_long", 8, true, false},
+    {"long_long", 8, true, true},       {"vtktypeint64", 8, true, true}, {"vtktypeuint64", 8, true, false},
+    {"vtktypeint32", 4, true, true},    {"vtkidtype", 4, true, true},    {"short", 2, true, true},
+    {"unsigned_short", 2, true, false}, {"char", 1, true, true},         {"unsigned_char", 1, true, false},
+    {"signed_char", 1, true, true},     {"bit", 0, true, false},
 };
 
 constexpr VtkCell kCells[] = {

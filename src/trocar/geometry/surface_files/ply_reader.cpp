@@ -18,8 +18,7 @@ class PlyReader {
     m_in.set_form(header.form);
     m_in.set_records_on_lines(true);
     for (const PlyElement& element : header.elements) items(element);
-    if (!m_in.only_padding_left())
-      m_left_out.add("bytes behind the last item", std::int64_t(m_in.left()));
+    if (!m_in.only_padding_left()) m_left_out.add("bytes behind the last item", std::int64_t(m_in.left()));
     return assembled(header);
   }
 

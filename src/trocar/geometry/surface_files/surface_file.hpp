@@ -36,10 +36,10 @@ struct SurfacePart {
 };
 
 struct SurfaceFile {
-  std::vector<SurfacePart> parts;  ///< at least one, none without triangles
-  std::string format;              ///< "STL, binary"
-  std::vector<std::string> notes;  ///< what was left out: lines, skins, animations; what was turned
-  double metres = 0;               ///< in the file's unit where the file says so (glTF: 1; SPACE: 0.001), or 0
+  std::vector<SurfacePart> parts;        ///< at least one, none without triangles
+  std::string format;                    ///< "STL, binary"
+  std::vector<std::string> notes;        ///< what was left out: lines, skins, animations; what was turned
+  double metres = 0;                     ///< in the file's unit where the file says so (glTF: 1; SPACE: 0.001), or 0
   PatientAxes axes = PatientAxes::none;  ///< that the file names
 };
 

@@ -58,8 +58,8 @@ class SurfaceLeftOut {
   std::int64_t m_fans = 0;
 };
 
-/// The triangles of polygons first to last; a vertex that is not there is reported at the polygon's place. Polygons with
-/// fewer than three different corners are left out and counted.
+/// The triangles of polygons first to last; a vertex that is not there is reported at the polygon's place. Polygons
+/// with fewer than three different corners are left out and counted.
 /// @param from  the number of the first vertex as the file counts: 1 or 0
 std::vector<std::array<int, 3>> cut_polygons(MeshSource& in, const std::vector<Vec3d>& positions,
                                              const PolygonList& polygons, int first, int last, int from,

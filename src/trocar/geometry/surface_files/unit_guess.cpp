@@ -104,11 +104,12 @@ UnitChoice choose_unit(const Extent& extent, double said, const char* by) {
   UnitChoice choice;
   choice.metres = said > 0 ? said : guess.metres > 0 ? guess.metres : 1e-3;
   if (said > 0 && !is_organs_volume(extent, said))
-    choice.question = tr("expected an organ of 0.1 mL to 20 L, got {} with coordinates in {}; {} sets another unit ({})",
-                         size_in_words(extent, said), unit_in_words(said), by, guess.words);
+    choice.question =
+        tr("expected an organ of 0.1 mL to 20 L, got {} with coordinates in {}; {} sets another unit ({})",
+           size_in_words(extent, said), unit_in_words(said), by, guess.words);
   else if (said == 0 && guess.metres == 0 && longest_side(extent.box) > 0)
-    choice.question = tr("expected the unit of its coordinates by {}, got none and a size that suggests none ({})", by,
-                         guess.words);
+    choice.question =
+        tr("expected the unit of its coordinates by {}, got none and a size that suggests none ({})", by, guess.words);
   else if (said == 0 && guess.metres > 0)
     choice.note = tr("coordinates are taken as {}, guessed from the size ({}); {} sets another unit",
                      unit_in_words(guess.metres), guess.words, by);

@@ -1,5 +1,5 @@
-// What unit a surface's coordinates may be in. Files of most formats do not say. The size suggests a unit; what was taken
-// is told, and where no unit makes an organ of it somebody must be asked.
+// What unit a surface's coordinates may be in. Files of most formats do not say. The size suggests a unit; what was
+// taken is told, and where no unit makes an organ of it somebody must be asked.
 //
 //   const UnitChoice unit = choose_unit(extent_of(mesh), file.metres, "\"unit_mm\"");
 //   if (!unit.question.empty()) ...   // a fault: "expected the unit of its coordinates, as no organ has ..."
@@ -32,7 +32,7 @@ struct UnitGuess {
   std::vector<double> also;
   std::string words;  ///< "longest side 380.5: 38 cm and 1520 mL in millimetres, ..."
 };
-inline constexpr double kShortestBody = 0.004, kLongestBody = 0.8;  ///< [m] what counts as an organ or instrument
+inline constexpr double kShortestBody = 0.004, kLongestBody = 0.8;    ///< [m] what counts as an organ or instrument
 inline constexpr double kSmallestOrgan = 1e-7, kLargestOrgan = 0.02;  ///< [m^3]
 inline constexpr double kUsualBody = 0.1;                             ///< [m] nearest to this is likeliest
 inline constexpr double kSeldom = 4;  ///< so many times nearer it has to be in centimetres

@@ -5,8 +5,8 @@
 #include <trocar/core/error.hpp>
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/scene/files/library.hpp>
-#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/json/json_edit.hpp>
 #include <trocar/scene/json/json_text.hpp>
 

@@ -15,8 +15,8 @@ namespace trocar::modeller {
 std::string put_beside(const Document& document, const std::string& stem, const std::string& extension,
                        std::string_view bytes);
 
-/// What a body's file says of its surface: the mesh [m] goes into an STL file beside the document, about its own middle,
-/// so that it is scaled about that. @throws core::BadInput as above
+/// What a body's file says of its surface: the mesh [m] goes into an STL file beside the document, about its own
+/// middle, so that it is scaled about that. @throws core::BadInput as above
 scene::JsonValue surface_beside(const Document& document, const std::string& name, const geometry::TriMesh& mesh,
                                 Vec3d centre_mm);
 

@@ -60,8 +60,7 @@ bool is_tet_file(const fs::path& file) {
   const std::string ending = lower_ending(file.extension().string());
   if (ending != ".vtk" && ending != ".msh") return false;
   std::error_code error;
-  return fs::is_regular_file(file, error) &&
-         geometry::holds_tetrahedra(core::read_file(file, geometry::kMaxMeshBytes));
+  return fs::is_regular_file(file, error) && geometry::holds_tetrahedra(core::read_file(file, geometry::kMaxMeshBytes));
 }
 
 bool is_cad_file(const fs::path& file) {

@@ -65,7 +65,8 @@ std::optional<FileMesh> mesh_from_file(const JsonObject& o, const fs::path& path
   FileMesh out{chosen_parts(o, file), file.notes};
   if (out.mesh.triangles.empty()) return std::nullopt;
   const geometry::Extent open{geometry::bounds(out.mesh.positions), 0};  // its volume is known once it is closed
-  const double about = o.has(kUnitKey) ? o.number(kUnitKey) * 1e-3 : geometry::choose_unit(open, file.metres, "").metres;
+  const double about =
+      o.has(kUnitKey) ? o.number(kUnitKey) * 1e-3 : geometry::choose_unit(open, file.metres, "").metres;
   scale_mesh(out.mesh, about);
   out.mesh = mended(path, out.mesh, out.notes);
   const geometry::Extent extent = geometry::in_unit(geometry::extent_of(out.mesh), about);

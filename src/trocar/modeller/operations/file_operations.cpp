@@ -154,7 +154,8 @@ std::vector<Operation> file_operations() {
   return {
       {{"from_file",
         "A solid from another program's file: triangles (OBJ, STL, PLY, glTF, VTK), whose holes are closed; "
-        "tetrahedra (Gmsh .msh, VTK); STEP and IGES. A copy is saved next to the document; `trocar check FILE` lists the "
+        "tetrahedra (Gmsh .msh, VTK); STEP and IGES. A copy is saved next to the document; `trocar check FILE` lists "
+        "the "
         "file's parts.",
         {scene::needed(keys::text("file", "where it is, relative to the document")),
          scene::needed(keys::name("name", "what the body is called")),
@@ -162,7 +163,8 @@ std::vector<Operation> file_operations() {
          keys::text("part",
                     "of several in the file: its name, of STEP and IGES its number; default: all, or the only one"),
          keys::number("cell_mm", 0.1, 100, "edge of its cells; default: about 700 of them; of tetrahedra: its own"),
-         keys::number("unit_mm", 1e-6, 1e6, "unit of its coordinates, default: what its format says or its size suggests"),
+         keys::number("unit_mm", 1e-6, 1e6,
+                      "unit of its coordinates, default: what its format says or its size suggests"),
          keys::vec3("place_mm", -2000, 2000, "where the file's origin goes, default where it is"),
          keys::vec3("centre_mm", -2000, 2000, "where its middle goes instead; of surfaces"),
          keys::name("look", "its material; default: the one that is called as the body is"),

@@ -58,9 +58,8 @@ void read_tet_preview(const fs::path& file, ImportPreview& out) {
 
 std::vector<double> ImportPreview::units() const {
   std::vector<double> all{1e-3, 1e-2, 1};
-  if (metres > 0 && std::none_of(all.begin(), all.end(), [this](double unit) {
-        return std::fabs(unit / metres - 1) < 1e-9;
-      }))
+  if (metres > 0 &&
+      std::none_of(all.begin(), all.end(), [this](double unit) { return std::fabs(unit / metres - 1) < 1e-9; }))
     all.insert(all.begin(), metres);
   return all;
 }

@@ -56,15 +56,16 @@ Command begin() {
 }
 
 Command save() {
-  return {{"save", "Writes what has changed.", {keys::text("as", "another file, default: the one that it is"), over_key()}},
-          [](const JsonObject& o, Session& session) {
-            Document& document = session.document();
-            const fs::path file = o.has("as") ? whole_path(o.text("as")) : document.root();
-            if (file == document.root())
-              document.save(o.flag("over"));
-            else if (may_write(o, "as", file))
-              document.save_as(file);
-          }};
+  return {
+      {"save", "Writes what has changed.", {keys::text("as", "another file, default: the one that it is"), over_key()}},
+      [](const JsonObject& o, Session& session) {
+        Document& document = session.document();
+        const fs::path file = o.has("as") ? whole_path(o.text("as")) : document.root();
+        if (file == document.root())
+          document.save(o.flag("over"));
+        else if (may_write(o, "as", file))
+          document.save_as(file);
+      }};
 }
 
 Command undo() {
@@ -262,7 +263,7 @@ Command export_body() {
        "Writes a body, a vessel or a wall as compiled: its skin as .obj, .stl, .ply or .vtk, its network with springs "
        "and cells as .msh.",
        {scene::needed(keys::name("of", "the body")), scene::needed(keys::text("file", "the file; its end says what")),
-       over_key()}},
+        over_key()}},
       [](const JsonObject& o, Session& session) {
         const fs::path file = o.text("file");
         if (!may_write(o, "file", file)) return;

@@ -42,7 +42,6 @@ std::optional<geometry::TriMesh> parts_of(const JsonObject& o, const geometry::S
   return {};
 }
 
-
 /// What to do about a file of several parts that are no body together.
 std::string parts_to_choose(const geometry::SurfaceFile& file, const std::string& chosen) {
   constexpr std::size_t kShown = 6;
