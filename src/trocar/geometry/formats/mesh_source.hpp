@@ -46,6 +46,7 @@ class MeshSource {
   void go_to(std::size_t at) { m_at = at; }
   std::size_t left() const { return m_bytes.size() - m_at; }
   std::string_view all() const { return m_bytes; }
+  const std::string& file() const { return m_file; }  ///< as faults show it
 
   std::string_view line();       ///< what is left of this line, without its end; goes to the next one
   void skip_space();             ///< and line ends
