@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include <trocar/core/json_reader.hpp>
+#include <trocar/core/json/json_reader.hpp>
 #include <trocar/geometry/formats/mesh_source.hpp>
 #include <trocar/geometry/surface_files/surface_file.hpp>
 

@@ -1,5 +1,5 @@
-// Files of JSON that people write, from the disk or from memory: core/json_reader.hpp, in which every value and every
-// key knows its line and column.
+// Files of JSON that people write, from the disk or from memory: core/json/json_reader.hpp, in which every value and
+// every key knows its line and column.
 //
 //   std::vector<core::Fault> faults;
 //   const JsonDocument document = load_json("scenes/tissues.json", faults);
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include <trocar/core/json_reader.hpp>
+#include <trocar/core/json/json_reader.hpp>
 
 namespace trocar::scene {
 

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
-#include <trocar/core/json_grammar.hpp>
-#include <trocar/core/json_reader.hpp>
+#include <trocar/core/json/json_grammar.hpp>
+#include <trocar/core/json/json_reader.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 
