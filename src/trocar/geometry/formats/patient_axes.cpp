@@ -3,14 +3,29 @@
 
 namespace trocar::geometry {
 
+namespace {
+
+std::string in_capitals(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return out;
+}
+
+}  // namespace
+
 PatientAxes patient_axes_named(std::string_view name) {
-  return name == "LPS" ? PatientAxes::lps : name == "RAS" ? PatientAxes::ras : PatientAxes::none;
+  const std::string known = in_capitals(name);
+  if (known.starts_with("LPS") || known.starts_with("LEFT-POSTERIOR-SUPERIOR")) return PatientAxes::lps;
+  return known.starts_with("RAS") || known.starts_with("RIGHT-ANTERIOR-SUPERIOR") ? PatientAxes::ras
+                                                                                  : PatientAxes::none;
 }
 
 PatientAxes patient_axes_in(std::string_view line) {
   constexpr std::string_view kKey = "SPACE=";
-  const std::size_t at = line.find(kKey);
-  return at == line.npos ? PatientAxes::none : patient_axes_named(line.substr(at + kKey.size(), 3));
+  const std::string text = in_capitals(line.substr(0, 1000));
+  const std::size_t at = text.find(kKey);
+  return at == text.npos ? PatientAxes::none : patient_axes_named(std::string_view(text).substr(at + kKey.size()));
 }
 
 void turn_to_our_axes(PatientAxes axes, std::vector<Vec3d>& points) {

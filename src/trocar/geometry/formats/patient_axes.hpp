@@ -19,7 +19,7 @@ inline constexpr double kPatientUnit = 1e-3;  ///< [m] of coordinates of files t
 
 /// What a line of a file's head says.
 PatientAxes patient_axes_in(std::string_view line);
-/// The name of such axes alone.
+/// The name of such axes alone, short or long (left-posterior-superior), in small or large letters.
 PatientAxes patient_axes_named(std::string_view name);
 
 /// Into our axes: x to the patient's left, y to the head, z to the front. Nothing where the file does not say.

@@ -171,7 +171,10 @@ bool has_stl_size(std::string_view bytes) {
   return bytes.size() >= kStlHead && stl_announced(bytes) * kStlTriangle + kStlHead == bytes.size();
 }
 
-bool begins_with_solid(MeshSource in) { return is_word(in.peek_word(), "solid"); }
+bool begins_with_solid(MeshSource in) {
+  in.skip_comments();
+  return is_word(in.peek_word(), "solid");
+}
 
 SurfaceFile read_stl(MeshSource& in, const std::string& name) {
   SurfaceFile file;
