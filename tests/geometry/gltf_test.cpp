@@ -155,7 +155,7 @@ TEST(Gltf, WhatIsPackedOrUnknownIsRefusedAndWhatMovesIsLeftOut) {
                 .find("expected a mesh that is not compressed, got one packed by 'KHR_draco_mesh_compression'"),
             std::string::npos);
   EXPECT_NE(required("EXT_meshopt_compression").find("packed by 'EXT_meshopt_compression'"), std::string::npos);
-  EXPECT_NE(required("X_odd").find("expected extensions that are known, got 'X_odd' required"), std::string::npos);
+  EXPECT_NE(required("X_odd").find("expected extensions that are known, got \"X_odd\" required"), std::string::npos);
   EXPECT_EQ(required("KHR_materials_unlit"), "");
   const std::string moving =
       changed(axes_gltf_embedded(), R"("scene": 0,)", R"("scene": 0, "skins": [{}], "animations": [{}, {}],)");
@@ -163,7 +163,7 @@ TEST(Gltf, WhatIsPackedOrUnknownIsRefusedAndWhatMovesIsLeftOut) {
       read_surfaces(moving, "a").notes,
       (std::vector<std::string>{"1 skins (the shape is the one without them) left out", "2 animations left out"}));
   EXPECT_NE(gltf_faults(changed(axes_gltf_embedded(), "\"2.0\"", "\"1.0\""))
-                .find("expected an asset of version 2, got '1.0'"),
+                .find("expected an asset of version 2, got \"1.0\""),
             std::string::npos);
 }
 
@@ -228,7 +228,7 @@ TEST(Gltf, NumbersThatLieAboutBuffersAreFaults) {
   };
   for (const auto& [good, lie] : lies) EXPECT_NE(gltf_faults(changed(axes_gltf_embedded(), good, lie)), "") << lie;
   EXPECT_NE(
-      gltf_faults(axes_gltf(R"(, "uri": "beside.bin")")).find("expected data in the file itself, got 'beside.bin'"),
+      gltf_faults(axes_gltf(R"(, "uri": "beside.bin")")).find("expected data in the file itself, got \"beside.bin\""),
       std::string::npos);
   EXPECT_NE(gltf_faults(axes_gltf(R"(, "uri": "data:,hello")")).find("expected data in base64"), std::string::npos);
 }

@@ -97,7 +97,6 @@ TEST(SurfaceFiles, TextIsReadWithCarriageReturnsAndByteOrderMarks) {
 TEST(SurfaceFiles, BinaryDataBehindATextHeadBeginWhereItsLastLineEnds) {
   for (const char first : {'\n', '\r'})
     for (const char* end : {"\n", "\r", "\r\n"}) {
-      if (first == '\n' && std::string(end) == "\r\n") continue;
       std::string head;
       for (const char c : std::string("ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\n"
                                       "property uchar y\nproperty uchar z\nelement face 1\n"
@@ -329,18 +328,21 @@ TEST(UnitGuess, WhatIsTakenIsToldAndASizeThatIsNoOrgansIsAQuestion) {
   const UnitChoice metres = choose_unit({box, 0.004}, 0, "--unit-mm");
   EXPECT_EQ(metres.metres, 1);
   EXPECT_EQ(metres.question, "");
-  EXPECT_EQ(metres.note,
-            "coordinates are taken as metres, guessed from the size (longest side 0.16: 16 cm and 4000 mL in metres, "
-            "0.16 mm and 4e-06 mL in millimetres, 1.6 mm and 0.004 mL in centimetres); --unit-mm sets another unit");
+  EXPECT_EQ(
+      metres.note,
+      "coordinates are taken as metres, guessed from the size (longest side 0.16: 16 cm and 4000 mL in metres, "
+      "1.6 mm and 0.004 mL in centimetres, 0.16 mm and less than 0.001 mL in millimetres); --unit-mm sets another "
+      "unit");
   EXPECT_EQ(choose_unit({box, 0.004}, 1, "--unit-mm").note, "") << "the file says so";
-  EXPECT_NE(choose_unit({box, 0.004}, 0.001, "--unit-mm")
-                .question.find("expected an organ of 0.1 mL to 20 L, got 0.16 mm and 4e-06 mL with coordinates in "
-                               "millimetres; --unit-mm sets another unit (longest side 0.16: "),
-            std::string::npos);
+  EXPECT_NE(
+      choose_unit({box, 0.004}, 0.001, "--unit-mm")
+          .question.find("expected an organ of 0.1 mL to 20 L, got 0.16 mm and less than 0.001 mL with coordinates in "
+                         "millimetres; --unit-mm sets another unit (longest side 0.16: "),
+      std::string::npos);
   EXPECT_NE(choose_unit({{{0, 0, 0}, {1e6, 1, 1}}, 0}, 0, "--unit-mm").question.find("expected the unit"),
             std::string::npos);
-  EXPECT_EQ(choose_unit({{{0, 0, 0}, {25.4, 20, 20}}, 98322}, 1, "k").question.substr(0, 68),
-            "expected an organ of 0.1 mL to 20 L, got 25.4 m and 9.83e+04 m3 with ");
+  EXPECT_EQ(choose_unit({{{0, 0, 0}, {25.4, 20, 20}}, 98322}, 1, "k").question.substr(0, 65),
+            "expected an organ of 0.1 mL to 20 L, got 25.4 m and 98322 m3 with");
   EXPECT_EQ(unit_in_words(0.0254), "units of 25.4 mm");
 }
 

@@ -201,7 +201,7 @@ TEST(VtkGrids, FacesOfEveryKindAreASurfaceAndOtherCellsAreLeftOut) {
       text_faults(head + "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\nCELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n"),
       "a:1:1: expected triangles, got 1 tetrahedra");
   EXPECT_EQ(text_faults(cube + "CELLS 1 3\n2 0 1\nCELL_TYPES 1\n5\n"),
-            "a:7:1: expected 3 nodes of a cell of type 5, got 2");
+            "a:8:3: expected 3 nodes of a cell of type 5, got 2");
 }
 
 TEST(PolydataFiles, OtherDataSetsAreRefused) {

@@ -81,7 +81,7 @@ void VtkValues::begin() {
 }
 
 std::size_t VtkValues::place() {
-  if (!in.binary()) in.skip_space();
+  in.begin_value();
   return in.at();
 }
 
@@ -97,8 +97,10 @@ void VtkValues::pass(std::uint64_t count, const VtkType& type) {
   if (in.binary()) {
     in.skip_bytes(type.width > 0 ? count * std::uint64_t(type.width) : (count + 7) / 8, "values");
   } else {
-    for (std::uint64_t i = 0; i < count; ++i)
+    for (std::uint64_t i = 0; i < count; ++i) {
+      in.begin_value();
       if (in.word().empty()) in.lose(in.at(), "expected another value, got the end of the file");
+    }
   }
   end();
 }

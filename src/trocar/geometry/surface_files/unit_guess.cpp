@@ -34,8 +34,10 @@ std::string length_in_words(double metres) {
 
 std::string volume_in_words(double cubic_metres) {
   const double mL = 1e6 * cubic_metres;
-  if (mL < 1e4) return fmt::format("{:.3g} mL", mL < 100 ? mL : std::round(mL));
-  return mL < 1e7 ? fmt::format("{:.0f} L", 1e-3 * mL) : fmt::format("{:.3g} m3", 1e-6 * mL);
+  if (mL < 1e-3) return tr("less than 0.001 mL");
+  if (mL < 1e4) return mL < 100 ? fmt::format("{:.3g} mL", mL) : fmt::format("{:.0f} mL", mL);
+  if (mL < 1e7) return fmt::format("{:.0f} L", 1e-3 * mL);
+  return cubic_metres < 1e9 ? fmt::format("{:.0f} m3", cubic_metres) : fmt::format("{:.3g} m3", cubic_metres);
 }
 
 std::string size_in_words(const Extent& extent, double metres) {
