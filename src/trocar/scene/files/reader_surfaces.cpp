@@ -92,10 +92,15 @@ bool is_sensible(const JsonObject& o, const SurfaceSource& source) {
 
 }  // namespace
 
-bool is_organ_sized(const JsonObject& o, const geometry::Extent& extent, double unit) {
+bool is_organ_sized(const JsonObject& o, const geometry::Extent& extent, double unit, bool file_says,
+                    std::vector<std::string>& warnings) {
   const geometry::UnitChoice choice = geometry::choose_unit(geometry::in_unit(extent, unit), unit, "\"unit_mm\"");
-  if (!choice.question.empty()) o.fault("file", choice.question);
-  return choice.question.empty();
+  if (choice.question.empty()) return true;
+  if (file_says)
+    warnings.push_back(choice.question);
+  else
+    o.fault("file", choice.question);
+  return file_says;
 }
 
 std::string Reading::bytes_beside(const fs::path& folder, const std::string& name) {
@@ -117,6 +122,7 @@ std::optional<SurfaceSource> Reading::surface_of(const JsonObject& o, SurfaceSou
   const fs::path path = place_of(folder, source.file);
   std::string parts;
   double metres = 0;
+  bool file_says = false;
   try {
     const geometry::SurfaceFile file = geometry::read_surfaces(
         *bytes, path.generic_string(),
@@ -126,14 +132,16 @@ std::optional<SurfaceSource> Reading::surface_of(const JsonObject& o, SurfaceSou
     source.mesh = std::move(*mesh);
     parts = parts_to_choose(file, source.part);
     if (file.axes != geometry::PatientAxes::none) source.warnings.push_back(geometry::turned_in_words(file.axes));
-    metres = source.unit > 0 ? source.unit : file.metres > 0 ? file.metres : 1e-3;
+    file_says = file.metres > 0;
+    metres = source.unit > 0 ? source.unit : file_says ? file.metres : 1e-3;
     for (Vec3d& p : source.mesh.positions) p = metres * p + source.place;
   } catch (const core::BadInput& e) {
     for (const core::Fault& f : e.faults()) tell(m_faults, f);
     return {};
   }
   if (!is_sensible(o, source) || !become_closed(o, parts, source)) return {};
-  if (!(source.unit > 0) && !is_organ_sized(o, geometry::extent_of(source.mesh), metres)) return {};
+  const geometry::Extent extent = geometry::extent_of(source.mesh);
+  if (!(source.unit > 0) && !is_organ_sized(o, extent, metres, file_says, source.warnings)) return {};
   return source;
 }
 
