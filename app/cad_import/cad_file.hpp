@@ -8,8 +8,11 @@
 
 namespace trocar::cad {
 
-/// Solids; faces that bound none are sewn to shells. In millimetres.
+struct CadFile {
+  std::vector<TopoDS_Shape> parts;  ///< solids; faces that bound none are sewn to shells [mm]
+  double unit_mm = 1;               ///< of the file's own numbers, as it says; 1 where it names none or several
+};
 /// @throws core::BadInput when the file is neither, or holds no faces
-std::vector<TopoDS_Shape> parts_of(const std::filesystem::path& file);
+CadFile read_cad(const std::filesystem::path& file);
 
 }  // namespace trocar::cad

@@ -1,5 +1,5 @@
-// trocar_cad: STEP and IGES for the modeller's step `from_cad`. Leaves a mesh of every part in a folder, and what it is
-// as a NURBS where it is one; tells of them as JSON.
+// trocar_cad: STEP and IGES for the modeller's step `from_file`. Leaves a mesh of every part in a folder [mm], and what
+// it is as a NURBS where it is one; tells of them, and of the file's unit, as JSON.
 //
 //   build/release/trocar_cad part.step --into FOLDER [--within-mm 0.05]
 //
@@ -58,7 +58,8 @@ Json as_json(const trocar::scene::NurbsShape& shape) {
 int import(const fs::path& file, const fs::path& into, double within_mm) {
   Json parts = Json::array();
   int number = 0;
-  for (const TopoDS_Shape& part : trocar::cad::parts_of(file)) {
+  const trocar::cad::CadFile read = trocar::cad::read_cad(file);
+  for (const TopoDS_Shape& part : read.parts) {
     const std::string name = "part_" + std::to_string(++number) + ".stl";
     const std::string bytes = trocar::geometry::to_stl(trocar::cad::triangles_of(part, within_mm * 1e-3), 1e-3);
     if (const std::string said = trocar::core::write_file(into / name, bytes.data(), bytes.size()); !said.empty()) {
@@ -69,7 +70,7 @@ int import(const fs::path& file, const fs::path& into, double within_mm) {
     if (const auto shape = trocar::cad::nurbs_of(part)) one["nurbs"] = as_json(*shape);
     parts.push_back(one);
   }
-  std::printf("%s\n", Json{{"parts", parts}}.dump().c_str());
+  std::printf("%s\n", Json{{"unit_mm", read.unit_mm}, {"parts", parts}}.dump().c_str());
   return 0;
 }
 

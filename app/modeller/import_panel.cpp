@@ -26,8 +26,6 @@ void label(const char* text) {
   ImGui::SameLine(kLabels * ui::scale());
 }
 
-const char* unit_word(double metres) { return metres >= 1 ? tr("metres") : metres >= 0.01 ? tr("cm") : tr("mm"); }
-
 /// Four digits, and all digits of what is larger.
 std::string short_length(double mm) { return mm < 1e4 ? fmt::format("{:.4g}", mm) : fmt::format("{:.0f}", mm); }
 std::string size_in_words(Vec3d mm) {
@@ -94,10 +92,10 @@ void ImportPanel::draw_units() {
   label(tr("Unit of the file"));
   ImGui::BeginGroup();
   const double now = m_unit;
-  for (const double unit : modeller::kImportUnits) {
+  for (const double unit : m_preview->units()) {
     m_unit = unit;
     const std::string words =
-        tr("{}:  {}, {}", unit_word(unit), size_in_words(size_mm()), volume_in_words(volume_mL(unit)));
+        tr("{}:  {}, {}", geometry::unit_in_words(unit), size_in_words(size_mm()), volume_in_words(volume_mL(unit)));
     m_unit = now;
     const char* why = std::fabs(unit - m_preview->guess) > 1e-9 ? ""
                       : m_preview->metres > 0                   ? tr("(says the file)")
@@ -107,6 +105,14 @@ void ImportPanel::draw_units() {
     if (m_unit != now) break;
   }
   ImGui::EndGroup();
+  const bool sensible = geometry::is_organs_volume({{}, 1e-6 * volume_mL(m_unit)}, 1);
+  if (!sensible) ui::text(tr("Organs hold 0.1 mL to 20 L. Choose the unit of the file."), ui::kOrange);
+}
+
+void ImportPanel::draw_notes() {
+  constexpr std::size_t kShown = 4;
+  for (std::size_t i = 0; i < std::min(kShown, m_preview->notes.size()); ++i)
+    ui::text(ui::shortened(m_preview->notes[i], 600 * ui::scale()), ui::kGrey);
 }
 
 void ImportPanel::draw_parts() {
@@ -178,6 +184,7 @@ bool ImportPanel::draw() {
       ui::text(m_preview->closed ? tr("Closed surface, {} triangles.", m_preview->triangles)
                                  : tr("Open surface, {} triangles: its holes will be closed.", m_preview->triangles),
                ui::kGrey);
+    draw_notes();
     draw_parts();
     draw_units();
     draw_fields();
@@ -196,18 +203,18 @@ bool ImportPanel::draw() {
 
 scene::JsonValue ImportPanel::made_step(std::optional<Vec3d> centre_mm) const {
   scene::JsonValue s = scene::json_object();
-  put(s, "do", scene::json_text("from_file"));
-  put(s, "file", scene::json_text(m_file.generic_string()));
-  put(s, "name", scene::json_text(m_name));
-  put(s, "tissue", scene::json_text(m_tissue));
-  if (!m_material.empty()) put(s, "look", scene::json_text(m_material));
+  scene::put(s, "do", scene::json_text("from_file"));
+  scene::put(s, "file", scene::json_text(m_file.generic_string()));
+  scene::put(s, "name", scene::json_text(m_name));
+  scene::put(s, "tissue", scene::json_text(m_tissue));
+  if (!m_material.empty()) scene::put(s, "look", scene::json_text(m_material));
   const bool drawing = m_preview->kind == Kind::drawing;
-  if (m_part >= 0) put(s, "part", scene::json_text(m_preview->parts[std::size_t(m_part)].name));
-  if (!drawing) put(s, "unit_mm", scene::json_number(1e3 * m_unit));
-  if (m_cell_mm > 0) put(s, "cell_mm", modeller::number(m_cell_mm));
-  if (drawing) put(s, "within_mm", scene::json_number(m_deviation_mm));
-  if (drawing && m_as_surface) put(s, "as", scene::json_text("surface"));
-  if (centre_mm) put(s, "place_mm", modeller::point(*centre_mm - middle_mm()));
+  if (m_part >= 0) scene::put(s, "part", scene::json_text(m_preview->parts[std::size_t(m_part)].name));
+  scene::put(s, "unit_mm", scene::json_number(1e3 * m_unit));
+  if (m_cell_mm > 0) scene::put(s, "cell_mm", modeller::number(m_cell_mm));
+  if (drawing) scene::put(s, "within_mm", scene::json_number(m_deviation_mm));
+  if (drawing && m_as_surface) scene::put(s, "as", scene::json_text("surface"));
+  if (centre_mm) scene::put(s, "place_mm", modeller::point(*centre_mm - middle_mm()));
   return s;
 }
 

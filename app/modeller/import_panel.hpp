@@ -37,6 +37,7 @@ class ImportPanel {
  private:
   void take_what_was_read();
   void draw_units();
+  void draw_notes();
   void draw_parts();
   void draw_fields();
   void draw_details();

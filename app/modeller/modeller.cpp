@@ -353,10 +353,10 @@ bool Modeller::step(scene::JsonValue step) {
 
 bool Modeller::set_key(const std::string& path, const scene::JsonValue& value) {
   scene::JsonValue s = scene::json_object();
-  put(s, "do", scene::json_text("set"));
-  if (!m_selected.empty()) put(s, "of", scene::json_text(m_selected));
-  put(s, "key", scene::json_text(path));
-  put(s, "value", value);
+  scene::put(s, "do", scene::json_text("set"));
+  if (!m_selected.empty()) scene::put(s, "of", scene::json_text(m_selected));
+  scene::put(s, "key", scene::json_text(path));
+  scene::put(s, "value", value);
   return step(std::move(s));
 }
 

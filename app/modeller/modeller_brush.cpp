@@ -66,13 +66,13 @@ void Modeller::end_stroke() {
   std::vector<Vec3d> places;
   for (const Vec3d& p : std::exchange(m_brush.stroke, {})) places.push_back(p * 1e3);
   scene::JsonValue s = scene::json_object();
-  put(s, "do", scene::json_text("paint"));
-  put(s, "of", scene::json_text(m_selected));
-  put(s, "what", scene::json_text(m_brush.what));
-  put(s, "places_mm", modeller::points(places));
-  put(s, "radius_mm", modeller::number(m_brush.radius_mm));
-  if (m_brush.what == "stiffness") put(s, "stiffness", modeller::number(m_brush.stiffness));
-  if (m_brush.erases) put(s, "erase", scene::json_flag(true));
+  scene::put(s, "do", scene::json_text("paint"));
+  scene::put(s, "of", scene::json_text(m_selected));
+  scene::put(s, "what", scene::json_text(m_brush.what));
+  scene::put(s, "places_mm", modeller::points(places));
+  scene::put(s, "radius_mm", modeller::number(m_brush.radius_mm));
+  if (m_brush.what == "stiffness") scene::put(s, "stiffness", modeller::number(m_brush.stiffness));
+  if (m_brush.erases) scene::put(s, "erase", scene::json_flag(true));
   if (step(std::move(s))) tell(m_brush.erases ? tr("Erased.") : tr("Painted."));
 }
 

@@ -286,7 +286,7 @@ void Modeller::draw_adding() {
 
 void Modeller::do_adding(const modeller::Operation& operation) {
   scene::JsonValue s = scene::json_object();
-  put(s, "do", scene::json_text(m_adding));
+  scene::put(s, "do", scene::json_text(m_adding));
   for (const scene::Key& key : operation.parameters.keys)
     if (const std::string& value = m_asked[key.name]; !value.empty()) put(s, key.name, typed_value(key, value));
   tell("");

@@ -139,8 +139,8 @@ void Modeller::save_as(const fs::path& file) {
     const std::string stem = path.stem().string();
     for (const auto& [key, words] : {std::pair{"title", stem}, std::pair{"name", plain_name(stem)}}) {
       scene::JsonValue s = scene::json_object();
-      put(s, "key", scene::json_text(key));
-      put(s, "value", scene::json_text(words));
+      scene::put(s, "key", scene::json_text(key));
+      scene::put(s, "value", scene::json_text(words));
       modeller::apply(*modeller::find_operation("set"), s, "here", *m_document);
     }
   }

@@ -100,15 +100,15 @@ std::optional<scene::JsonValue> Modeller::step_of_gesture(std::string& amount) c
     by = {snapped(by.x, 1, snap), snapped(by.y, 1, snap), snapped(by.z, 1, snap)};
     amount = tr("({:.1f}, {:.1f}, {:.1f}) mm", by.x, by.y, by.z);
     if (length(by) < 1e-4) return std::nullopt;
-    put(s, "do", scene::json_text(g.item ? "move_point" : "move"));
-    put(s, "of", g.item ? scene::json_text(g.thing) : of);
+    scene::put(s, "do", scene::json_text(g.item ? "move_point" : "move"));
+    scene::put(s, "of", g.item ? scene::json_text(g.thing) : of);
     if (g.item) {
-      put(s, "key", scene::json_text(g.list.substr(1)));
-      put(s, "item", scene::json_number(double(*g.item)));
+      scene::put(s, "key", scene::json_text(g.list.substr(1)));
+      scene::put(s, "item", scene::json_number(double(*g.item)));
     }
-    put(s, "by_mm", modeller::point(by));
-    if (g.item && m_soft) put(s, "soft_mm", modeller::number(m_soft_mm));
-    if (g.item && m_symmetric) put(s, "symmetric", scene::json_flag(true));
+    scene::put(s, "by_mm", modeller::point(by));
+    if (g.item && m_soft) scene::put(s, "soft_mm", modeller::number(m_soft_mm));
+    if (g.item && m_symmetric) scene::put(s, "symmetric", scene::json_flag(true));
     return s;
   }
   const std::optional<modeller::Spot> middle = v.spot(g.about);
@@ -127,10 +127,10 @@ std::optional<scene::JsonValue> Modeller::step_of_gesture(std::string& amount) c
     by = snapped(by, 5, snap);
     amount = tr("{:.1f} degrees", by);
     if (std::fabs(by) < 1e-3) return std::nullopt;
-    put(s, "do", scene::json_text("rotate"));
-    put(s, "of", of);
-    put(s, "axis", modeller::point(axis));
-    put(s, "by_deg", modeller::number(by));
+    scene::put(s, "do", scene::json_text("rotate"));
+    scene::put(s, "of", of);
+    scene::put(s, "axis", modeller::point(axis));
+    scene::put(s, "by_deg", modeller::number(by));
     return s;
   }
   const double from = std::hypot(g.from_x - middle->x, g.from_y - middle->y),
@@ -140,12 +140,12 @@ std::optional<scene::JsonValue> Modeller::step_of_gesture(std::string& amount) c
   by = snapped(by, 0.1, snap);
   amount = fmt::format("{:.3f}", by);
   if (std::fabs(by - 1) < 1e-4 || by <= 0) return std::nullopt;
-  put(s, "do", scene::json_text(g.axis < 0 ? "scale" : "stretch"));
-  put(s, "of", of);
+  scene::put(s, "do", scene::json_text(g.axis < 0 ? "scale" : "stretch"));
+  scene::put(s, "of", of);
   if (g.axis < 0)
-    put(s, "by", modeller::number(by));
+    scene::put(s, "by", modeller::number(by));
   else
-    put(s, "by", modeller::point(Vec3d{1, 1, 1} + kAxes[g.axis] * (by - 1)));
+    scene::put(s, "by", modeller::point(Vec3d{1, 1, 1} + kAxes[g.axis] * (by - 1)));
   return s;
 }
 

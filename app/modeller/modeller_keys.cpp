@@ -151,10 +151,10 @@ void Modeller::obey_key(int key, int mods) {
   if ((key == GLFW_KEY_X || key == GLFW_KEY_DELETE) && thing) {
     scene::JsonValue s = scene::json_object();
     const bool one = m_handle.has_value();
-    put(s, "do", scene::json_text(one ? "remove_point" : "delete"));
-    put(s, "of", one ? scene::json_text(m_selected) : scene::json_array({scene::json_text(m_selected)}));
-    if (one) put(s, "key", scene::json_text(m_handle->list.substr(1)));
-    if (one) put(s, "item", scene::json_number(double(m_handle->item)));
+    scene::put(s, "do", scene::json_text(one ? "remove_point" : "delete"));
+    scene::put(s, "of", one ? scene::json_text(m_selected) : scene::json_array({scene::json_text(m_selected)}));
+    if (one) scene::put(s, "key", scene::json_text(m_handle->list.substr(1)));
+    if (one) scene::put(s, "item", scene::json_number(double(m_handle->item)));
     if (step(std::move(s))) {
       tell(one ? std::string(tr("Point removed.")) : tr("Deleted: {}", thing->name));
       if (!one) m_selected.clear();
@@ -164,9 +164,9 @@ void Modeller::obey_key(int key, int mods) {
   if (key == GLFW_KEY_D && shift && thing) {
     scene::JsonValue s = scene::json_object();
     const std::string name = free_name(thing->name + "_copy");
-    put(s, "do", scene::json_text("duplicate"));
-    put(s, "of", scene::json_text(m_selected));
-    put(s, "as", scene::json_text(name));
+    scene::put(s, "do", scene::json_text("duplicate"));
+    scene::put(s, "of", scene::json_text(m_selected));
+    scene::put(s, "as", scene::json_text(name));
     if (step(std::move(s))) {
       m_things = modeller::outline(*m_document);
       m_things_of = m_document->version();
@@ -176,10 +176,10 @@ void Modeller::obey_key(int key, int mods) {
   }
   if (key == GLFW_KEY_I && m_handle) {  // a point more before the one that was taken
     scene::JsonValue s = scene::json_object();
-    put(s, "do", scene::json_text("insert_point"));
-    put(s, "of", scene::json_text(m_selected));
-    put(s, "key", scene::json_text(m_handle->list.substr(1)));
-    put(s, "before", scene::json_number(double(m_handle->item + 1)));
+    scene::put(s, "do", scene::json_text("insert_point"));
+    scene::put(s, "of", scene::json_text(m_selected));
+    scene::put(s, "key", scene::json_text(m_handle->list.substr(1)));
+    scene::put(s, "before", scene::json_number(double(m_handle->item + 1)));
     if (step(std::move(s))) tell(tr("Point inserted."));
   }
 }

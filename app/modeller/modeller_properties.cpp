@@ -170,10 +170,10 @@ const std::vector<modeller::TissueChoice>& Modeller::tissues() {
 bool Modeller::choose_tissue(const std::string& thing, std::string name) {
   const auto set = [&](const char* key, const std::string& text) {
     JsonValue s = scene::json_object();
-    put(s, "do", scene::json_text("set"));
-    put(s, "of", scene::json_text(thing));
-    put(s, "key", scene::json_text(key));
-    put(s, "value", scene::json_text(text));
+    scene::put(s, "do", scene::json_text("set"));
+    scene::put(s, "of", scene::json_text(thing));
+    scene::put(s, "key", scene::json_text(key));
+    scene::put(s, "value", scene::json_text(text));
     return step(std::move(s));
   };
   const JsonValue before = modeller::value_of(*m_document, modeller::thing_named(*m_document, thing));

@@ -272,10 +272,10 @@ void Modeller::hold_here() {
   if (!met || sim::name_of(*m_shown->built.model, met->body) != thing->name)
     return warn(tr("Point at the chosen body."));
   scene::JsonValue s = scene::json_object();
-  put(s, "do", scene::json_text("hold"));
-  put(s, "of", scene::json_text(m_selected));
-  put(s, "centre_mm", modeller::point(met->at * 1e3));
-  put(s, "radius_mm", modeller::number(std::clamp(m_soft_mm / 2, 2.0, 100.0)));
+  scene::put(s, "do", scene::json_text("hold"));
+  scene::put(s, "of", scene::json_text(m_selected));
+  scene::put(s, "centre_mm", modeller::point(met->at * 1e3));
+  scene::put(s, "radius_mm", modeller::number(std::clamp(m_soft_mm / 2, 2.0, 100.0)));
   if (step(std::move(s))) tell(tr("Attached here."));
 }
 

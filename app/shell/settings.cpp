@@ -1,12 +1,11 @@
 #include "shell/settings.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <trocar/attempt/paths.hpp>
+#include <trocar/core/files.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/scene/json/shape.hpp>
@@ -206,18 +205,8 @@ std::string settings_text(const Settings& s) {
 void write_settings(const fs::path& file, const Settings& settings) {
   training::make_own_folder(file.parent_path());  // the data folder: names are nobody else's business
   attempt::make_folder(file.parent_path());
-  fs::path fresh = file;
-  fresh += fmt::format(".{}.new", getpid());  // two programs at once write two files
   const std::string text = settings_text(settings);
-  std::FILE* out = std::fopen(fresh.c_str(), "w");
-  bool good = out && std::fwrite(text.data(), 1, text.size(), out) == text.size();
-  good = good && std::fflush(out) == 0 && fsync(fileno(out)) == 0;
-  if (out) good = std::fclose(out) == 0 && good;
-  std::error_code error;
-  if (good) fs::rename(fresh, file, error);
-  if (good && !error) return;
-  std::error_code ignored;
-  fs::remove(fresh, ignored);
+  if (core::write_file(file, {text}).empty()) return;
   throw core::EnvironmentLacks(
       tr("cannot write {}: make room or allow writing; the settings hold until the end", file.string()));
 }

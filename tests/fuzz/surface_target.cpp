@@ -6,6 +6,7 @@
 #include <trocar/geometry/formats/mesh_source.hpp>
 #include <trocar/geometry/repair/mend.hpp>
 #include <trocar/geometry/surface_files/surface_writer.hpp>
+#include <trocar/geometry/surface_files/unit_guess.hpp>
 
 #include "../geometry/surface_bytes.hpp"
 #include "targets.hpp"
@@ -63,6 +64,8 @@ void surface_file(Bytes bytes) {
   }
   check_parts(file);
   const TriMesh all = joined(file);
+  const UnitChoice unit = choose_unit(extent_of(all), file.metres, "unit");
+  require(unit.metres > 0 && (unit.note.empty() || unit.question.empty()), "a unit is taken, told or asked for");
   if (all.triangles.size() > 10'000 || all.positions.size() > 10'000) return;
   check_written(all);
   if (all.triangles.size() <= 200) check_mended(merged_equal(all));
@@ -71,6 +74,8 @@ void surface_file(Bytes bytes) {
 std::vector<Seed> surface_obj_seeds() {
   return {
       {"axes", bytes_of(kAxesObj)},
+      {"marked",
+       bytes_of("\xef\xbb\xbf# 3D Slicer output. SPACE=LPS\rv 0 0 0 # one\rv 1 0 0\rv 0 1 0\rf 1 2 3 # f\rf 1 2\r")},
       {"polygons", bytes_of("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\nf -6//1 -1/2 3\n")},
       {"boxes", bytes_of(to_obj(TriMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.2, 0.2, -1}, {0.3, 0.2, 2}},
                                         {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 5}, {1, 4, 5}}}))}};
@@ -78,6 +83,9 @@ std::vector<Seed> surface_obj_seeds() {
 std::vector<Seed> surface_stl_seeds() {
   return {{"text", bytes_of(kAxesStl)},
           {"binary", bytes_of(axes_stl_binary())},
+          {"behind", bytes_of(axes_stl_binary() + std::string(9, '\0'))},
+          {"odd", bytes_of("solid a\r solid b SPACE=RAS\rfacet normal 0 0 1\router loop\rvertex 0 0 0\rvertex 1 0 0\r"
+                           "vertex 0 1 0\rend loop\rend facet\rend solid b\rendsolid a\rjunk")},
           {"written", bytes_of(to_stl(axes_mesh()))}};
 }
 std::vector<Seed> surface_ply_seeds() {
@@ -87,13 +95,28 @@ std::vector<Seed> surface_ply_seeds() {
           {"written", bytes_of(to_ply(axes_mesh()))}};
 }
 std::vector<Seed> surface_vtk_seeds() {
-  return {{"text", bytes_of(kAxesVtk)},
-          {"binary", bytes_of(axes_vtk_binary())},
-          {"written", bytes_of(to_polydata(axes_mesh()))}};
+  return {
+      {"text", bytes_of(kAxesVtk)},
+      {"binary", bytes_of(axes_vtk_binary())},
+      {"written", bytes_of(to_polydata(axes_mesh()))},
+      {"strings", bytes_of("# vtk DataFile Version 4.2\nSPACE=LPS\nASCII\nDATASET POLYDATA\nFIELD FieldData 2\n"
+                           "SPACE 1 1 string\nRAS\nflags 1 9 bit\n1 0 1 0 1 0 1 0 1\nPOINTS 3 int\n0 0 0 1 0 0 0 1 0\n"
+                           "POLYGONS 1 4\n3 0 1 2\n")},
+      {"grid", bytes_of("# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
+                        "0 0 0 1 0 0 0 1 0 1 1 0\nCELLS 4 18\n4 0 1 2 3\n3 0 1 2\n4 0 1 3 2\n3 0 1 2\n"
+                        "CELL_TYPES 4\n8 5 9 6\n")}};
 }
 std::vector<Seed> surface_gltf_seeds() {
   return {{"embedded", bytes_of(axes_gltf_embedded())},
           {"binary", bytes_of(axes_glb())},
+          {"behind", bytes_of(axes_glb() + "behind")},
+          {"sparse",
+           bytes_of(R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0,
+   1, 0, 0, 0, 0, 0.999999]}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "accessors":
+  [{"componentType": 5126, "count": 3, "type": "VEC3", "sparse": {"count": 1, "indices": {"bufferView": 0,
+  "componentType": 5121}, "values": {"bufferView": 1}}}], "bufferViews": [{"buffer": 0, "byteLength": 1},
+  {"buffer": 0, "byteOffset": 4, "byteLength": 12}], "buffers": [{"byteLength": 16, "uri":
+  "data:;base64,AQAAAAAAgD8AAAAAAAAAAA=="}]})")},
           {"beside", bytes_of(axes_gltf(R"(, "uri": "beside.bin")"))}};
 }
 
@@ -185,6 +208,17 @@ std::vector<std::string> surface_words() {
           "4294967295",
           "9007199254740991",
           "\r\n",
+          "\r",
+          "#",
+          "SPACE=LPS",
+          "SPACE=RAS",
+          "end loop",
+          "FIELD FieldData 1\n",
+          "SPACE 1 1 string\n",
+          "UNSTRUCTURED_GRID\n",
+          "CELLS ",
+          "CELL_TYPES ",
+          "\xef\xbb\xbf",
           "\\u0041"};
 }
 

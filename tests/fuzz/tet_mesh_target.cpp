@@ -72,6 +72,9 @@ std::vector<Seed> tet_mesh_seeds() {
           {"gmsh-4.1", bytes_of(kGmsh41)},
           {"gmsh-4.1-binary", bytes_of(gmsh41_binary(false))},
           {"gmsh-4.1-swapped", bytes_of(gmsh41_binary(true))},
+          {"marked", bytes_of("\xef\xbb\xbf" + kGmsh2 + "\x1a")},
+          {"slicer", bytes_of("# vtk DataFile Version 4.2\rSPACE=RAS\rASCII\rDATASET UNSTRUCTURED_GRID\rPOINTS 4 int\r"
+                              "0 0 0 1 0 0 0 1 0 0 0 1 # corners\rCELLS 1 5\r4 0 1 2 3\rCELL_TYPES 1\r10\r")},
           {"vtk-3", bytes_of(kVtk)},
           {"vtk-3-binary", bytes_of(vtk_binary())},
           {"vtk-5", bytes_of(kVtk5)},
@@ -125,7 +128,12 @@ std::vector<std::string> tet_mesh_words() {
           "2147483648",
           "-1",
           "9223372036854775807",
-          "\r\n"};
+          "\r\n",
+          "\r",
+          "#",
+          "SPACE=LPS\n",
+          "string\n",
+          "\xef\xbb\xbf"};
 }
 
 }  // namespace trocar::fuzz

@@ -99,7 +99,7 @@ TEST(MendedData, EveryPartOfEveryFileBecomesABodyOrSaysWhyNot) {
       continue;
     }
     row.read_ms = ms_since(start);
-    const double metres = file.metres > 0 ? file.metres : guess_unit(bounds(joined(file).positions)).metres;
+    const double metres = file.metres > 0 ? file.metres : guess_unit({bounds(joined(file).positions), 0}).metres;
     for (SurfacePart& part : file.parts) {
       for (Vec3d& p : part.mesh.positions) p *= metres > 0 ? metres : 1;
       const auto from = std::chrono::steady_clock::now();

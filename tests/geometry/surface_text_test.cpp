@@ -66,7 +66,6 @@ TEST(ObjFiles, AllFaultsAreToldWithTheirPlaces) {
   EXPECT_EQ(text_faults("v 0 0 zero\nv 1 0\nv 1 1 0\nf 1 2\nf 1 2 9\nf a 2 3\nf 1 2 0\nf -4 1 2\nv nan 0 0\n", "bad"),
             "bad:1:7: expected a z coordinate, got 'zero'\n"
             "bad:2:6: expected a z coordinate, got the end of the line\n"
-            "bad:4:2: expected at least 3 corners of a face, got 2\n"
             "bad:5:2: expected the number of a vertex from 1 to 4, got 9\n"
             "bad:6:3: expected the number of a vertex, from 1 or back from -1, got 'a'\n"
             "bad:7:7: expected the number of a vertex, from 1 or back from -1, got '0'\n"
@@ -86,7 +85,7 @@ TEST(StlFiles, AHeadThatAnnouncesMoreThanThereIsIsRefused) {
   std::string bytes = axes_stl_binary();
   bytes[0] = 'S', bytes[1] = 'T';
   for (const char high : {'\x00', '\x7f', '\xff'}) {
-    bytes[80] = 5, bytes[83] = high;
+    bytes[80] = 5, bytes[83] = high;  // one more than there is, or many
     const std::string told = text_faults(bytes, "a.stl");
     EXPECT_NE(told.find("at byte 80: expected 4 triangles, which is what 284 bytes are the size of, got "),
               std::string::npos)
@@ -115,6 +114,22 @@ TEST(StlFiles, TextSaysWhatIsMissingWhere) {
   EXPECT_EQ(two.parts[1].name, "b");
 }
 
+TEST(StlFiles, SolidsMayBeginTwiceAndWordsStandApart) {
+  const std::string two_heads = "solid model\n" + kAxesStl + "endsolid model\n";
+  EXPECT_EQ(read_surfaces(two_heads, "a").parts.size(), 1u);
+  EXPECT_EQ(read_surfaces(two_heads, "a").parts.at(0).name, "axes");
+  EXPECT_EQ(only_mesh(two_heads).triangles.size(), 4u);
+  std::string apart = kAxesStl;
+  for (const char* word : {"endloop", "endfacet", "endsolid"})
+    for (std::size_t at = 0; (at = apart.find(word, at)) != apart.npos; at += 4) apart.insert(at + 3, " ");
+  EXPECT_EQ(only_mesh(apart).triangles.size(), 4u);
+  const std::string without_end = with(kAxesStl, "endsolid axes\n", "");
+  EXPECT_EQ(read_surfaces(without_end + kAxesStl, "a").parts.size(), 2u);
+  EXPECT_EQ(text_faults(kAxesStl + "facet normal 0 0 1\nouter loop\nvertex 0 0\n"),
+            "a:33:11: expected a z coordinate, got the end of the line\n"
+            "a:34:1: expected 'vertex', got the end of the file");
+}
+
 TEST(PlyFiles, HeadersThatLieAreRefusedBeforeAnythingIsSetAside) {
   for (const char* lie : {"element vertex 4000000000", "element vertex 999999999999999999"})
     EXPECT_NE(text_faults(with(kAxesPly, "element vertex 4", lie)).find("items, for which the"), std::string::npos);
@@ -139,8 +154,6 @@ TEST(PlyFiles, WhatIsMissingIsTold) {
             "a:12:9: expected vertex_indices of whole numbers, got another type");
   EXPECT_EQ(text_faults(with(kAxesPly, "3 1 2 3 0\n", "3 1 2 4 0\n")),
             "a:24:1: expected the number of a vertex from 0 to 3, got 4");
-  EXPECT_EQ(text_faults(with(kAxesPly, "3 1 2 3 0\n", "2 1 2 0\n")),
-            "a:24:1: expected at least 3 corners of a face, got 2");
   EXPECT_EQ(text_faults(with(kAxesPly, "3 1 2 3 0\n", "")),
             "a:24:1: expected 4 items of 'face', got the end of the file");
 }
@@ -154,9 +167,46 @@ TEST(PlyFiles, StripsAreTrianglesThatAllFaceTheSameWay) {
   for (int t = 0; t < 4; ++t) EXPECT_EQ(area_vector(mesh, t).z, 1);
 }
 
+TEST(PolydataFiles, FieldsOfStringsMayStandInFrontOfPoints) {
+  const std::string fields =
+      "FIELD FieldData 3\nSPACE 1 1 string\nours\nNames 1 2 string\nleft%20lobe\n\nflags 1 9 bit\n"
+      "1 0 1 0 1 0 1 0 1\nPOINTS";
+  EXPECT_EQ(only_mesh(with(kAxesVtk, "POINTS", fields)).triangles.size(), 4u);
+  MeshBytes f{true};
+  f.text("FIELD FieldData 2\nNames 1 3 string\n").all<std::uint8_t>(0xc3).text("abc").all<std::uint8_t>(0x80, 70);
+  f.text(std::string(70, 'x')).all<std::uint8_t>(0xc0).text("\nflags 1 9 bit\n").all<std::uint8_t>(0xff, 0x80);
+  EXPECT_EQ(only_mesh(with(axes_vtk_binary(), "POINTS", f.bytes + "\nPOINTS")).triangles.size(), 4u);
+  EXPECT_EQ(text_faults(with(kAxesVtk, "POINTS", "FIELD FieldData 1\nodd 1 1 variant\nx\nPOINTS")),
+            "a:6:16: expected data of a type that is known, such as float, int or string, got 'odd'");
+  EXPECT_NE(text_faults(with(kAxesVtk, "POINTS", "FIELD FieldData 1\nSPACE 1 99 string\nLPS\nPOINTS")), "");
+}
+
+TEST(PolydataFiles, PointsMayBeWholeNumbers) {
+  EXPECT_EQ(only_mesh(with(kAxesVtk, "POINTS 4 float", "POINTS 4 int")).positions, axes_mesh().positions);
+  EXPECT_NE(text_faults(with(kAxesVtk, "POINTS 4 float", "POINTS 4 bit")), "");
+}
+
+TEST(VtkGrids, FacesOfEveryKindAreASurfaceAndOtherCellsAreLeftOut) {
+  const std::string head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n";
+  const std::string cube = head + "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\n";
+  // Two triangles, a quadrangle, a polygon, a pixel, a strip, a quadratic quadrangle; then a line.
+  const std::string cells =
+      "CELLS 8 40\n3 0 3 2\n3 0 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 5 6\n4 7 6 3 2\n"
+      "8 0 4 7 3 0 4 7 3\n2 0 1\nCELL_TYPES 8\n5 5 9 7 8 6 23 3\n";
+  const SurfaceFile file = read_surfaces(cube + cells, "a");
+  EXPECT_NEAR(volume(joined(file)), 1, 1e-12);
+  EXPECT_TRUE(check_edges(joined(file)).closed());
+  EXPECT_EQ(file.notes, (std::vector<std::string>{"1 lines left out"}));
+  EXPECT_EQ(
+      text_faults(head + "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\nCELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n"),
+      "a:1:1: expected triangles, got 1 tetrahedra");
+  EXPECT_EQ(text_faults(cube + "CELLS 1 3\n2 0 1\nCELL_TYPES 1\n5\n"),
+            "a:8:3: expected 3 nodes of a cell of type 5, got 2");
+}
+
 TEST(PolydataFiles, OtherDataSetsAreRefused) {
-  EXPECT_EQ(text_faults(with(kAxesVtk, "POLYDATA", "UNSTRUCTURED_GRID")),
-            "a:4:9: expected POLYDATA, as surfaces need, got 'UNSTRUCTURED_GRID'");
+  EXPECT_EQ(text_faults(with(kAxesVtk, "POLYDATA", "STRUCTURED_POINTS")),
+            "a:4:9: expected POLYDATA or UNSTRUCTURED_GRID, as surfaces need, got 'STRUCTURED_POINTS'");
   EXPECT_EQ(text_faults(with(kAxesVtk, "3 1 2 3\n", "3 1 2 4\n")),
             "a:13:7: expected the number of a point from 0 to 3, got 4");
   EXPECT_NE(text_faults(with(kAxesVtk, "POINTS 4", "POINTS 500000000")), "");

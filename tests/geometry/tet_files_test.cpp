@@ -274,6 +274,36 @@ TEST(TetFiles, AnyChangedByteIsAFaultOrAMeshThatCanBeMended) {
     }
 }
 
+TEST(TetFiles, TextIsReadWithCarriageReturnsByteOrderMarksCommentsAndWhatEndsOldTexts) {
+  for (const std::string& bytes : {kGmsh1, kGmsh2, kGmsh40, kGmsh41, kVtk, kVtk5}) {
+    std::string other;
+    for (const char c : bytes) other += c == '\n' ? '\r' : c;
+    const std::vector<std::array<int, 4>> cells = read_tets(bytes, "a").mesh.cells;
+    for (const std::string& text : {other, "\xef\xbb\xbf" + bytes, bytes + std::string("\x1a\0\0", 3)})
+      EXPECT_EQ(read_tets(text, "a").mesh.cells, cells) << bytes.substr(0, 20);
+  }
+  EXPECT_EQ(read_tets(replaced(kGmsh2, "3 1 0 0\n", "# a comment\n3 1 0 0 # another\n"), "a").mesh.cells.size(), 2u);
+  EXPECT_EQ(faults_of(std::string("\xff\xfe$\0N\0", 6)),
+            "a.msh:1:1: expected text in UTF-8, got UTF-16: save the file as UTF-8");
+}
+
+TEST(TetFiles, MeshesAlongThePatientsAxesAreTurnedIntoOurs) {
+  const TetFile plain = read_tets(kVtk, "a"), turned = read_tets(replaced(kVtk, "any title", "SPACE=RAS"), "a");
+  for (std::size_t i = 0; i < plain.mesh.points.size(); ++i) {
+    const Vec3d p = plain.mesh.points[i];
+    EXPECT_EQ(turned.mesh.points[i], (Vec3d{-p.x, p.z, p.y}));
+  }
+  EXPECT_EQ(turned.notes.size(), plain.notes.size() + 1);
+}
+
+TEST(TetFiles, AGridOfFacesIsASurfaceAndOneWithTetrahedraIsNot) {
+  EXPECT_TRUE(holds_tetrahedra(kGmsh2));
+  EXPECT_TRUE(holds_tetrahedra(kVtk));
+  EXPECT_FALSE(holds_tetrahedra(replaced(kVtk, "5 10 10", "5 9 9")));
+  EXPECT_FALSE(holds_tetrahedra("v 0 0 0\n"));
+  EXPECT_TRUE(holds_tetrahedra(kVtk.substr(0, 120))) << "its own reader says what is wrong with it";
+}
+
 TEST(TetFiles, WhatIsNoMeshFileIsSaidToBeNone) {
   const std::string formats =
       "a.msh:1:1: expected a Gmsh file ($MeshFormat, $NOD) or a legacy VTK file (# vtk DataFile Version), got ";

@@ -11,6 +11,7 @@
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/modeller/drive/built.hpp>
 #include <trocar/modeller/operations/cad_file.hpp>
+#include <trocar/volumes/image/grid.hpp>
 
 #include "workplace.hpp"
 
@@ -70,6 +71,100 @@ TEST(FromFile, WhatCannotBeABodyIsToldAndLeavesNothing) {
   EXPECT_FALSE(fs::exists(place / "a.stl"));
 }
 
+std::string said_of(Document& document, const std::string& parameters) {
+  return modeller::apply(*find_operation("from_file"), json(parameters), "step", document);
+}
+
+TEST(FromFile, TheUnitIsGuessedFromTheSizeAndTold) {
+  const Workplace place;
+  std::ofstream(place / "metres.obj") << geometry::to_obj(block());
+  std::ofstream(place / "mm.obj") << geometry::to_obj(block(), 1e-3);
+  for (const auto& [file, unit] : {std::pair{"metres.obj", "metres"}, std::pair{"mm.obj", "millimetres"}}) {
+    Document document = empty(place);
+    const std::string said =
+        said_of(document, fmt::format(R"({{"file": "{}", "name": "a", "tissue": "uterus"}})", file));
+    EXPECT_NE(said.find("27.00 mL in 12 triangles; coordinates are taken as " + std::string(unit)), std::string::npos)
+        << said;
+    EXPECT_NE(said.find("\"unit_mm\" sets another unit"), std::string::npos) << said;
+  }
+}
+
+TEST(FromFile, ASizeThatIsNoOrgansAsksForTheUnit) {
+  const Workplace place;
+  Document document = empty(place);
+  std::ofstream(place / "small.ply") << geometry::to_ply(block(), 0.01);  // 3 units long
+  std::ofstream(place / "km.obj") << geometry::to_obj(block(), 1e-8);
+  const std::string fault = fault_of(document, "from_file", R"({"file": "km.obj", "name": "a", "tissue": "uterus"})");
+  EXPECT_NE(fault.find("expected the unit of its coordinates by \"unit_mm\""), std::string::npos) << fault;
+  EXPECT_NE(fault.find("in metres"), std::string::npos) << fault;
+  EXPECT_FALSE(fs::exists(place / "a.stl"));
+  const std::string said = said_of(document, R"({"file": "km.obj", "name": "a", "tissue": "uterus", "unit_mm": 1e-5})");
+  EXPECT_NE(said.find("27.00 mL"), std::string::npos) << said;
+  const std::string tiny = said_of(document, R"({"file": "small.ply", "name": "b", "tissue": "uterus", "unit_mm": 1})");
+  EXPECT_NE(tiny.find("organs hold 0.1 mL to 20 L"), std::string::npos) << tiny;
+}
+
+TEST(FromFile, SurfacesThatEncloseNothingAreRefused) {
+  const Workplace place;
+  Document document = empty(place);
+  const geometry::TriMesh sheet{{{0, 0, 0}, {40, 0, 0}, {40, 40, 0}, {0, 40, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  geometry::TriMesh folded = sheet;  // both sides of a sheet, cut along the other diagonal behind
+  folded.triangles.insert(folded.triangles.end(), {{1, 0, 3}, {1, 3, 2}});
+  for (const geometry::TriMesh& mesh : {sheet, folded}) {
+    std::ofstream(place / "sheet.obj") << geometry::to_obj(mesh);
+    EXPECT_NE(fault_of(document, "from_file", R"({"file": "sheet.obj", "name": "a", "tissue": "uterus"})"), "");
+  }
+  EXPECT_FALSE(fs::exists(place / "a.stl"));
+}
+
+TEST(FromFile, TheNamesOfAFilesPartsAreToldWhereNoneIsOfThatName) {
+  const Workplace place;
+  Document document = empty(place);
+  std::ofstream(place / "two.obj") << geometry::to_obj(
+      std::vector<geometry::SurfacePart>{{"left lobe", block()}, {"right lobe", block()}}, 1e-3);
+  EXPECT_NE(
+      fault_of(document, "from_file", R"({"file": "two.obj", "name": "a", "tissue": "uterus", "part": "left_lobe"})")
+          .find("expected a known part of the file (left lobe, right lobe), got \"left_lobe\""),
+      std::string::npos);
+}
+
+TEST(FromFile, TetrahedraAreReadAndTheirUnitIsKeptWithThem) {
+  const Workplace place;
+  Document document = empty(place);
+  const std::string mesh =
+      "$NOD\n4\n1 0 0 0\n2 0.04 0 0\n3 0 0.04 0\n4 0 0 0.04\n$ENDNOD\n$ELM\n1\n1 4 1 1 4 1 2 3 4\n"
+      "$ENDELM\n";
+  std::ofstream(place / "metres.msh") << mesh;
+  const std::string said = said_of(document, R"({"file": "metres.msh", "name": "a", "tissue": "uterus"})");
+  EXPECT_NE(said.find("10.67 mL in 1 tetrahedra; coordinates are taken as metres"), std::string::npos) << said;
+  const scene::JsonValue body = value_of(document, thing_named(document, "a"));
+  EXPECT_EQ(body.find("mesh")->value.find("unit_mm")->value.number, 1000);
+  std::ofstream(place / "bad.msh") << "$NOD\n";
+  EXPECT_NE(fault_of(document, "from_file", R"({"file": "bad.msh", "name": "b", "tissue": "uterus"})"), "");
+  EXPECT_FALSE(fs::exists(place / "b.msh"));
+}
+
+TEST(FromFile, AMeshOf3dSlicerLiesWhereTheScanDoes) {
+  const Workplace place;
+  Document document = empty(place);
+  geometry::TriMesh mesh = block();
+  for (Vec3d& p : mesh.positions) p = p * 1e3 + Vec3d{5, 7, 11};  // [mm] L P S
+  std::string stl = geometry::to_stl(mesh);
+  stl.replace(0, 27, "3D Slicer output. SPACE=LPS");
+  std::ofstream(place / "block.stl", std::ios::binary) << stl;
+  EXPECT_NE(said_of(document, R"({"file": "block.stl", "name": "a", "tissue": "uterus"})").find("SPACE=LPS"),
+            std::string::npos);
+  std::vector<core::Fault> faults;
+  const auto described = document.description(faults);
+  ASSERT_TRUE(described && faults.empty());
+  const geometry::Bounds box = geometry::bounds(described->solids.back().shape.surface->mesh.positions);
+  const Vec3d corner = volumes::scene_from_patient({5, 7, 11}), other = volumes::scene_from_patient({35, 37, 41});
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(box.low[k], std::min(corner[k], other[k]), 1e-6);
+    EXPECT_NEAR(box.high[k], std::max(corner[k], other[k]), 1e-6);
+  }
+}
+
 TEST(FromFile, WithoutTheProgramForItACadFileSaysWhatToDo) {
   const Workplace place;
   Document document = empty(place);
@@ -108,6 +203,22 @@ TEST_F(FromCad, AnEllipsoidInStepIsTheNurbsThatTheFileHasWithTheVolumeOfOne) {
           1e-7);
     }
   EXPECT_NEAR(built_mL(document, "egg") / (4e6 / 3 * M_PI * half.x * half.y * half.z), 1, 0.03);
+}
+
+/// A known fault of an exporter: numbers in millimetres, said to be metres.
+TEST_F(FromCad, ADrawingOfTheSizeOfAHouseAsksForItsUnit) {
+  const Workplace place;
+  Document document = empty(place);
+  std::string step = read(data("egg.step"));
+  const std::size_t at = step.find("SI_UNIT(.MILLI.,.METRE.)");
+  ASSERT_NE(at, std::string::npos);
+  std::ofstream(place / "house.step") << step.replace(at, 24, "SI_UNIT($,.METRE.)");
+  const std::string fault =
+      fault_of(document, "from_file", R"({"file": "house.step", "name": "egg", "tissue": "uterus"})");
+  EXPECT_NE(fault.find("expected an organ of 0.1 mL to 20 L, got 64 m and "), std::string::npos) << fault;
+  EXPECT_NE(fault.find("\"unit_mm\" sets another unit"), std::string::npos) << fault;
+  apply(document, "from_file", R"({"file": "house.step", "name": "egg", "tissue": "uterus", "unit_mm": 1})");
+  EXPECT_NEAR(built_mL(document, "egg") / (4.0 / 3 * M_PI * 20 * 32 * 16 * 1e-3), 1, 0.03);
 }
 
 TEST_F(FromCad, ATorusInIgesIsARingOfItsVolume) {

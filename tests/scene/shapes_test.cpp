@@ -224,9 +224,10 @@ TEST(SurfaceShapes, AreReadFromEveryFormatWithItsUnit) {
   geometry::TriMesh in_metres = ball;
   for (Vec3d& p : in_metres.positions) p = p / 1000.0;
   t.folder.write("metres.obj", geometry::to_obj(in_metres));
-  const auto metres = read(t.solid(R"("surface": {"file": "metres.obj"}, "cell_mm": 6)")).solids.at(0).shape;
-  ASSERT_EQ(metres.surface->warnings.size(), 1u) << "which nobody has said";
-  EXPECT_NE(metres.surface->warnings[0].find("its coordinates are millimetres; longest side"), std::string::npos);
+  expect_only(t.faults(t.solid(R"("surface": {"file": "metres.obj"}, "cell_mm": 6)")),
+              "with coordinates in millimetres; \"unit_mm\" sets another unit");
+  const auto metres = read(t.solid(R"("surface": {"file": "metres.obj", "unit_mm": 1000}, "cell_mm": 6)")).solids.at(0);
+  EXPECT_NEAR(geometry::volume(metres.shape.surface->mesh) / volume, 1, 1e-5);
   expect_only(t.faults(t.solid(R"("surface": {"file": "none.obj"}, "cell_mm": 6)")), "none of this name");
   expect_only(t.faults(t.solid(R"("surface": {"file": "ball.obj", "unit_mm": 1000}, "cell_mm": 60)")),
               "expected coordinates within 2000 mm");
@@ -243,7 +244,7 @@ TEST(SurfaceShapes, WhatIsNotClosedIsMendedAndTold) {
   CompileReport report;
   compile(read(t.solid(file + R"(}, "cell_mm": 6)")), &report);
   ASSERT_FALSE(report.warnings.empty());
-  EXPECT_NE(report.warnings[0].message.find("the surface 'open.obj' of 'body' has defects; mended: "),
+  EXPECT_NE(report.warnings[0].message.find("the surface 'open.obj' of 'body': it has defects; mended: "),
             std::string::npos)
       << report.warnings[0].message;
   expect_only(t.faults(t.solid(file + R"(, "mend": false}, "cell_mm": 6)")),

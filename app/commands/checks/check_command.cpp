@@ -1,7 +1,8 @@
 // trocar check: what a scene, organ, instrument, tissue table or exercise compiles to, what flows in a file of vessels,
-// what takes an exercise's rules, how an operating room stands and whether a programme can be done, what a mesh of
-// tetrahedra holds, or every fault that they have.
+// what takes an exercise's rules, how an operating room stands and whether a programme can be done, what a mesh
+// or a drawing of another program holds, or every fault that they have.
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -88,9 +89,9 @@ Json describe_mechanism(const fs::path& path) {
   return out;
 }
 
-/// @param unit  of meshes, in metres
+/// @param unit  of meshes, in metres; none: what the file says or its size suggests
 /// @throws core::BadInput with all faults of the file
-Json check_one(const fs::path& path, double unit) {
+Json check_one(const fs::path& path, std::optional<double> unit) {
   if (is_mesh_file(path)) return describe_mesh(path, unit);
   if (is_mechanism_file(path)) return describe_mechanism(path);
   std::vector<core::Fault> faults;
@@ -135,7 +136,7 @@ void print_checks(const Json& r) {
   if (r["kind"] == "rules") return print_rules(r);
   if (r.contains("leads")) print_inputs(r);
   if (r.contains("wrong")) print_room(r);
-  if (r.contains("mesh")) print_mesh(r);
+  if (r.contains("mesh") || r.contains("surface_parts")) print_mesh(r);
   if (r.contains("vessels")) print_vessels(r);
   if (r.contains("tissues")) print_tissues(r["tissues"]);
   if (r.contains("mobility_words")) fmt::print("  {}\n", r["mobility_words"].get<std::string>());
@@ -144,7 +145,7 @@ void print_checks(const Json& r) {
   print_scene(r);
 }
 
-int check(const std::vector<std::string>& files, double unit, bool json) {
+int check(const std::vector<std::string>& files, std::optional<double> unit, bool json) {
   Json results = Json::array();
   std::vector<core::Fault> faults;
   bool still = true;
@@ -168,18 +169,23 @@ int check(const std::vector<std::string>& files, double unit, bool json) {
 
 void add_check(CLI::App& program, Chosen& chosen) {
   auto files = std::make_shared<std::vector<std::string>>();
-  auto unit_mm = std::make_shared<double>(1.0);
+  auto unit_mm = std::make_shared<std::optional<double>>();
   CLI::App* c = add_command(program, chosen, "check", tr("Check files: their content, or all their faults"),
                             "trocar check scenes/organs/uterus.json scenes/gynaecology/sterilisation.json liver.msh");
   c->add_option("files", *files,
                 tr("files of scenes, organs, instruments, tissues, vessels, mechanisms, exercises, shared rules, "
-                   "devices, operating "
-                   "rooms and programmes; meshes of tetrahedra (.msh, .vtk)"))
+                   "devices, operating rooms and programmes; meshes (.msh, .vtk, .obj, .stl, .ply, .glb, .gltf) and "
+                   "drawings (.step, .iges) of other programs"))
       ->required();
-  c->add_option("--unit-mm", *unit_mm, tr("unit of a mesh's coordinates [mm]"))
-      ->check(number_between(1e-6, 1e6, "mm"))
-      ->capture_default_str();
-  c->callback([=, &chosen] { chosen.run = [=, &chosen] { return check(*files, *unit_mm * 1e-3, chosen.json); }; });
+  c->add_option("--unit-mm", *unit_mm,
+                tr("unit of a mesh's coordinates [mm]; default: what the file says or its size "
+                   "suggests"))
+      ->check(number_between(1e-6, 1e6, "mm"));
+  c->callback([=, &chosen] {
+    chosen.run = [=, &chosen] {
+      return check(*files, *unit_mm ? std::optional(**unit_mm * 1e-3) : std::nullopt, chosen.json);
+    };
+  });
 }
 
 }  // namespace trocar::app

@@ -1,12 +1,18 @@
 #include "commands/checks/check_mesh.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include <fmt/format.h>
 
+#include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/tet_files.hpp>
+#include <trocar/geometry/surface_files/unit_guess.hpp>
+#include <trocar/modeller/operations/cad_file.hpp>
+#include <trocar/modeller/operations/import_preview.hpp>
 #include <trocar/scene/compile/mesh_cost.hpp>
 
 namespace trocar::app {
@@ -51,23 +57,32 @@ std::string slivers(const geometry::TetMesh& mesh) {
   return refill ? "as a liver " + scene::in_words(mesh, now, *refill) : std::string{};
 }
 
-}  // namespace
-
-bool is_mesh_file(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension == ".msh" || extension == ".vtk";
+/// In metres; the note of a guess is added. @throws core::BadInput where somebody must choose
+double unit_of_mesh(const fs::path& path, std::optional<double> given, const geometry::Extent& extent, double said,
+                    Json& notes) {
+  if (given) return *given;
+  const geometry::UnitChoice choice = geometry::choose_unit(extent, said, "--unit-mm");
+  if (!choice.question.empty()) throw core::BadInput({{{path.generic_string(), 0, 0}, choice.question}});
+  if (!choice.note.empty()) notes.push_back(choice.note);
+  return choice.metres;
 }
 
-Json describe_mesh(const fs::path& path, double unit) {
-  const geometry::TetFile file =
-      geometry::read_tets(core::read_file(path, geometry::kMaxMeshBytes), path.generic_string(), unit);
-  const geometry::TetRepair repaired = geometry::repair(file.mesh);
+Json describe_tets(const fs::path& path, std::optional<double> given) {
+  geometry::TetFile file =
+      geometry::read_tets(core::read_file(path, geometry::kMaxMeshBytes), path.generic_string(), given.value_or(1));
+  geometry::TetRepair repaired = geometry::repair(file.mesh);
   if (repaired.mesh.cells.empty())
     throw core::BadInput({{{path.generic_string(), 0, 0}, "expected cells with a volume, got flat ones only"}});
+  Json notes = file.notes;
+  if (!given) {
+    const geometry::Extent extent{geometry::bounds(repaired.mesh.points), geometry::inspect(repaired.mesh).volume};
+    const double said = file.axes == geometry::PatientAxes::none ? 0 : geometry::kPatientUnit;
+    const double unit = unit_of_mesh(path, given, extent, said, notes);
+    for (Vec3d& p : file.mesh.points) p = p * unit;
+    repaired = geometry::repair(file.mesh);
+  }
   const geometry::TetFacts mended = geometry::inspect(repaired.mesh);
-  Json out{{"file", path.string()}, {"kind", "tetrahedra"}, {"format", file.format}, {"notes", file.notes}};
+  Json out{{"file", path.string()}, {"kind", "tetrahedra"}, {"format", file.format}, {"notes", notes}};
   out["mesh"] = as_json(geometry::inspect(file.mesh));
   out["repairs"] = Json::array();
   for (const geometry::Mended& m : repaired.mended) out["repairs"].push_back(geometry::in_words(m));
@@ -78,7 +93,56 @@ Json describe_mesh(const fs::path& path, double unit) {
   return out;
 }
 
+Json describe_surface(const fs::path& path, std::optional<double> given) {
+  const modeller::ImportPreview read = modeller::preview_of(path);
+  const bool drawing = read.kind == modeller::ImportPreview::Kind::drawing;
+  Json notes = read.notes;
+  const double unit = unit_of_mesh(path, given, read.extent(), read.metres, notes);
+  Json out{{"file", path.string()}, {"kind", drawing ? "drawing" : "surface"},
+           {"format", read.format}, {"unit_mm", 1e3 * unit},
+           {"notes", notes},        {"surface_parts", Json::array()}};
+  for (const modeller::ImportPreview::Part& part : read.parts)
+    out["surface_parts"].push_back({{"name", part.name},
+                                    {"triangles", part.triangles},
+                                    {"size_mm", as_json((part.box.high - part.box.low) * (1e3 * unit))},
+                                    {"volume_ml", part.volume * 1e6 * unit * unit * unit},
+                                    {"closed", part.closed}});
+  out["verdict"] = read.closed ? "good" : "to mend";
+  return out;
+}
+
+void print_parts(const Json& m) {
+  fmt::print("{}", tr("  {}, 1 unit is {:g} mm\n", m["format"].get<std::string>(), m["unit_mm"].get<double>()));
+  for (const Json& part : m["surface_parts"]) {
+    const Json& size = part["size_mm"];
+    const double volume = part["volume_ml"];
+    fmt::print("{}", tr("  part \"{}\": {} triangles, {:.4g} x {:.4g} x {:.4g} mm, {}\n",
+                        core::printable(part["name"].get<std::string>()), part["triangles"].get<int>(),
+                        size[0].get<double>(), size[1].get<double>(), size[2].get<double>(),
+                        part["closed"].get<bool>() ? tr("{:.4g} ml, closed", volume)
+                        : volume > 0               ? tr("about {:.4g} ml, with holes", volume)
+                                                   : std::string(tr("an open sheet: it encloses nothing"))));
+  }
+  for (const Json& note : m["notes"]) fmt::print("  {}\n", note.get<std::string>());
+}
+
+}  // namespace
+
+bool is_mesh_file(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  static constexpr const char* kMeshes[] = {".msh", ".vtk",  ".vtp",  ".vtu", ".obj",  ".stl", ".ply",
+                                            ".glb", ".gltf", ".step", ".stp", ".iges", ".igs"};
+  return std::find(std::begin(kMeshes), std::end(kMeshes), extension) != std::end(kMeshes);
+}
+
+Json describe_mesh(const fs::path& path, std::optional<double> unit) {
+  return modeller::is_tet_file(path) ? describe_tets(path, unit) : describe_surface(path, unit);
+}
+
 void print_mesh(const Json& m) {
+  if (m.contains("surface_parts")) return print_parts(m);
   const auto facts = [](const char* what, const Json& f) {
     fmt::print(
         "{}", tr("  {}: {} nodes, {} tetrahedra, {:.4g} ml (cells {:.3g} to {:.3g} ml), smallest dihedral angle {:.3g} "

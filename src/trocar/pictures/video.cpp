@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/files.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/pictures/video.hpp>
@@ -125,7 +126,7 @@ std::unique_ptr<Video> Video::open(const fs::path& path, PictureSize size) {
   std::error_code error;
   if (fs::is_directory(path, error))
     throw core::EnvironmentLacks(tr("cannot write the film {}: it is a folder", path.string()));
-  const fs::path part = fs::absolute(path).string() + ".part";  // absolute: never an option, never a protocol
+  const fs::path part = core::unfinished_name(fs::absolute(path));  // absolute: never an option, never a protocol
   make_empty(part);
   std::vector<std::string> words{"-y", "-loglevel", "error", "-f", "rawvideo", "-pixel_format", "rgb24"};
   words.insert(words.end(), {"-video_size", fmt::format("{}x{}", size.width, size.height)});

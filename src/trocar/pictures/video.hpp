@@ -4,7 +4,8 @@
 //   auto video = Video::open("a.mp4", {800, 600});       // throws core::EnvironmentLacks
 //   video->add(image);  ...  video->finish();
 //
-// It is written beside its name ("a.mp4.part") and takes the name when it is whole: an old film survives a failure.
+// It is written beside its name (core::unfinished_name) and takes the name when it is whole: an old film survives a
+// failure.
 #pragma once
 
 #include <filesystem>

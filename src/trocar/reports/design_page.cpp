@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -213,9 +212,7 @@ std::string optimise_html(const Mechanism& m, const OptimiseResult& r, double wi
 
 std::string write_design_page(const std::filesystem::path& folder, const std::string& html) {
   const std::filesystem::path page = folder / "index.html";
-  std::ofstream out(page, std::ios::binary);
-  out << html;
-  if (!out.flush()) throw core::EnvironmentLacks(tr("cannot write {}: is the disk full?", page.string()));
+  write_page(page, html);
   return page.string();
 }
 

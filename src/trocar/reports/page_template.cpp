@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/error.hpp>
+#include <trocar/core/files.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/reports/page_template.hpp>
 
@@ -196,6 +198,11 @@ std::string escaped(const std::string& text) {
     }
   }
   return out;
+}
+
+void write_page(const std::filesystem::path& path, std::string_view text) {
+  if (const std::string said = core::write_file(path, {text}); !said.empty())
+    throw core::EnvironmentLacks(tr("cannot write {}: {}", path.string(), said));
 }
 
 }  // namespace trocar::reports

@@ -14,6 +14,7 @@
 //   const std::string page = fill(page_text("attempt.html"), data);
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,5 +39,8 @@ std::string fill(std::string_view page, const Json& data);
 
 /// Text as HTML and SVG want it, also within quotes.
 std::string escaped(const std::string& text);
+
+/// A page as a file, at once. @throws core::EnvironmentLacks with the reason
+void write_page(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace trocar::reports

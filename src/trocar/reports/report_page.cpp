@@ -1,4 +1,3 @@
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -25,9 +24,7 @@ std::string write_report(const fs::path& folder, const Report& report) {
     if (!fs::equivalent(p.file, to, error)) fs::copy_file(p.file, to, fs::copy_options::overwrite_existing, error);
   }
   const fs::path path = folder / "index.html";
-  std::ofstream out(path, std::ios::binary);
-  out << report_html(here);
-  if (!out.flush()) throw core::EnvironmentLacks(tr("cannot write {}: is the disk full?", path.string()));
+  write_page(path, report_html(here));
   return path.string();
 }
 

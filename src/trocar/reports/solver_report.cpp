@@ -1,5 +1,4 @@
 #include <cmath>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -90,12 +89,6 @@ Json page_data(const SolverReport& r) {
           {"version", TROCAR_VERSION}};
 }
 
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  if (!out.flush()) throw core::EnvironmentLacks(tr("cannot write {}: is the disk full?", path.string()));
-}
-
 }  // namespace
 
 std::string difference_csv(const std::vector<SolverSample>& samples) {
@@ -124,9 +117,9 @@ Json as_json(const SolverSample& s) {
 std::string solvers_html(const SolverReport& report) { return fill(page_text("solvers.html"), page_data(report)); }
 
 std::string write_solver_report(const std::filesystem::path& folder, const SolverReport& report) {
-  write_file(folder / "difference.csv", difference_csv(report.samples));
+  write_page(folder / "difference.csv", difference_csv(report.samples));
   const std::filesystem::path page = folder / "index.html";
-  write_file(page, solvers_html(report));
+  write_page(page, solvers_html(report));
   return page.string();
 }
 

@@ -21,10 +21,10 @@ class GmshReader {
 
   TetFile read() {
     m_in.set_records_on_lines(true);
-    for (m_in.skip_space(); m_in.left() > 0; m_in.skip_space()) section();
+    for (m_in.skip_comments(); !m_in.only_padding_left(); m_in.skip_comments()) section();
     m_parts.resolve();
     m_in.finish();
-    return {std::move(m_parts.mesh), format(), m_parts.left_out.notes()};
+    return {std::move(m_parts.mesh), format(), m_parts.left_out.notes(), PatientAxes::none};
   }
 
  private:

@@ -12,8 +12,30 @@
 namespace trocar::geometry {
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
-bool is_space(char c) { return is_blank(c) || c == '\n'; }
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+constexpr char kComment = '#';
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
+bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+bool is_space(char c) { return is_blank(c) || is_line_end(c); }
+
+/// Does the first line end in CR alone?
+bool first_line_ends_in_cr(std::string_view text) {
+  const std::size_t end = text.find_first_of("\r\n");
+  return end != text.npos && text[end] == '\r' && text.substr(end, 2) != "\r\n";
+}
+
+/// The encoding of text whose characters have more than one byte each; null for others.
+const char* wide_encoding(std::string_view bytes) {
+  const auto is_text = [&bytes](std::size_t at) { return bytes[at] >= ' ' && bytes[at] <= '~'; };
+  using namespace std::string_view_literals;
+  if (bytes.substr(0, 4) == "\xff\xfe\0\0"sv || bytes.substr(0, 4) == "\0\0\xfe\xff"sv) return "UTF-32";
+  if (bytes.substr(0, 2) == "\xff\xfe" || bytes.substr(0, 2) == "\xfe\xff") return "UTF-16";
+  if (bytes.size() < 4) return nullptr;
+  const bool little = is_text(0) && bytes[1] == 0 && is_text(2) && bytes[3] == 0;
+  const bool big = bytes[0] == 0 && is_text(1) && bytes[2] == 0 && is_text(3);
+  return little || big ? "UTF-16" : nullptr;
+}
 
 std::size_t word_end(std::string_view text, std::size_t at) {
   while (at < text.size() && !is_space(text[at])) ++at;
@@ -29,9 +51,21 @@ std::string in_quotes(std::string_view text) {
   return out + (text.size() > limit ? "...'" : "'");
 }
 
+MeshSource::MeshSource(std::string_view bytes, std::string file)
+    : m_bytes(bytes), m_file(std::move(file)), m_ends_in_cr(first_line_ends_in_cr(bytes)) {
+  if (m_bytes.starts_with(kByteOrderMark)) m_at = kByteOrderMark.size();
+}
+
+void MeshSource::refuse_wide_text() const {
+  if (const char* encoding = wide_encoding(m_bytes))
+    throw core::BadInput({{{m_file, 1, 1}, tr("expected text in UTF-8, got {}: save the file as UTF-8", encoding)}});
+}
+
 std::string_view MeshSource::line() {
-  const std::size_t from = m_at, end = std::min(m_bytes.find('\n', from), m_bytes.size());
-  m_at = std::min(end + 1, m_bytes.size());
+  const std::size_t from = m_at, end = std::min(m_bytes.find_first_of("\r\n", from), m_bytes.size());
+  m_at = end;
+  if (!m_ends_in_cr && m_bytes.substr(end, 2) == "\r\n") ++m_at;
+  m_at = std::min(m_at + 1, m_bytes.size());
   std::string_view text = m_bytes.substr(from, end - from);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
@@ -56,7 +90,16 @@ std::string_view MeshSource::peek_word() {
 
 bool MeshSource::word_on_line() {
   while (m_at < m_bytes.size() && is_blank(m_bytes[m_at])) ++m_at;
-  return m_at < m_bytes.size() && m_bytes[m_at] != '\n';
+  return m_at < m_bytes.size() && !is_line_end(m_bytes[m_at]) && m_bytes[m_at] != kComment;
+}
+
+void MeshSource::skip_comments() {
+  for (skip_space(); m_at < m_bytes.size() && m_bytes[m_at] == kComment; skip_space()) line();
+}
+
+bool MeshSource::only_padding_left() {
+  using namespace std::string_view_literals;
+  return m_bytes.find_first_not_of("\0\x1a \t\f\v\r\n"sv, m_at) == std::string_view::npos;
 }
 
 void MeshSource::begin_value() {
@@ -64,7 +107,7 @@ void MeshSource::begin_value() {
   if (m_by_line)
     word_on_line();
   else
-    skip_space();
+    skip_comments();
 }
 
 bool MeshSource::value_follows() {
@@ -73,7 +116,7 @@ bool MeshSource::value_follows() {
 }
 
 void MeshSource::begin_record() {
-  if (!binary()) skip_space();
+  if (!binary()) skip_comments();
 }
 
 void MeshSource::end_record() {
@@ -89,7 +132,7 @@ void MeshSource::skip_line() {
 std::string MeshSource::shown(std::size_t at) const {
   while (at < m_bytes.size() && is_blank(m_bytes[at])) ++at;
   if (at >= m_bytes.size()) return "the end of the file";
-  if (m_bytes[at] == '\n') return "the end of the line";
+  if (is_line_end(m_bytes[at])) return "the end of the line";
   return in_quotes(m_bytes.substr(at, word_end(m_bytes, at) - at));
 }
 
@@ -211,7 +254,7 @@ void MeshSource::tell_all() const {
   int line = 1;
   for (const Fault& fault : sorted) {
     for (; at < std::min(fault.at, m_bytes.size()); ++at)
-      if (m_bytes[at] == '\n') {
+      if (m_bytes[at] == '\n' || (m_bytes[at] == '\r' && m_bytes.substr(at, 2) != "\r\n")) {
         ++line;
         line_start = at + 1;
       }

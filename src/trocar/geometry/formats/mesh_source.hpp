@@ -8,6 +8,9 @@
 //   if (in.real(x, 8, "an x coordinate")) ...    // false: told already
 //   in.finish();                                 // throws core::BadInput with all faults
 //
+// Text is read as people's programs write it, in whatever format: with a byte order mark or without, lines that end in
+// LF, CR LF or CR, '#' and what follows it among numbers as a comment.
+//
 // Faults are kept by byte position; lines and columns are counted once, when they are reported. Among the machine's own
 // numbers lines end where a byte happens to be a line feed, so that the byte is reported beside them. What is wrong
 // with the file as a whole is reported at its beginning. Used by the readers only.
@@ -27,7 +30,10 @@ inline constexpr std::size_t kMaxMeshFaults = 50;  ///< told of one file; then r
 
 class MeshSource {
  public:
-  MeshSource(std::string_view bytes, std::string file) : m_bytes(bytes), m_file(std::move(file)) {}
+  /// Begins behind a byte order mark.
+  MeshSource(std::string_view bytes, std::string file);
+  /// @throws core::BadInput for text in UTF-16 or UTF-32, which every tool can save as UTF-8
+  void refuse_wide_text() const;
 
   /// How numbers stand from here on.
   enum class Form : unsigned char { text, binary, binary_swapped };
@@ -40,12 +46,15 @@ class MeshSource {
   void go_to(std::size_t at) { m_at = at; }
   std::size_t left() const { return m_bytes.size() - m_at; }
   std::string_view all() const { return m_bytes; }
+  const std::string& file() const { return m_file; }  ///< as faults show it
 
   std::string_view line();       ///< what is left of this line, without its end; goes to the next one
   void skip_space();             ///< and line ends
   std::string_view word();       ///< the next one on any line; empty at the end of the file
   std::string_view peek_word();  ///< the same, and stays in front of it
-  bool word_on_line();           ///< is there another one on this line?
+  bool word_on_line();           ///< is there another one on this line, in front of a comment?
+  void skip_comments();          ///< and space and line ends: to the next word that is none
+  bool only_padding_left();      ///< nothing but space, zeros and the sign for the end of a text (0x1a)?
 
   void begin_value();    ///< text: to the next word, on this line where records stand on lines
   bool value_follows();  ///< text: is there another one where begin_value() looks?
@@ -84,6 +93,7 @@ class MeshSource {
   std::size_t m_at = 0;
   Form m_form = Form::text;
   bool m_by_line = false;
+  bool m_ends_in_cr;  ///< lines do, in the file's text: a line feed behind such an end is data
   std::vector<Fault> m_faults;
 };
 

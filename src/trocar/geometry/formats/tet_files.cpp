@@ -1,24 +1,63 @@
 // Which format a file has, and what the readers share.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include <trocar/core/text.hpp>
+#include <trocar/geometry/formats/foreign_formats.hpp>
 #include <trocar/geometry/formats/tet_reader.hpp>
+#include <trocar/geometry/formats/vtk_dataset.hpp>
 
 namespace trocar::geometry {
 
-TetFile read_tets(std::string_view bytes, const std::string& file, double scale) {
-  if (bytes.size() > kMaxMeshBytes)
-    throw core::BadInput({{{file, 1, 1}, tr("expected at most {} bytes, got {}", kMaxMeshBytes, bytes.size())}});
-  MeshSource in(bytes, file);
-  const std::string_view first = in.peek_word();
-  if (first.substr(0, 1) == "$") return read_gmsh(in, scale);
-  if (bytes.substr(in.at(), 14) == "# vtk DataFile") return read_vtk(in, scale);
-  const bool xml = first.substr(0, 5) == "<?xml" || first.substr(0, 8) == "<VTKFile";
+namespace {
+
+constexpr std::string_view kVtkBegins = "# vtk DataFile";
+
+TetFile read_known_tets(MeshSource& in, double scale) {
+  const std::string_view first = in.peek_word(), rest = in.all().substr(in.at());
+  if (first.starts_with('$')) return read_gmsh(in, scale);
+  if (rest.starts_with(kVtkBegins)) return read_vtk(in, scale);
+  in.refuse_wide_text();
+  const std::string foreign = foreign_format(rest);
   in.lose(in.at(), tr("expected a Gmsh file ($MeshFormat, $NOD) or a legacy VTK file (# vtk DataFile Version), "
                       "got {}",
-                      xml ? "XML" : in.shown(in.at())));
+                      foreign.empty() ? in.shown(in.at()) : foreign));
+}
+
+}  // namespace
+
+TetFile read_tets(std::string_view bytes, const std::string& path, double scale) {
+  if (bytes.size() > kMaxMeshBytes)
+    throw core::BadInput({{{path, 1, 1}, tr("expected at most {} bytes, got {}", kMaxMeshBytes, bytes.size())}});
+  MeshSource in(bytes, path);
+  TetFile file = read_known_tets(in, scale);
+  if (file.axes == PatientAxes::none) return file;
+  turn_to_our_axes(file.axes, file.mesh.points);
+  file.notes.push_back(turned_in_words(file.axes));
+  return file;
+}
+
+bool holds_tetrahedra(std::string_view bytes) {
+  MeshSource in(bytes, "");
+  if (in.peek_word().starts_with('$')) return true;
+  if (!bytes.substr(in.at()).starts_with(kVtkBegins)) return false;
+  try {
+    const VtkDataset data(in, false, [](std::size_t, double value) { return value; });
+    return std::any_of(data.types.begin(), data.types.end(), [](std::int64_t type) {
+      const VtkCell* cell = vtk_cell(type);
+      return cell && cell->is_tet;
+    });
+  } catch (const core::BadInput&) {  // whoever reads it tells what is wrong with it
+    return bytes.find("UNSTRUCTURED_GRID") != bytes.npos;
+  }
+}
+
+double checked_tet_coordinate(MeshSource& in, std::size_t at, const char* what, double metres) {
+  if (std::fabs(metres) <= kMaxCoordinate) return metres;
+  in.fault(at, tr("expected {} within {} m, got {} m", what, kMaxCoordinate, metres));
+  return 0;
 }
 
 bool read_point(MeshSource& in, int width, double scale, Vec3d& point) {
@@ -33,11 +72,9 @@ bool read_point(MeshSource& in, int width, double scale, Vec3d& point) {
       if (!in.binary() && !in.value_follows()) break;  // the line is short: told once
       continue;
     }
-    point[k] = value * scale;
-    if (std::fabs(point[k]) <= kMaxCoordinate) continue;
-    in.fault(at, tr("expected {} within {} m, got {} m", kNames[k], kMaxCoordinate, point[k]));
-    point[k] = 0;
-    good = false;
+    const std::size_t faults = in.faults();
+    point[k] = checked_tet_coordinate(in, at, kNames[k], value * scale);
+    good = good && in.faults() == faults;
   }
   return good;
 }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <trocar/geometry/formats/mesh_source.hpp>
+#include <trocar/geometry/formats/patient_axes.hpp>
 #include <trocar/geometry/tets/tet_mesh.hpp>
 
 namespace trocar::geometry {
@@ -26,8 +27,9 @@ inline constexpr double kMaxCoordinate = 1e9;
 
 struct TetFile {
   TetMesh mesh;
-  std::string format;              ///< "Gmsh 2.2, text"
-  std::vector<std::string> notes;  ///< what was left out: other kinds of cells, nodes on edges
+  std::string format;                    ///< "Gmsh 2.2, text"
+  std::vector<std::string> notes;        ///< what was left out: other kinds of cells, nodes on edges; what was turned
+  PatientAxes axes = PatientAxes::none;  ///< that the file names: its points are turned into ours
 };
 
 /// Which format it is shows in the first bytes, not in the name. Tetrahedra of higher order give their corners.
@@ -36,6 +38,9 @@ struct TetFile {
 /// @param scale  metres in the file's unit, > 0
 /// @throws core::BadInput with all faults, at most kMaxMeshFaults of them, named `file`
 TetFile read_tets(std::string_view bytes, const std::string& file, double scale = 1.0);
+
+/// Is it a file of tetrahedra, and not of a surface? VTK files may be either.
+bool holds_tetrahedra(std::string_view bytes);
 
 /// The mesh as text, lengths in metres / scale. Regions are written where there are some.
 std::string to_gmsh(const TetMesh& mesh, double scale = 1.0);

@@ -1,5 +1,5 @@
 // What the readers of the formats share: coordinates that are checked, and a count of what is left out. Used by
-// gmsh_reader.cpp, vtk_reader.cpp and tet_files.cpp only.
+// gmsh_*.cpp, vtk_tets.cpp and tet_files.cpp only.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,8 @@ namespace trocar::geometry {
 TetFile read_gmsh(MeshSource& in, double scale);
 TetFile read_vtk(MeshSource& in, double scale);
 
+/// A coordinate [m], checked; a fault at `at` and 0 where it is too large.
+double checked_tet_coordinate(MeshSource& in, std::size_t at, const char* what, double metres);
 /// Three coordinates, each of `width` bytes where binary. False: a fault, told already.
 bool read_point(MeshSource& in, int width, double scale, Vec3d& point);
 

@@ -52,6 +52,13 @@ void VtkData::field() {
     }
     const std::string name = m_values.word();
     const std::size_t components = m_values.in.count("components", 1), tuples = m_values.in.count("tuples", 1);
+    m_values.in.skip_space();
+    if (m_values.next_word() == "string") {
+      m_values.in.word();
+      const std::string first = m_values.strings(std::uint64_t(components) * std::uint64_t(tuples));
+      if (name == "space") m_axes = patient_axes_named(first);
+      continue;
+    }
     const VtkType* type = m_values.find_type();
     if (!type) return stop(name);
     array(name, *type, components, tuples);
@@ -60,7 +67,7 @@ void VtkData::field() {
 
 void VtkData::array(const std::string& name, const VtkType& type, std::uint64_t components, std::size_t tuples) {
   const bool names_regions = name == "region" || name == "gmsh:physical" || name == "medit:ref";
-  if (!names_regions || !m_of_cells || components != 1 || !type.whole || tuples != m_tuples)
+  if (!names_regions || !m_of_cells || components != 1 || !type.whole || type.width == 0 || tuples != m_tuples)
     return m_values.pass(components * tuples, type);
   m_values.begin();
   m_regions.clear();

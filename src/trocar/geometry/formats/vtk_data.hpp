@@ -1,11 +1,12 @@
 // What a legacy VTK file says about points and cells: arrays of many kinds, of which the regions of cells are kept and
-// the others passed over. Used by vtk_reader.cpp only.
+// the others passed over; the patient's axes that 3D Slicer names. Used by vtk_dataset.cpp only.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include <trocar/geometry/formats/patient_axes.hpp>
 #include <trocar/geometry/formats/vtk_values.hpp>
 
 namespace trocar::geometry {
@@ -25,18 +26,25 @@ class VtkData {
 
   const std::vector<int>& regions() const { return m_regions; }  ///< of all cells, or none
   const std::string& stopped() const { return m_stopped; }       ///< the word at which reading ended, or nothing
+  std::size_t stopped_at() const { return m_stopped_at; }
+  PatientAxes axes() const { return m_axes; }  ///< that a field called SPACE names
 
  private:
   /// SCALARS name type [components], LOOKUP_TABLE name, values
   void scalars();
   void array(const std::string& name, const VtkType& type, std::uint64_t components, std::size_t tuples);
-  void stop(const std::string& word) { m_stopped = word.empty() ? "?" : word; }
+  void stop(const std::string& word) {
+    m_stopped = word.empty() ? "?" : word;
+    m_stopped_at = m_values.in.at();
+  }
 
   VtkValues& m_values;
   bool m_of_cells = false;   ///< what comes is data of cells ...
   std::size_t m_tuples = 0;  ///< ... or points, so many
   std::vector<int> m_regions;
   std::string m_stopped;
+  std::size_t m_stopped_at = 0;
+  PatientAxes m_axes = PatientAxes::none;
 };
 
 }  // namespace trocar::geometry

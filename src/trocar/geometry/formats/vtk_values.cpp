@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <trocar/core/decimal.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/vtk_values.hpp>
 
@@ -8,20 +7,12 @@ namespace trocar::geometry {
 namespace {
 
 constexpr VtkType kVtkTypes[] = {
-    {"float", 4, false, true},
-    {"double", 8, false, true},
-    {"int", 4, true, true},
-    {"unsigned_int", 4, true, false},
-    {"long", 8, true, true},
-    {"unsigned_long", 8, true, false},
-    {"long_long", 8, true, true},
-    {"vtktypeint64", 8, true, true},
-    {"vtkidtype", 4, true, true},
-    {"short", 2, true, true},
-    {"unsigned_short", 2, true, false},
-    {"char", 1, true, true},
-    {"unsigned_char", 1, true, false},
-    {"signed_char", 1, true, true},
+    {"float", 4, false, true},          {"double", 8, false, true},      {"int", 4, true, true},
+    {"unsigned_int", 4, true, false},   {"long", 8, true, true},         {"unsigned_long", 8, true, false},
+    {"long_long", 8, true, true},       {"vtktypeint64", 8, true, true}, {"vtktypeuint64", 8, true, false},
+    {"vtktypeint32", 4, true, true},    {"vtkidtype", 4, true, true},    {"short", 2, true, true},
+    {"unsigned_short", 2, true, false}, {"char", 1, true, true},         {"unsigned_char", 1, true, false},
+    {"signed_char", 1, true, true},     {"bit", 0, true, false},
 };
 
 constexpr VtkCell kCells[] = {
@@ -32,7 +23,8 @@ constexpr VtkCell kCells[] = {
     {13, 6, true, "prisms", false},     {14, 5, true, "pyramids", false},    {21, 3, true, "lines", false},
     {22, 6, true, "triangles", false},  {23, 8, true, "quadrangles", false}, {24, 10, true, "tetrahedra", true},
     {25, 20, true, "hexahedra", false}, {26, 15, true, "prisms", false},     {27, 13, true, "pyramids", false},
-    {42, 0, false, "polyhedra", false}, {71, 4, false, "tetrahedra", true},
+    {42, 0, false, "polyhedra", false}, {69, 3, false, "triangles", false},  {70, 4, false, "quadrangles", false},
+    {71, 4, false, "tetrahedra", true},
 };
 
 }  // namespace
@@ -71,7 +63,7 @@ const VtkType& VtkValues::type() {
   in.skip_space();
   const std::size_t at = in.at();
   const VtkType* found = find_type();
-  if (!found) in.lose(at, tr("expected a type such as float or int, got {}", in.shown(at)));
+  if (!found || found->width == 0) in.lose(at, tr("expected a type such as float or int, got {}", in.shown(at)));
   return *found;
 }
 
@@ -89,7 +81,7 @@ void VtkValues::begin() {
 }
 
 std::size_t VtkValues::place() {
-  if (!in.binary()) in.skip_space();
+  in.begin_value();
   return in.at();
 }
 
@@ -103,35 +95,38 @@ std::int64_t VtkValues::whole(const VtkType& type, const char* what) {
 void VtkValues::pass(std::uint64_t count, const VtkType& type) {
   begin();
   if (in.binary()) {
-    in.skip_bytes(count * std::uint64_t(type.width), "values");
+    in.skip_bytes(type.width > 0 ? count * std::uint64_t(type.width) : (count + 7) / 8, "values");
   } else {
-    for (std::uint64_t i = 0; i < count; ++i)
+    for (std::uint64_t i = 0; i < count; ++i) {
+      in.begin_value();
       if (in.word().empty()) in.lose(in.at(), "expected another value, got the end of the file");
+    }
   }
   end();
 }
 
-std::string read_vtk_header(VtkValues& values, const char* dataset, const char* who) {
-  MeshSource& in = values.in;
-  const std::string_view first = in.line();
-  const std::string_view version = first.substr(first.find_last_of(' ') + 1);
-  in.line();  // the title
-  in.skip_space();
-  std::size_t at = in.at();
-  const std::string form = lower(in.line());
-  if (form == "binary")
-    values.form = MeshSource::Form::binary_swapped;
-  else if (form != "ascii")
-    in.lose(at, tr("expected ASCII or BINARY, got {}", in.shown(at)));
-  in.skip_space();
-  at = in.at();
-  if (values.word() != "dataset") in.lose(at, tr("expected DATASET, got {}", in.shown(at)));
-  in.skip_space();
-  at = in.at();
-  if (values.word() != lower(dataset)) in.lose(at, tr("expected {}, as {} need, got {}", dataset, who, in.shown(at)));
-  in.skip_line();
-  return fmt::format("VTK {}, {}", core::is_decimal(version) ? version.substr(0, 8) : "legacy",
-                     values.binary() ? "binary" : "text");
+std::string VtkValues::strings(std::uint64_t count) {
+  begin();
+  std::string first;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (in.left() == 0) in.lose(in.at(), "expected another string, got the end of the file");
+    const std::string_view one = in.binary() ? packed_string() : in.line();
+    if (i == 0) first = std::string(one.substr(0, 40));
+  }
+  end();
+  return first;
+}
+
+std::string_view VtkValues::packed_string() {
+  const auto byte = [this](std::size_t k) { return std::uint64_t(static_cast<unsigned char>(in.all()[in.at() + k])); };
+  constexpr std::size_t kBytes[] = {8, 4, 2, 1};  // of the length, by its two highest bits
+  const std::size_t at = in.at(), bytes = kBytes[byte(0) >> 6];
+  if (bytes > in.left()) in.lose(at, "expected the length of a string, got the end of the file");
+  std::uint64_t length = byte(0) & 0x3f;
+  for (std::size_t k = 1; k < bytes; ++k) length = length << 8 | byte(k);
+  in.skip_bytes(bytes, "a length");
+  in.skip_bytes(length, "a string");
+  return in.all().substr(at + bytes, std::size_t(length));
 }
 
 }  // namespace trocar::geometry

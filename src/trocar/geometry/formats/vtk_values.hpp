@@ -16,7 +16,7 @@ std::string upper(std::string_view text);
 /// How a value stands in binary files.
 struct VtkType {
   const char* name;
-  int width;
+  int width;  ///< [bytes]; 0: bits, eight in a byte
   bool whole, is_signed;
 };
 inline constexpr VtkType kVtkInt{"int", 4, true, true};
@@ -46,10 +46,11 @@ struct VtkValues {
   std::size_t place();  ///< of the next value
   std::int64_t whole(const VtkType& type, const char* what);
   void pass(std::uint64_t count, const VtkType& type);
-};
+  /// Strings, each on a line or behind its length; the first 40 bytes of the first one.  [vtkDataWriter: WriteArray]
+  std::string strings(std::uint64_t count);
 
-/// The first lines, up to the one that says which data set it is: which format that is, as people read it. A fault
-/// where it is another data set than `dataset`, which `who` (in the plural) need.
-std::string read_vtk_header(VtkValues& values, const char* dataset, const char* who);
+ private:
+  std::string_view packed_string();
+};
 
 }  // namespace trocar::geometry

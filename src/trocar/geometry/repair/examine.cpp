@@ -160,4 +160,6 @@ bool Diagnosis::is_body() const {
          crossings.empty() && all_crossings;
 }
 
+bool Diagnosis::encloses() const { return std::fabs(volume) > kNoInside * area * diagonal(box); }
+
 }  // namespace trocar::geometry

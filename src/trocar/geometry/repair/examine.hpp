@@ -30,6 +30,9 @@ inline constexpr double kMostCoordinate = 1e9;
 /// A triangle is degenerate where a corner is there twice, or where it is lower than this share of its longest side.
 inline constexpr double kNoHeight = 1e-9;
 
+/// A surface whose volume is below this share of its area times its diagonal is a sheet.
+inline constexpr double kNoInside = 1e-6;
+
 struct Diagnosis {
   int vertices = 0, triangles = 0;
   Bounds box;               ///< of the vertices that triangles use; low > high where there are none
@@ -55,6 +58,8 @@ struct Diagnosis {
   /// Closed, each edge with two triangles that face the same way, outwards, nothing crosses or is degenerate. Several
   /// shells are allowed, as are vertices without triangles.
   bool is_body() const;
+  /// Is there an inside? A sheet has none, however often it is folded.
+  bool encloses() const;
 };
 Diagnosis examine(const TriMesh& mesh, const ExamineOptions& options = {});
 

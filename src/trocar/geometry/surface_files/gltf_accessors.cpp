@@ -36,24 +36,25 @@ double component(const char* bytes, const GltfType& type) {
 
 class GltfAccessor {
  public:
-  GltfAccessor(GltfDocument& gltf, int item) : m_gltf(gltf), m_json(gltf.json()), m_item(item) {}
+  GltfAccessor(GltfDocument& gltf, GltfItem item) : m_gltf(gltf), m_item(item) {}
 
   /// All components, one item after the other.
   std::optional<std::vector<double>> read(const char* type, int components) {
     m_components = components;
-    const int type_item = m_json.member(m_item, "type");
-    if (type_item < 0 || m_json.raw_text(type_item) != type)
-      return refuse(tr("expected an accessor of type {}, got {}", type, m_json.shown(type_item)));
+    const GltfItem type_item = m_gltf.member(m_item, "type");
+    if (!type_item || type_item->text != type)
+      return refuse(tr("expected an accessor of type {}, got {}", type, m_gltf.shown(type_item)));
     m_type = component_type(m_item);
     const std::optional<std::size_t> count = m_gltf.whole(m_item, "count");
     if (!m_type || !count) return refuse("expected an accessor with componentType and count, got another one");
     bound_items(m_gltf.in(), *count / std::size_t(components == 1 ? 3 : 1), "items of an accessor");
-    const int view = m_gltf.named(m_item, "bufferView", "bufferViews");
-    if (view < 0) return refuse("expected an accessor with a bufferView, got one without");
-    std::vector<double> values(*count * std::size_t(components));
-    if (!take(view, m_gltf.whole(m_item, "byteOffset").value_or(0), *count, values)) return std::nullopt;
-    const int sparse = m_json.member(m_item, "sparse");
-    if (sparse >= 0 && !replace(sparse, *count, values)) return std::nullopt;
+    const GltfItem sparse = m_gltf.member(m_item, "sparse"), view = m_gltf.named(m_item, "bufferView", "bufferViews");
+    const bool has_view = m_gltf.member(m_item, "bufferView") != nullptr;
+    if (has_view && !view) return std::nullopt;
+    if (!has_view && !sparse) return refuse("expected an accessor with a bufferView or sparse, got one without");
+    std::vector<double> values(*count * std::size_t(components));  // zeros, where only sparse says what there is
+    if (has_view && !take(view, m_gltf.whole(m_item, "byteOffset").value_or(0), *count, values)) return std::nullopt;
+    if (sparse && !replace(sparse, *count, values)) return std::nullopt;
     normalise(values);
     return values;
   }
@@ -61,8 +62,8 @@ class GltfAccessor {
 
  private:
   GltfDocument& m_gltf;
-  const JsonItems& m_json;
-  int m_item, m_components = 0;
+  GltfItem m_item;
+  int m_components = 0;
   const GltfType* m_type = nullptr;
 
   std::nullopt_t refuse(std::string message) {
@@ -70,14 +71,14 @@ class GltfAccessor {
     return std::nullopt;
   }
 
-  const GltfType* component_type(int of) {
+  const GltfType* component_type(GltfItem of) {
     const std::optional<std::size_t> number = m_gltf.whole(of, "componentType");
     const auto found = std::find_if(std::begin(kGltfTypes), std::end(kGltfTypes),
                                     [&](const GltfType& t) { return number && t.number == *number; });
     return found == std::end(kGltfTypes) ? nullptr : found;
   }
 
-  bool take(int view, std::size_t offset, std::size_t count, std::vector<double>& values) {
+  bool take(GltfItem view, std::size_t offset, std::size_t count, std::vector<double>& values) {
     const std::optional<std::string_view> bytes = m_gltf.view(view, offset);
     if (!bytes) return false;
     const std::size_t own = std::size_t(m_components) * std::size_t(m_type->width);
@@ -97,16 +98,16 @@ class GltfAccessor {
   }
 
   /// Some items stand elsewhere.
-  bool replace(int sparse, std::size_t count, std::vector<double>& values) {
-    const int where = m_json.member(sparse, "indices"), what = m_json.member(sparse, "values");
+  bool replace(GltfItem sparse, std::size_t count, std::vector<double>& values) {
+    const GltfItem where = m_gltf.member(sparse, "indices"), what = m_gltf.member(sparse, "values");
     const std::size_t some = m_gltf.whole(sparse, "count").value_or(0);
-    if (where < 0 || what < 0 || some > count) {
+    if (!where || !what || some > count) {
       m_gltf.fault(sparse, tr("expected indices and values of at most {} items, got others", count));
       return false;
     }
-    const int where_view = m_gltf.named(where, "bufferView", "bufferViews"),
-              what_view = m_gltf.named(what, "bufferView", "bufferViews");
-    if (where_view < 0 || what_view < 0) return false;
+    const GltfItem where_view = m_gltf.named(where, "bufferView", "bufferViews"),
+                   what_view = m_gltf.named(what, "bufferView", "bufferViews");
+    if (!where_view || !what_view) return false;
     std::vector<double> fresh(some * std::size_t(m_components)), indices(some);
     if (!take(what_view, m_gltf.whole(what, "byteOffset").value_or(0), some, fresh)) return false;
     const GltfType* own_type = m_type;
@@ -128,15 +129,15 @@ class GltfAccessor {
   }
 
   void normalise(std::vector<double>& values) const {
-    const int item = m_json.member(m_item, "normalized");
-    if (!m_type->whole || item < 0 || m_json.number(item) == 0) return;
+    const GltfItem item = m_gltf.member(m_item, "normalized");
+    if (!m_type->whole || !item || !item->truth) return;
     for (double& value : values) value = std::max(value / m_type->full, -1.0);
   }
 };
 
 }  // namespace
 
-std::optional<std::vector<Vec3d>> gltf_points(GltfDocument& gltf, int accessor) {
+std::optional<std::vector<Vec3d>> gltf_points(GltfDocument& gltf, GltfItem accessor) {
   GltfAccessor reader(gltf, accessor);
   const std::optional<std::vector<double>> values = reader.read("VEC3", 3);
   if (!values) return std::nullopt;
@@ -150,7 +151,7 @@ std::optional<std::vector<Vec3d>> gltf_points(GltfDocument& gltf, int accessor) 
   return std::nullopt;
 }
 
-std::optional<std::vector<int>> gltf_indices(GltfDocument& gltf, int accessor, std::size_t vertices) {
+std::optional<std::vector<int>> gltf_indices(GltfDocument& gltf, GltfItem accessor, std::size_t vertices) {
   GltfAccessor reader(gltf, accessor);
   const std::optional<std::vector<double>> values = reader.read("SCALAR", 1);
   if (!values) return std::nullopt;

@@ -10,6 +10,8 @@
 namespace trocar::geometry {
 namespace {
 
+using Kind = core::JsonValue::Kind;
+
 constexpr std::int64_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
 /// Characters that a URI spells as %20.
@@ -31,7 +33,7 @@ std::string unescaped(std::string_view uri) {
 
 GltfDocument::Chunks GltfDocument::chunks_of(MeshSource& in) {
   const std::string_view all = in.all();
-  if (all.substr(0, 4) != "glTF") return {all.substr(all.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0), {}};
+  if (all.substr(0, 4) != "glTF") return {all.substr(in.at()), {}, 0};
   in.set_form(MeshSource::Form::binary);
   const auto whole = [&](const char* what) {
     std::int64_t value = 0;
@@ -41,17 +43,20 @@ GltfDocument::Chunks GltfDocument::chunks_of(MeshSource& in) {
   in.go_to(4);
   if (const std::int64_t version = whole("the version"); version != 2)
     in.lose(4, tr("expected glTF of version 2, got {}", version));
-  if (const std::int64_t length = whole("the length of the file"); std::uint64_t(length) != all.size())
-    in.lose(8, tr("expected the file's length, {}, got {}", all.size(), length));
+  const std::int64_t all_bytes = whole("the length of the file");
+  if (std::uint64_t(all_bytes) > all.size())
+    in.lose(8, tr("expected at most the file's length, {}, got {}", all.size(), all_bytes));
   Chunks chunks;
-  for (int chunk = 0; in.left() > 0; ++chunk) {
+  chunks.behind = all.size() - std::size_t(all_bytes);
+  for (int chunk = 0; in.left() > chunks.behind; ++chunk) {
     const std::size_t at = in.at();
     const std::int64_t length = whole("the length of a chunk"), type = whole("the type of a chunk");
-    if (std::uint64_t(length) > in.left())
-      in.lose(at, tr("expected a chunk of at most {} bytes, got {}", in.left(), length));
+    const std::size_t room = in.left() - std::min(in.left(), chunks.behind);
+    if (std::uint64_t(length) > room) in.lose(at, tr("expected a chunk of at most {} bytes, got {}", room, length));
     if ((chunk == 0) != (type == kJsonChunk))
       in.lose(at + 4, tr("expected JSON in the first chunk and nowhere else, got {:#010x}", type));
     if (chunk == 0) chunks.json = all.substr(in.at(), std::size_t(length));
+    while (chunk == 0 && chunks.json.ends_with('\0')) chunks.json.remove_suffix(1);  // filled up, if not with blanks
     if (chunk == 1 && type == kBinaryChunk) chunks.binary = all.substr(in.at(), std::size_t(length));
     in.skip_bytes(std::uint64_t(length), "a chunk");
   }
@@ -64,48 +69,54 @@ GltfDocument::GltfDocument(MeshSource& in, const FilesBeside& beside)
       m_beside(beside),
       m_in_one_file(in.all().substr(0, 4) == "glTF"),
       m_chunks(chunks_of(in)),
-      m_json(in, m_chunks.json) {
-  if (m_json.kind(m_json.root()) != JsonItems::Kind::object)
-    in.lose(m_json.place(m_json.root()), tr("expected an object, got {}", m_json.shown(m_json.root())));
-  for (const int item : list("buffers")) m_buffers.push_back({item, false, {}});
+      m_offset(std::size_t(m_chunks.json.data() - in.all().data())) {
+  std::vector<core::Fault> faults;
+  m_json = core::parse_json(m_chunks.json, in.file(), faults);
+  if (faults.size() > kMaxMeshFaults) faults.resize(kMaxMeshFaults);
+  if (!faults.empty()) throw core::BadInput(std::move(faults));
+  if (root()->kind != Kind::object) in.lose(place(root()), tr("expected an object, got {}", shown(root())));
+  for (const core::JsonValue& item : list("buffers")) m_buffers.push_back({&item, false, {}});
 }
 
-const std::vector<int>& GltfDocument::list(std::string_view name) {
-  for (const auto& [known, items] : m_lists)
-    if (known == name) return items;
-  const int item = m_json.member(m_json.root(), name);
-  if (item >= 0 && m_json.kind(item) != JsonItems::Kind::array)
-    m_in.lose(m_json.place(item), tr("expected an array, got {}", m_json.shown(item)));
-  m_lists.reserve(16);  // references stay good: there are fewer names than that
-  m_lists.emplace_back(std::string(name), m_json.items(item));
-  return m_lists.back().second;
+GltfItem GltfDocument::member(GltfItem object, std::string_view key) {
+  const core::JsonMember* found = object ? object->find(key) : nullptr;
+  return found ? &found->value : nullptr;
 }
 
-std::optional<std::size_t> GltfDocument::whole(int object, std::string_view key) {
-  const int item = m_json.member(object, key);
-  if (item < 0) return std::nullopt;
+std::span<const core::JsonValue> GltfDocument::items(GltfItem array) {
+  return array ? std::span<const core::JsonValue>(array->items) : std::span<const core::JsonValue>();
+}
+
+std::span<const core::JsonValue> GltfDocument::list(std::string_view name) {
+  const GltfItem item = member(root(), name);
+  if (item && item->kind != Kind::array) m_in.lose(place(item), tr("expected an array, got {}", shown(item)));
+  return items(item);
+}
+
+std::optional<std::size_t> GltfDocument::whole(GltfItem object, std::string_view key) {
+  const GltfItem item = member(object, key);
+  if (!item) return std::nullopt;
   constexpr double most = 9007199254740992.0;  // 2^53
-  const double value = m_json.number(item);
-  if (m_json.kind(item) == JsonItems::Kind::number && value >= 0 && value < most &&
-      value == double(static_cast<std::uint64_t>(value)))
+  const double value = item->number;
+  if (item->kind == Kind::number && value >= 0 && value < most && value == double(static_cast<std::uint64_t>(value)))
     return std::size_t(value);
-  fault(item, tr("expected a whole number from 0 on, got {}", m_json.shown(item)));
+  fault(item, tr("expected a whole number from 0 on, got {}", shown(item)));
   return std::nullopt;
 }
 
-int GltfDocument::named(int object, std::string_view key, std::string_view list_name) {
+GltfItem GltfDocument::named(GltfItem object, std::string_view key, std::string_view list_name) {
   const std::optional<std::size_t> number = whole(object, key);
-  if (!number) return -1;
-  const std::vector<int>& items = list(list_name);
-  if (*number < items.size()) return items[*number];
-  fault(m_json.member(object, key), tr("expected one of {} {}, got {}", items.size(), list_name, *number));
-  return -1;
+  if (!number) return nullptr;
+  const std::span<const core::JsonValue> all = list(list_name);
+  if (*number < all.size()) return &all[*number];
+  fault(member(object, key), tr("expected one of {} {}, got {}", all.size(), list_name, *number));
+  return nullptr;
 }
 
-std::optional<std::string_view> GltfDocument::view(int buffer_view, std::size_t offset) {
-  const int buffer_item = named(buffer_view, "buffer", "buffers");
-  if (buffer_item < 0) {
-    if (m_json.member(buffer_view, "buffer") < 0) fault(buffer_view, "expected a buffer, got none");
+std::optional<std::string_view> GltfDocument::view(GltfItem buffer_view, std::size_t offset) {
+  const GltfItem buffer_item = named(buffer_view, "buffer", "buffers");
+  if (!buffer_item) {
+    if (!member(buffer_view, "buffer")) fault(buffer_view, "expected a buffer, got none");
     return std::nullopt;
   }
   const std::size_t from = whole(buffer_view, "byteOffset").value_or(0);
@@ -119,7 +130,7 @@ std::optional<std::string_view> GltfDocument::view(int buffer_view, std::size_t 
   return std::nullopt;
 }
 
-std::optional<std::string_view> GltfDocument::buffer(int item) {
+std::optional<std::string_view> GltfDocument::buffer(GltfItem item) {
   const auto found = std::find_if(m_buffers.begin(), m_buffers.end(), [&](const Buffer& b) { return b.item == item; });
   if (found->looked_for) return found->bytes;
   found->looked_for = true;
@@ -132,31 +143,31 @@ std::optional<std::string_view> GltfDocument::buffer(int item) {
   return found->bytes;
 }
 
-std::optional<std::string_view> GltfDocument::load(int item) {
-  const int uri = m_json.member(item, "uri");
-  if (uri >= 0 && m_json.kind(uri) == JsonItems::Kind::string) return load_uri(uri);
+std::optional<std::string_view> GltfDocument::load(GltfItem item) {
+  const GltfItem uri = member(item, "uri");
+  if (uri && uri->kind == Kind::string) return load_uri(uri);
   if (m_in_one_file && item == m_buffers.front().item && m_chunks.binary.data()) return m_chunks.binary;
   fault(item, "expected a buffer with a uri, or a binary chunk, got neither");
   return std::nullopt;
 }
 
-std::optional<std::string_view> GltfDocument::load_uri(int uri) {
-  const std::string_view raw = m_json.raw_text(uri);
+std::optional<std::string_view> GltfDocument::load_uri(GltfItem uri) {
+  const std::string_view raw = uri->text;
   std::optional<std::string> bytes;
   if (raw.substr(0, 5) == "data:") {
     constexpr std::string_view form = ";base64,";
     const std::size_t at = raw.substr(0, 200).find(form);
     if (at != raw.npos) bytes = from_base64(raw.substr(at + form.size()));
-    if (!bytes) fault(uri, tr("expected data in base64, got {}", m_json.shown(uri)));
+    if (!bytes) fault(uri, tr("expected data in base64, got {}", shown(uri)));
   } else if (!m_beside) {
-    fault(uri, tr("expected data in the file itself, got {}", m_json.shown(uri)));
+    fault(uri, tr("expected data in the file itself, got {}", shown(uri)));
   } else {
-    bytes = m_beside(unescaped(m_json.text(uri)));
+    bytes = m_beside(unescaped(raw));
   }
   if (!bytes) return std::nullopt;
   m_own_bytes += bytes->size();
   if (m_own_bytes > 2 * kMaxMeshBytes)
-    m_in.lose(m_json.place(uri), tr("expected at most {} bytes in buffers, got more", 2 * kMaxMeshBytes));
+    m_in.lose(place(uri), tr("expected at most {} bytes in buffers, got more", 2 * kMaxMeshBytes));
   m_own.push_back(std::make_unique<std::string>(std::move(*bytes)));
   return std::string_view(*m_own.back());
 }

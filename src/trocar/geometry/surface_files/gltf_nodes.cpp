@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -12,8 +13,7 @@ namespace {
 
 class GltfNodes {
  public:
-  explicit GltfNodes(GltfDocument& gltf)
-      : m_gltf(gltf), m_json(gltf.json()), m_nodes(gltf.list("nodes")), m_reached(m_nodes.size()) {}
+  explicit GltfNodes(GltfDocument& gltf) : m_gltf(gltf), m_nodes(gltf.list("nodes")), m_reached(m_nodes.size()) {}
 
   std::vector<GltfPlaced> placed() {
     for (const std::size_t root : roots()) m_waiting.push_back({root, {}});
@@ -32,34 +32,32 @@ class GltfNodes {
     Affine parent;
   };
   GltfDocument& m_gltf;
-  const JsonItems& m_json;
-  const std::vector<int>& m_nodes;
+  std::span<const core::JsonValue> m_nodes;
   std::vector<bool> m_reached;
   std::vector<Waiting> m_waiting;
   std::vector<GltfPlaced> m_placed;
 
   /// The numbers of nodes in a list of an object, checked.
-  std::vector<std::size_t> nodes_of(int object, const char* key) {
+  std::vector<std::size_t> nodes_of(GltfItem object, const char* key) {
     std::vector<std::size_t> out;
-    for (const int item : m_json.items(m_json.member(object, key))) {
-      const double value = m_json.number(item);
-      if (m_json.kind(item) == JsonItems::Kind::number && value >= 0 && value < double(m_nodes.size()) &&
+    for (const core::JsonValue& item : m_gltf.items(m_gltf.member(object, key))) {
+      const double value = item.number;
+      if (item.kind == core::JsonValue::Kind::number && value >= 0 && value < double(m_nodes.size()) &&
           value == double(std::size_t(value)))
         out.push_back(std::size_t(value));
       else
-        m_gltf.fault(item, tr("expected one of {} nodes, got {}", m_nodes.size(), m_json.shown(item)));
+        m_gltf.fault(&item, tr("expected one of {} nodes, got {}", m_nodes.size(), m_gltf.shown(&item)));
     }
     return out;
   }
 
   std::vector<std::size_t> roots() {
-    const std::vector<int>& scenes = m_gltf.list("scenes");
-    const int shown = m_gltf.named(m_json.root(), "scene", "scenes");
-    if (shown >= 0) return nodes_of(shown, "nodes");
-    if (!scenes.empty()) return nodes_of(scenes.front(), "nodes");
+    const std::span<const core::JsonValue> scenes = m_gltf.list("scenes");
+    if (const GltfItem shown = m_gltf.named(m_gltf.root(), "scene", "scenes")) return nodes_of(shown, "nodes");
+    if (!scenes.empty()) return nodes_of(&scenes.front(), "nodes");
     std::vector<bool> is_child(m_nodes.size());
-    for (const int node : m_nodes)
-      for (const std::size_t child : nodes_of(node, "children")) is_child[child] = true;
+    for (const core::JsonValue& node : m_nodes)
+      for (const std::size_t child : nodes_of(&node, "children")) is_child[child] = true;
     std::vector<std::size_t> out;
     for (std::size_t n = 0; n < m_nodes.size(); ++n)
       if (!is_child[n]) out.push_back(n);
@@ -67,38 +65,38 @@ class GltfNodes {
   }
 
   void visit(std::size_t number, const Affine& parent) {
-    const int node = m_nodes[number];
+    const GltfItem node = &m_nodes[number];
     if (m_reached[number]) {
       m_gltf.fault(node, tr("expected every node in one place of the tree, got node {} again", number));
       return;
     }
     m_reached[number] = true;
     const Affine own = transform(node), place{parent.linear * own.linear, parent(own.shift)};
-    if (const int mesh = m_gltf.named(node, "mesh", "meshes"); mesh >= 0) m_placed.push_back({node, mesh, place});
+    if (const GltfItem mesh = m_gltf.named(node, "mesh", "meshes")) m_placed.push_back({node, mesh, place});
     std::vector<std::size_t> children = nodes_of(node, "children");
     for (auto child = children.rbegin(); child != children.rend(); ++child) m_waiting.push_back({*child, place});
   }
 
   /// `count` numbers, or the ones that are there by default.
   template <std::size_t count>
-  std::array<double, count> numbers(int node, const char* key, std::array<double, count> otherwise) {
-    const int item = m_json.member(node, key);
-    if (item < 0) return otherwise;
-    const std::vector<int> values = m_json.items(item);
-    const bool good = values.size() == count && std::all_of(values.begin(), values.end(), [&](int v) {
-                        return m_json.kind(v) == JsonItems::Kind::number;
+  std::array<double, count> numbers(GltfItem node, const char* key, std::array<double, count> otherwise) {
+    const GltfItem item = m_gltf.member(node, key);
+    if (!item) return otherwise;
+    const std::span<const core::JsonValue> values = m_gltf.items(item);
+    const bool good = values.size() == count && std::all_of(values.begin(), values.end(), [](const auto& value) {
+                        return value.kind == core::JsonValue::Kind::number;
                       });
     if (!good) {
       m_gltf.fault(item, tr("expected {} numbers as {}, got others", count, key));
       return otherwise;
     }
     std::array<double, count> out;
-    for (std::size_t k = 0; k < count; ++k) out[k] = m_json.number(values[k]);
+    for (std::size_t k = 0; k < count; ++k) out[k] = values[k].number;
     return out;
   }
 
-  Affine transform(int node) {
-    if (m_json.member(node, "matrix") >= 0) return from_matrix(node);
+  Affine transform(GltfItem node) {
+    if (m_gltf.member(node, "matrix")) return from_matrix(node);
     const auto [x, y, z, w] = numbers<4>(node, "rotation", {0, 0, 0, 1});
     const auto [sx, sy, sz] = numbers<3>(node, "scale", {1, 1, 1});
     const auto [tx, ty, tz] = numbers<3>(node, "translation", {0, 0, 0});
@@ -106,10 +104,11 @@ class GltfNodes {
     return {Mat3d::from_columns(sx * turn.column(0), sy * turn.column(1), sz * turn.column(2)), {tx, ty, tz}};
   }
 
-  Affine from_matrix(int node) {
+  Affine from_matrix(GltfItem node) {
     const auto m = numbers<16>(node, "matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
-    if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
-      m_gltf.fault(m_json.member(node, "matrix"), "expected a matrix whose last row is 0 0 0 1, got another one");
+    constexpr double kRounded = 1e-5;  // as programs with single precision write it
+    if (std::max({std::fabs(m[3]), std::fabs(m[7]), std::fabs(m[11]), std::fabs(m[15] - 1)}) > kRounded)
+      m_gltf.fault(m_gltf.member(node, "matrix"), "expected a matrix whose last row is 0 0 0 1, got another one");
     return {Mat3d::from_columns({m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}), {m[12], m[13], m[14]}};
   }
 };

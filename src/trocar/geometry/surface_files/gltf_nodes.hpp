@@ -15,7 +15,7 @@ struct Affine {
 };
 
 struct GltfPlaced {
-  int node, mesh;  ///< values of the document
+  GltfItem node, mesh;
   Affine place;
 };
 /// Every node of the scene that is shown which has a mesh, parents before children; without a scene, of all nodes.

@@ -25,8 +25,7 @@ bool is_harmless(std::string_view extension) {
 
 class GltfReader {
  public:
-  GltfReader(MeshSource& in, const std::string& name, const FilesBeside& beside)
-      : m_gltf(in, beside), m_json(m_gltf.json()), m_name(name) {}
+  GltfReader(MeshSource& in, const std::string& name, const FilesBeside& beside) : m_gltf(in, beside), m_name(name) {}
 
   SurfaceFile read() {
     m_file.format = m_gltf.in_one_file() ? "glTF 2.0, binary" : "glTF 2.0, text";
@@ -37,50 +36,51 @@ class GltfReader {
     for (const GltfPlaced& placed : gltf_placed(m_gltf)) add_part(placed);
     m_left_out.add("skins (the shape is the one without them)", std::int64_t(m_gltf.list("skins").size()));
     m_left_out.add("animations", std::int64_t(m_gltf.list("animations").size()));
+    m_left_out.add("bytes behind the file's end", std::int64_t(m_gltf.bytes_behind()));
     m_left_out.tell(m_file.notes);
     return std::move(m_file);
   }
 
  private:
   GltfDocument m_gltf;
-  const JsonItems& m_json;
   std::string m_name;
   SurfaceFile m_file;
   SurfaceLeftOut m_left_out;
   std::size_t m_vertices = 0, m_triangles = 0, m_primitives = 0;  ///< of all parts
 
   void check_version() {
-    const int asset = m_json.member(m_json.root(), "asset"), version = m_json.member(asset, "version");
-    const int least = m_json.member(asset, "minVersion");
-    const bool good = version >= 0 && m_json.raw_text(version).substr(0, 2) == "2." &&
-                      (least < 0 || m_json.raw_text(least).substr(0, 2) == "2.");
-    const int at = version < 0 ? m_json.root() : version;
-    if (!good) m_gltf.fault(at, tr("expected an asset of version 2, got {}", m_json.shown(version)));
+    const GltfItem asset = m_gltf.member(m_gltf.root(), "asset"), version = m_gltf.member(asset, "version");
+    const GltfItem least = m_gltf.member(asset, "minVersion");
+    const bool good = version && version->text.starts_with("2.") && (!least || least->text.starts_with("2."));
+    if (!good)
+      m_gltf.fault(version ? version : m_gltf.root(),
+                   tr("expected an asset of version 2, got {}", m_gltf.shown(version)));
   }
 
   void check_extensions() {
-    for (const int item : m_json.items(m_json.member(m_json.root(), "extensionsRequired"))) {
-      const std::string_view name = m_json.raw_text(item);
+    for (const core::JsonValue& item : m_gltf.items(m_gltf.member(m_gltf.root(), "extensionsRequired"))) {
+      const std::string_view name = item.text;
       if (std::find(std::begin(kPacked), std::end(kPacked), name) != std::end(kPacked))
-        m_gltf.fault(
-            item, tr("expected a mesh that is not compressed, got one packed by {}: save it without", in_quotes(name)));
+        m_gltf.fault(&item, tr("expected a mesh that is not compressed, got one packed by {}: save it without",
+                               in_quotes(name)));
       else if (!is_harmless(name))
-        m_gltf.fault(item, tr("expected extensions that are known, got {} required", m_json.shown(item)));
+        m_gltf.fault(&item, tr("expected extensions that are known, got {} required", m_gltf.shown(&item)));
     }
   }
 
   std::string name_of(const GltfPlaced& placed) const {
-    for (const int item : {m_json.member(placed.node, "name"), m_json.member(placed.mesh, "name")})
-      if (item >= 0 && !m_json.raw_text(item).empty()) return m_json.text(item).substr(0, 200);
+    for (const GltfItem item : {m_gltf.member(placed.node, "name"), m_gltf.member(placed.mesh, "name")})
+      if (item && !item->text.empty()) return item->text.substr(0, 200);
     return m_name;
   }
 
   void add_part(const GltfPlaced& placed) {
     SurfacePart part{name_of(placed), {}};
-    for (const int primitive : m_json.items(m_json.member(placed.mesh, "primitives"))) add(primitive, part.mesh);
+    for (const core::JsonValue& primitive : m_gltf.items(m_gltf.member(placed.mesh, "primitives")))
+      add(&primitive, part.mesh);
     for (Vec3d& p : part.mesh.positions) {
       p = placed.place(p);
-      for (int k = 0; k < 3; ++k) p[k] = checked_coordinate(m_gltf.in(), m_json.place(placed.node), p[k]);
+      for (int k = 0; k < 3; ++k) p[k] = checked_coordinate(m_gltf.in(), m_gltf.place(placed.node), p[k]);
     }
     if (determinant(placed.place.linear) < 0)  // a mirror turns every triangle
       for (auto& t : part.mesh.triangles) std::swap(t[1], t[2]);
@@ -90,23 +90,21 @@ class GltfReader {
     m_file.parts.push_back(std::move(part));
   }
 
-  void add(int primitive, TriMesh& mesh) {
+  void add(GltfItem primitive, TriMesh& mesh) {
     bound_items(m_gltf.in(), ++m_primitives, "primitives");
     const std::size_t mode = m_gltf.whole(primitive, "mode").value_or(4);
     if (mode < 4) return m_left_out.add(mode == 0 ? "primitives of points" : "primitives of lines");
     if (mode > 6) return m_gltf.fault(primitive, tr("expected a mode from 0 to 6, got {}", mode));
-    const int targets = m_json.member(primitive, "targets");
-    if (targets >= 0) m_left_out.add("lists of morph targets");
-    const int attributes = m_json.member(primitive, "attributes");
-    const int positions = m_gltf.named(attributes, "POSITION", "accessors");
-    if (positions < 0) return m_gltf.fault(primitive, "expected POSITION of a primitive, got none that is there");
+    if (m_gltf.member(primitive, "targets")) m_left_out.add("lists of morph targets");
+    const GltfItem positions = m_gltf.named(m_gltf.member(primitive, "attributes"), "POSITION", "accessors");
+    if (!positions) return m_gltf.fault(primitive, "expected POSITION of a primitive, got none that is there");
     const auto points = gltf_points(m_gltf, positions);
     if (!points) return;
     std::vector<int> indices(points->size());
     std::iota(indices.begin(), indices.end(), 0);
-    if (m_json.member(primitive, "indices") >= 0) {
-      const int accessor = m_gltf.named(primitive, "indices", "accessors");
-      auto given = accessor < 0 ? std::nullopt : gltf_indices(m_gltf, accessor, points->size());
+    if (m_gltf.member(primitive, "indices")) {
+      const GltfItem accessor = m_gltf.named(primitive, "indices", "accessors");
+      auto given = !accessor ? std::nullopt : gltf_indices(m_gltf, accessor, points->size());
       if (!given) return;
       indices = std::move(*given);
     }

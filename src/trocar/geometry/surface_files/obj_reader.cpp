@@ -18,8 +18,10 @@ class ObjSurface {
   SurfaceFile read() {
     m_in.set_records_on_lines(true);
     m_runs.push_back({m_name, 0});
-    while (!m_in.peek_word().empty()) line();
-    SurfaceFile file{{}, "OBJ", {}, 0};
+    while (!m_in.only_padding_left()) line();
+    SurfaceFile file;
+    file.format = "OBJ";
+    file.axes = m_axes;
     for (std::size_t r = 0; r < m_runs.size(); ++r) add_part(file, r);
     merge_names(file);
     m_left_out.tell(file.notes);
@@ -37,10 +39,18 @@ class ObjSurface {
   std::vector<Vec3d> m_positions;
   PolygonList m_polygons;
   std::vector<Run> m_runs;
+  PatientAxes m_axes = PatientAxes::none;
   SurfaceLeftOut m_left_out;
 
   void line() {
+    m_in.skip_space();
+    const std::size_t at = m_in.at();
     const std::string_view keyword = m_in.word();
+    if (keyword.starts_with('#')) {
+      m_in.go_to(at);
+      comment(m_in.line());
+      return;
+    }
     if (keyword == "v") {
       bound_items(m_in, m_positions.size(), "vertices");
       m_positions.push_back(read_surface_point(m_in, 8));  // what may follow is a weight or a colour
@@ -54,6 +64,11 @@ class ObjSurface {
       m_left_out.add("free-form curves and surfaces");
     }
     pass_line();
+  }
+
+  /// What 3D Slicer writes in front of all vertices.
+  void comment(std::string_view text) {
+    if (m_positions.empty() && m_axes == PatientAxes::none) m_axes = patient_axes_in(text);
   }
 
   /// To the end of the line, and of those that it continues in.
@@ -81,8 +96,6 @@ class ObjSurface {
       else
         m_polygons.corners.push_back(corner(word, word_at));
     }
-    const std::size_t corners = m_polygons.corners.size() - std::size_t(m_polygons.start.back());
-    if (corners < 3) m_in.fault(at, tr("expected at least 3 corners of a face, got {}", corners));
     m_polygons.end_polygon(m_in, at);
   }
 
@@ -99,7 +112,7 @@ class ObjSurface {
   void add_part(SurfaceFile& file, std::size_t run) {
     const int first = m_runs[run].first, last = run + 1 < m_runs.size() ? m_runs[run + 1].first : m_polygons.count();
     SurfacePart part{m_runs[run].name, {}};
-    part.mesh.triangles = cut_polygons(m_in, m_positions, m_polygons, first, last, 1, file.notes);
+    part.mesh.triangles = cut_polygons(m_in, m_positions, m_polygons, first, last, 1, m_left_out);
     file.parts.push_back(std::move(part));
   }
 

@@ -46,7 +46,8 @@ class PlyHeaderReader {
     const std::size_t at = m_in.at();
     if (word.empty()) m_in.lose(at, "expected end_header, got the end of the file");
     if (word == "comment" || word == "obj_info") {
-      m_in.line();
+      const PatientAxes axes = patient_axes_in(m_in.line());
+      if (axes != PatientAxes::none) m_header.axes = axes;
       return;
     }
     m_in.word();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <trocar/geometry/formats/mesh_source.hpp>
+#include <trocar/geometry/formats/patient_axes.hpp>
 
 namespace trocar::geometry {
 
@@ -38,6 +39,7 @@ struct PlyElement {
 
 struct PlyHeader {
   MeshSource::Form form = MeshSource::Form::text;
+  PatientAxes axes = PatientAxes::none;  ///< that a comment names
   std::vector<PlyElement> elements;
 };
 

@@ -18,6 +18,7 @@ class PlyReader {
     m_in.set_form(header.form);
     m_in.set_records_on_lines(true);
     for (const PlyElement& element : header.elements) items(element);
+    if (!m_in.only_padding_left()) m_left_out.add("bytes behind the last item", std::int64_t(m_in.left()));
     return assembled(header);
   }
 
@@ -119,7 +120,6 @@ class PlyReader {
     if (use != Use::polygon && use != Use::strip) return pass(property.type, std::size_t(length));
     PolygonList& to = use == Use::strip ? m_strips : m_polygons;
     for (std::int64_t k = 0; k < length; ++k) corner(property.type, use, at);
-    if (use == Use::polygon && length < 3) m_in.fault(at, tr("expected at least 3 corners of a face, got {}", length));
     to.end_polygon(m_in, at);
   }
 
@@ -136,8 +136,7 @@ class PlyReader {
   void add_strips(TriMesh& mesh) {
     const int count = int(m_positions.size());
     for (int s = 0; s < m_strips.count(); ++s) {
-      const std::span<const int> strip{m_strips.corners.data() + m_strips.start[s],
-                                       std::size_t(m_strips.start[s + 1] - m_strips.start[s])};
+      const std::span<const int> strip = m_strips.polygon(s);
       const auto bad = std::find_if(strip.begin(), strip.end(), [&](int c) { return c < 0 || c >= count; });
       if (bad == strip.end())
         add_strip(strip, mesh.triangles);
@@ -148,11 +147,12 @@ class PlyReader {
 
   SurfaceFile assembled(const PlyHeader& header) {
     SurfaceFile file;
+    file.axes = header.axes;
     file.format = header.form == MeshSource::Form::text     ? "PLY, text"
                   : header.form == MeshSource::Form::binary ? "PLY, binary"
                                                             : "PLY, binary, big-endian";
     SurfacePart part{m_name, {}};
-    part.mesh.triangles = cut_polygons(m_in, m_positions, m_polygons, 0, m_polygons.count(), 0, file.notes);
+    part.mesh.triangles = cut_polygons(m_in, m_positions, m_polygons, 0, m_polygons.count(), 0, m_left_out);
     add_strips(part.mesh);
     part.mesh.positions = std::move(m_positions);
     file.parts.push_back(std::move(part));

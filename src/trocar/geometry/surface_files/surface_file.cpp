@@ -7,6 +7,7 @@
 
 #include <trocar/core/files.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/geometry/formats/foreign_formats.hpp>
 #include <trocar/geometry/surface_files/polygons.hpp>
 #include <trocar/geometry/surface_files/surface_reader.hpp>
 
@@ -40,13 +41,23 @@ SurfaceFile read_known(MeshSource& in, const std::string& path, const std::strin
   const std::string_view bytes = in.all(), first = in.peek_word();
   if (bytes.substr(0, 4) == "glTF") return read_gltf(in, name, beside);
   if (first == "ply") return read_ply(in, name);
-  if (bytes.substr(in.at(), 14) == "# vtk DataFile") return read_polydata(in, name);
+  if (bytes.substr(in.at(), 14) == "# vtk DataFile") return read_vtk_surface(in, name);
   if (has_stl_size(bytes)) return read_stl(in, name);
-  if (first.substr(0, 1) == "{" || bytes.substr(0, 4) == "\xef\xbb\xbf{") return read_gltf(in, name, beside);
-  if (first == "solid") return read_stl(in, name);
-  if (looks_like_obj(in)) return read_obj(in, name);
-  if (ends_like(path, ".stl")) return read_stl(in, name);  // one whose size is wrong
-  in.lose(in.at(), tr("expected {}, got {}", kSurfaceFormats, first.substr(0, 1) == "<" ? "XML" : in.shown(in.at())));
+  in.refuse_wide_text();
+  if (first.starts_with('{')) return read_gltf(in, name, beside);
+  if (begins_with_solid(in)) return read_stl(in, name);
+  const std::string foreign = foreign_format(bytes.substr(in.at()));
+  if (foreign.empty() && looks_like_obj(in)) return read_obj(in, name);
+  if (foreign.empty() && ends_like(path, ".stl")) return read_stl(in, name);  // one whose size is wrong
+  in.lose(in.at(), tr("expected {}, got {}", kSurfaceFormats, foreign.empty() ? in.shown(in.at()) : foreign));
+}
+
+/// What the file says of the patient's axes holds for all of its parts.
+void take_axes(SurfaceFile& file) {
+  if (file.axes == PatientAxes::none) return;
+  for (SurfacePart& part : file.parts) turn_to_our_axes(file.axes, part.mesh.positions);
+  file.metres = kPatientUnit;
+  file.notes.push_back(turned_in_words(file.axes));
 }
 
 /// No way out of the folder.
@@ -74,6 +85,7 @@ SurfaceFile read_surfaces(std::string_view bytes, const std::string& path, const
   if (file.parts.empty()) in.lose(0, "expected triangles, got none");
   bound_items(in, items_of(file, true), "vertices");
   bound_items(in, items_of(file, false), "triangles");
+  take_axes(file);
   return file;
 }
 
@@ -148,22 +160,29 @@ Vec3d read_surface_point(MeshSource& in, int width) {
 
 std::vector<std::array<int, 3>> cut_polygons(MeshSource& in, const std::vector<Vec3d>& positions,
                                              const PolygonList& polygons, int first, int last, int from,
-                                             std::vector<std::string>& notes) {
+                                             SurfaceLeftOut& left_out) {
   std::vector<std::array<int, 3>> triangles;
   PolygonCutter cutter;
   const int count = int(positions.size());
+  std::int64_t flat = 0;
+  std::vector<int> corners;
   for (int p = first; p < last; ++p) {
-    const std::span<const int> corners{polygons.corners.data() + polygons.start[p],
-                                       std::size_t(polygons.start[p + 1] - polygons.start[p])};
+    corners.clear();
+    for (const int c : polygons.polygon(p))
+      if (corners.empty() || corners.back() != c || c == PolygonList::kTold) corners.push_back(c);
+    while (corners.size() > 1 && corners.front() == corners.back() && corners.back() != PolygonList::kTold)
+      corners.pop_back();
     const auto bad = std::find_if(corners.begin(), corners.end(), [&](int c) { return c < 0 || c >= count; });
-    if (bad == corners.end())
+    if (bad == corners.end() && corners.size() < 3)
+      ++flat;
+    else if (bad == corners.end())
       cutter.cut(positions, corners, triangles);
     else if (std::find(corners.begin(), corners.end(), PolygonList::kTold) == corners.end())
       in.fault(polygons.at[p], tr("expected the number of a vertex from {} to {}, got {}", from, count - 1 + from,
                                   std::int64_t(*bad) + from));
   }
-  if (cutter.fans() > 0)
-    notes.push_back(tr("{} polygons that are not convex cut as fans, as they are too many or too long", cutter.fans()));
+  left_out.add("faces with fewer than three different corners", flat);
+  left_out.cut_as_fans(cutter.fans());
   return triangles;
 }
 
@@ -190,6 +209,8 @@ void SurfaceLeftOut::add(const std::string& kinds, std::int64_t count) {
 
 void SurfaceLeftOut::tell(std::vector<std::string>& notes) const {
   for (const auto& [kinds, count] : m_kinds) notes.push_back(tr("{} {} left out", count, kinds));
+  if (m_fans > 0)
+    notes.push_back(tr("{} polygons that are not convex cut as fans, as they are too many or too long", m_fans));
 }
 
 }  // namespace trocar::geometry

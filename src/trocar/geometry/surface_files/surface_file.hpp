@@ -7,8 +7,9 @@
 //
 // Read: OBJ (polygons, groups and objects, negative numbers), STL (text and binary, told apart by the size), PLY (text
 // and binary of either byte order, any properties), glTF (.glb, and .gltf with embedded buffers or files beside it;
-// triangles, strips and fans; nodes' transforms; sparse accessors), VTK (POLYDATA as text or binary, polygons and
-// strips). Coordinates are those of the file: nothing is scaled. Written: surface_writer.hpp.
+// triangles, strips and fans; nodes' transforms; sparse accessors), VTK (POLYDATA, and faces in UNSTRUCTURED_GRID, as
+// text or binary). Coordinates are those of the file: nothing is scaled; where its head says that they are along the
+// patient's axes (SPACE=LPS, RAS) they are turned into ours. Written: surface_writer.hpp.
 //
 // Files are taken as hostile: what they announce is believed as far as the bytes reach, never further.
 #pragma once
@@ -19,6 +20,7 @@
 #include <string_view>
 #include <vector>
 
+#include <trocar/geometry/formats/patient_axes.hpp>
 #include <trocar/geometry/surfaces/tri_mesh.hpp>
 
 namespace trocar::geometry {
@@ -34,10 +36,11 @@ struct SurfacePart {
 };
 
 struct SurfaceFile {
-  std::vector<SurfacePart> parts;  ///< at least one, none without triangles
-  std::string format;              ///< "STL, binary"
-  std::vector<std::string> notes;  ///< what was left out: lines, skins, animations
-  double metres = 0;               ///< in the file's unit where the format says so (glTF: 1), or 0
+  std::vector<SurfacePart> parts;        ///< at least one, none without triangles
+  std::string format;                    ///< "STL, binary"
+  std::vector<std::string> notes;        ///< what was left out: lines, skins, animations; what was turned
+  double metres = 0;                     ///< in the file's unit where the file says so (glTF: 1; SPACE: 0.001), or 0
+  PatientAxes axes = PatientAxes::none;  ///< that the file names
 };
 
 /// The bytes of a file that lies beside the one that is read, by the name that stands in it.

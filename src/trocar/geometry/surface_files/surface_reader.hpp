@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,13 @@ namespace trocar::geometry {
 SurfaceFile read_obj(MeshSource& in, const std::string& name);
 SurfaceFile read_stl(MeshSource& in, const std::string& name);
 SurfaceFile read_ply(MeshSource& in, const std::string& name);
-SurfaceFile read_polydata(MeshSource& in, const std::string& name);
+SurfaceFile read_vtk_surface(MeshSource& in, const std::string& name);
 SurfaceFile read_gltf(MeshSource& in, const std::string& name, const FilesBeside& beside);
 
 /// Is this as long as the STL that its 81st to 84th byte announce?
 bool has_stl_size(std::string_view bytes);
+/// Does it begin with the word solid, in small or large letters?
+bool begins_with_solid(MeshSource in);
 
 /// A coordinate that text or binary values gave, checked; a fault at `at` and 0 where it is too large.
 double checked_coordinate(MeshSource& in, std::size_t at, double value);
@@ -34,29 +37,35 @@ struct PolygonList {
   std::vector<std::uint32_t> at;  ///< of each in the file
 
   int count() const { return int(at.size()); }
+  std::span<const int> polygon(int p) const {
+    return {corners.data() + start[std::size_t(p)], std::size_t(start[std::size_t(p) + 1] - start[std::size_t(p)])};
+  }
   void end_polygon(MeshSource& in, std::size_t place) {
     bound_items(in, corners.size() / 3, "triangles");
     start.push_back(int(corners.size()));
     at.push_back(static_cast<std::uint32_t>(place));
   }
 };
-/// The triangles of polygons first to last; a vertex that is not there is reported at the polygon's place.
-/// @param from  the number of the first vertex as the file counts: 1 or 0
-std::vector<std::array<int, 3>> cut_polygons(MeshSource& in, const std::vector<Vec3d>& positions,
-                                             const PolygonList& polygons, int first, int last, int from,
-                                             std::vector<std::string>& notes);
-
-/// Corners of a strip of triangles, every second one turned; one with a corner twice only joins two strips.
-void add_strip(std::span<const int> strip, std::vector<std::array<int, 3>>& triangles);
-
 /// "3 lines left out", for every kind of which there were any.
 class SurfaceLeftOut {
  public:
   void add(const std::string& kinds, std::int64_t count = 1);  ///< in the plural
+  void cut_as_fans(std::int64_t polygons) { m_fans += polygons; }
   void tell(std::vector<std::string>& notes) const;
 
  private:
   std::vector<std::pair<std::string, std::int64_t>> m_kinds;
+  std::int64_t m_fans = 0;
 };
+
+/// The triangles of polygons first to last; a vertex that is not there is reported at the polygon's place. Polygons
+/// with fewer than three different corners are left out and counted.
+/// @param from  the number of the first vertex as the file counts: 1 or 0
+std::vector<std::array<int, 3>> cut_polygons(MeshSource& in, const std::vector<Vec3d>& positions,
+                                             const PolygonList& polygons, int first, int last, int from,
+                                             SurfaceLeftOut& left_out);
+
+/// Corners of a strip of triangles, every second one turned; one with a corner twice only joins two strips.
+void add_strip(std::span<const int> strip, std::vector<std::array<int, 3>>& triangles);
 
 }  // namespace trocar::geometry

@@ -15,6 +15,12 @@ struct LengthUnit {
 };
 constexpr LengthUnit kLengthUnits[] = {{1, "metres"}, {0.01, "centimetres"}, {0.001, "millimetres"}};
 
+double longest_side(const Bounds& box) {
+  const Vec3d side = box.high - box.low;
+  const double longest = std::max({side.x, side.y, side.z});
+  return longest > 0 && std::isfinite(longest) ? longest : 0;
+}
+
 /// How many times longer or shorter than usual.
 double oddness(double longest, const LengthUnit& unit) {
   const double length = longest * unit.metres;
@@ -26,30 +32,90 @@ std::string length_in_words(double metres) {
   return metres >= 0.01 ? fmt::format("{:.3g} cm", 100 * metres) : fmt::format("{:.3g} mm", 1000 * metres);
 }
 
-}  // namespace
+std::string volume_in_words(double cubic_metres) {
+  const double mL = 1e6 * cubic_metres;
+  if (mL < 1e-3) return tr("less than 0.001 mL");
+  if (mL < 1e4) return mL < 100 ? fmt::format("{:.3g} mL", mL) : fmt::format("{:.0f} mL", mL);
+  if (mL < 1e7) return fmt::format("{:.0f} L", 1e-3 * mL);
+  return cubic_metres < 1e9 ? fmt::format("{:.0f} m3", cubic_metres) : fmt::format("{:.3g} m3", cubic_metres);
+}
 
-UnitGuess guess_unit(const Bounds& box) {
-  UnitGuess guess;
-  const Vec3d side = box.high - box.low;
-  const double longest = std::max({side.x, side.y, side.z});
-  if (!(longest > 0) || !std::isfinite(longest)) {
-    guess.words = "without extent";
-    return guess;
-  }
+std::string size_in_words(const Extent& extent, double metres) {
+  const std::string length = length_in_words(longest_side(extent.box) * metres);
+  if (extent.volume == 0) return length;
+  return tr("{} and {}", length, volume_in_words(extent.volume * metres * metres * metres));
+}
+
+/// "longest side 15: 15 cm and 200 mL in centimetres, 15 mm and 0.2 mL in millimetres"
+std::string sizes_in_words(const Extent& extent, const std::vector<LengthUnit>& units) {
+  std::string words = tr("longest side {:.4g}:", longest_side(extent.box));
+  for (const LengthUnit& unit : units)
+    words += fmt::format("{} {}", words.back() == ':' ? "" : ",",
+                         tr("{} in {}", size_in_words(extent, unit.metres), tr(unit.name)));
+  return words;
+}
+
+std::vector<LengthUnit> likeliest_first(double longest) {
   std::vector<LengthUnit> units(std::begin(kLengthUnits), std::end(kLengthUnits));
   std::stable_sort(units.begin(), units.end(),
                    [&](const LengthUnit& a, const LengthUnit& b) { return oddness(longest, a) < oddness(longest, b); });
-  guess.words = tr("longest side {:.4g}:", longest);
+  return units;
+}
+
+}  // namespace
+
+Extent extent_of(const TriMesh& closed) { return {bounds(closed.positions), std::fabs(volume(closed))}; }
+
+Extent in_unit(const Extent& extent, double unit) {
+  return {{extent.box.low / unit, extent.box.high / unit}, extent.volume / (unit * unit * unit)};
+}
+
+std::string unit_in_words(double metres) {
+  for (const LengthUnit& unit : kLengthUnits)
+    if (std::fabs(metres / unit.metres - 1) < 1e-9) return tr(unit.name);
+  return tr("units of {:g} mm", 1e3 * metres);
+}
+
+bool is_organs_volume(const Extent& extent, double metres) {
+  const double volume = extent.volume * metres * metres * metres;
+  return volume == 0 || (volume >= kSmallestOrgan && volume <= kLargestOrgan);
+}
+
+UnitGuess guess_unit(const Extent& extent) {
+  UnitGuess guess;
+  const double longest = longest_side(extent.box);
+  if (longest == 0) {
+    guess.words = tr("without extent");
+    return guess;
+  }
+  const std::vector<LengthUnit> units = likeliest_first(longest);
+  guess.words = sizes_in_words(extent, units);
   for (const LengthUnit& unit : units) {
     const double length = longest * unit.metres;
-    guess.words += fmt::format("{} {} in {}", guess.words.back() == ':' ? "" : ",", length_in_words(length), unit.name);
-    if (length < kShortestBody || length > kLongestBody) continue;
+    if (length < kShortestBody || length > kLongestBody || !is_organs_volume(extent, unit.metres)) continue;
     if (guess.metres == 0)
       guess.metres = unit.metres;
     else
       guess.also.push_back(unit.metres);
   }
   return guess;
+}
+
+UnitChoice choose_unit(const Extent& extent, double said, const char* by) {
+  const UnitGuess guess = guess_unit(extent);
+  UnitChoice choice;
+  choice.metres = said > 0 ? said : guess.metres > 0 ? guess.metres : 1e-3;
+  if (said > 0 && !is_organs_volume(extent, said))
+    choice.question =
+        tr("expected an organ of 0.1 mL to 20 L, got {} with coordinates in {}; {} sets another unit ({})",
+           size_in_words(extent, said), unit_in_words(said), by, guess.words);
+  else if (said == 0 && guess.metres == 0 && longest_side(extent.box) > 0)
+    choice.question =
+        tr("expected the unit of its coordinates by {}, got none and a size that suggests none ({})", by, guess.words);
+  else if (said == 0 && guess.metres > 0)
+    choice.note = tr("coordinates are taken as {}, guessed from the size ({}); {} sets another unit",
+                     unit_in_words(guess.metres), guess.words, by);
+  return choice;
 }
 
 }  // namespace trocar::geometry

@@ -6,7 +6,6 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
-#include <trocar/core/text.hpp>
 #include <trocar/modeller/document/collect.hpp>
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/scene/files/library.hpp>
@@ -119,14 +118,6 @@ class Collector {
   std::set<fs::path> m_taken;
 };
 
-void write_collected(const fs::path& path, const std::string& bytes) {
-  std::error_code ignored;
-  fs::create_directories(path.parent_path(), ignored);
-  if (const std::string said = core::write_file(path, bytes.data(), bytes.size()); !said.empty())
-    throw core::BadInput(
-        {{{path.generic_string(), 0, 0}, tr("expected a file that can be written, got \"{}\"", said)}});
-}
-
 }  // namespace
 
 Collection collected(const Document& document, const fs::path& root, bool tree_stays) {
@@ -134,14 +125,14 @@ Collection collected(const Document& document, const fs::path& root, bool tree_s
 }
 
 void copy_files(const Collection& collection) {
-  for (const auto& [from, to] : collection.copies) write_collected(to, core::read_file(from, kMostBytes));
+  for (const auto& [from, to] : collection.copies) core::put_file(to, core::read_file(from, kMostBytes));
 }
 
 void write_collection(const Collection& collection) {
   copy_files(collection);
   for (const auto& [path, text] : collection.texts)
-    if (path != collection.root) write_collected(path, text);
-  write_collected(collection.root, collection.texts.at(collection.root));
+    if (path != collection.root) core::put_file(path, text);
+  core::put_file(collection.root, collection.texts.at(collection.root));
 }
 
 fs::path write_scene_for_trainer(const Document& document, const fs::path& folder) {
@@ -151,7 +142,7 @@ fs::path write_scene_for_trainer(const Document& document, const fs::path& folde
   const bool alone = scene::kind_of_file(document.root(), &memory) == scene::FileKind::organ;
   const fs::path scene = whole_path(folder / "scene.json"), organ = whole_path(folder / "organ.json");
   write_collection(collected(document, alone ? organ : scene));
-  if (alone) write_collected(scene, text_of_place_with(organ.filename().string(), document.root().stem().string()));
+  if (alone) core::put_file(scene, text_of_place_with(organ.filename().string(), document.root().stem().string()));
   return scene;
 }
 

@@ -5,8 +5,8 @@
 #include <trocar/core/error.hpp>
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/scene/files/library.hpp>
-#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/json/json_edit.hpp>
 #include <trocar/scene/json/json_text.hpp>
 
@@ -110,6 +110,13 @@ std::string renamed_from(const std::string& text, const JsonValue& root, const f
   Renames renames;
   rename_under(root, "", from, to, renames);
   return scene::json_set_all(text, std::move(renames));
+}
+
+JsonValue renamed_value(const std::string& key, const JsonValue& value, const fs::path& from, const fs::path& to) {
+  JsonValue one = scene::json_object();
+  scene::put(one, key, value);
+  std::vector<core::Fault> ignored;
+  return scene::parse_json(renamed_from(scene::to_text(one), one, from, to), "", ignored).root.members.at(0).value;
 }
 
 }  // namespace trocar::modeller

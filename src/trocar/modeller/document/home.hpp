@@ -25,6 +25,10 @@ Document begun(const fs::path& file, bool organ, const std::string& wanted);
 std::string renamed_from(const std::string& text, const scene::JsonValue& root, const fs::path& from,
                          const fs::path& to);
 
+/// The same for the value of one of a file's keys.
+scene::JsonValue renamed_value(const std::string& key, const scene::JsonValue& value, const fs::path& from,
+                               const fs::path& to);
+
 /// Where a name in a file of `folder` leads: there, else into the installed folder `scenes`.
 fs::path named_file(const Document& document, const fs::path& folder, const std::string& name);
 

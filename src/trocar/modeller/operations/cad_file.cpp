@@ -1,16 +1,16 @@
 #include <cstdlib>
-#include <fstream>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/core/json.hpp>
+#include <trocar/core/files.hpp>
 #include <trocar/core/run_program.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/geometry/formats/tet_files.hpp>
 #include <trocar/geometry/surface_files/surface_file.hpp>
 #include <trocar/modeller/operations/cad_file.hpp>
+#include <trocar/modeller/operations/values.hpp>
 
 namespace trocar::modeller {
 namespace {
@@ -43,25 +43,23 @@ class PassingFolder {
   fs::path m_path;
 };
 
-scene::JsonValue as_text(const Json& value) {
-  std::vector<core::Fault> faults;
-  return scene::parse_json(value.dump(), "nurbs", faults).root;
+std::string lower_ending(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  return text;
 }
 
 }  // namespace
 
-bool holds_tetrahedra(const fs::path& file) {
-  if (file.extension() == ".msh") return true;
-  if (file.extension() != ".vtk") return false;
-  char head[512] = {};
-  std::ifstream(file, std::ios::binary).read(head, sizeof head - 1);
-  return std::string_view(head, sizeof head).find("UNSTRUCTURED_GRID") != std::string_view::npos;
+bool is_tet_file(const fs::path& file) {
+  const std::string ending = lower_ending(file.extension().string());
+  if (ending != ".vtk" && ending != ".msh") return false;
+  std::error_code error;
+  return fs::is_regular_file(file, error) && geometry::holds_tetrahedra(core::read_file(file, geometry::kMaxMeshBytes));
 }
 
 bool is_cad_file(const fs::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  const std::string ending = lower_ending(file.extension().string());
   return ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs";
 }
 
@@ -86,16 +84,20 @@ std::vector<CadPart> read_cad_file(const fs::path& file, double within) {
     refuse(tr("expected a STEP or IGES file that can be read, got: {}",
               end.status == 2 && !end.output.empty() ? end.output.substr(0, end.output.find('\n'))
                                                      : "its reader did not come to an end"));
-  const Json said = Json::parse(end.output, nullptr, false);
-  if (!said.is_object() || !said.contains("parts")) refuse("expected its parts, got nothing that can be understood");
+  std::vector<core::Fault> faults;
+  const scene::JsonDocument said = scene::parse_json(end.output, "", faults);
+  const scene::JsonMember* parts = said.root.find("parts");
+  if (!faults.empty() || !parts) refuse("expected its parts, got nothing that can be understood");
   std::vector<CadPart> out;
-  for (const Json& part : said["parts"]) {
+  for (const scene::JsonValue& part : parts->value.items) {
     CadPart one;
-    one.faces = part["faces"];
-    const geometry::SurfaceFile mesh = geometry::read_surface_file(folder.path() / part["mesh"].get<std::string>());
-    for (const geometry::SurfacePart& p : mesh.parts) geometry::append(one.mesh, p.mesh);
+    one.faces = int(number_in(part, "faces", 0));
+    one.unit = number_in(said.root, "unit_mm", 1) * 1e-3;
+    const scene::JsonMember *mesh = part.find("mesh"), *nurbs = part.find("nurbs");
+    if (!mesh) refuse("expected a mesh of every part, got none");
+    one.mesh = geometry::joined(geometry::read_surface_file(folder.path() / mesh->value.text));
     for (Vec3d& p : one.mesh.positions) p = p * 1e-3;
-    if (part.contains("nurbs")) one.nurbs = as_text(part["nurbs"]);
+    if (nurbs) one.nurbs = nurbs->value;
     out.push_back(std::move(one));
   }
   return out;

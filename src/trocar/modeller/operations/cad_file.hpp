@@ -12,13 +12,14 @@ namespace trocar::modeller {
 
 struct CadPart {
   int faces = 0;
+  double unit = 1e-3;      ///< metres in the unit of the file's numbers, as it says
   geometry::TriMesh mesh;  ///< [m], as its faces were triangulated, each for itself
   std::optional<scene::JsonValue>
       nurbs;  ///< what it is exactly, as a body's file says it; none: no single closed surface
 };
 
-/// A Gmsh mesh, or a VTK file with cells.
-bool holds_tetrahedra(const fs::path& file);
+/// A Gmsh mesh, or a VTK file with tetrahedra. By its name's ending, then by its bytes.
+bool is_tet_file(const fs::path& file);
 /// By its name's ending.
 bool is_cad_file(const fs::path& file);
 

@@ -31,7 +31,10 @@ class Draft {
   bool has(const fs::path& file) const;
   void put(const fs::path& file, std::string text) { m_texts[file] = std::move(text); }
   /// Something worth telling about what was done: a fit's residual.
-  void say(std::string sentence) { m_said = std::move(sentence); }
+  void say(const std::string& words) { m_said += (m_said.empty() ? "" : "; ") + words; }
+  void say(const std::vector<std::string>& all) {
+    for (const std::string& words : all) say(words);
+  }
   const std::string& said() const { return m_said; }
   const Texts& texts() const { return m_texts; }
 
@@ -55,6 +58,10 @@ struct Operation {
   /// What the history calls it, e.g. "move uterus".
   std::string title(const scene::JsonObject& o) const;
 };
+
+/// The draft's texts become one entry of the document's history. @throws core::BadInput for a file that a document
+/// cannot name, as it lies outside its folder, or that all documents share
+void commit(Document& document, const std::string& title, const Draft& draft);
 
 const std::vector<Operation>& operations();
 const Operation* find_operation(std::string_view name);  ///< null where there is none

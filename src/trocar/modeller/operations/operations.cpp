@@ -43,8 +43,12 @@ std::string Operation::title(const scene::JsonObject& o) const {
 
 namespace {
 
-/// Files of the installed folder `scenes` belong to all documents.
-void refuse_installed(const Document& document, const Texts& texts) {
+/// Files of the installed folder `scenes` belong to all documents; those outside the document's own folder and its
+/// libraries its scene could not be read from.
+void refuse_elsewhere(const Document& document, const Texts& texts) {
+  const scene::Library library(document.root());
+  for (const auto& [file, text] : texts)
+    if (!library.holds(file)) throw core::BadInput({{{"", 0, 0}, library.refusal(file.generic_string())}});
   if (scene::name_in_installed_scenes(document.root())) return;
   for (const auto& [file, text] : texts)
     if (scene::name_in_installed_scenes(file))
@@ -54,6 +58,11 @@ void refuse_installed(const Document& document, const Texts& texts) {
 }
 
 }  // namespace
+
+void commit(Document& document, const std::string& title, const Draft& draft) {
+  refuse_elsewhere(document, draft.texts());
+  document.change(title, draft.texts());
+}
 
 std::string apply(const Operation& operation, const scene::JsonValue& parameters, const std::string& file,
                   Document& document) {
@@ -67,8 +76,7 @@ std::string apply(const Operation& operation, const scene::JsonValue& parameters
     o.fault(o.at(), unreadable.what());
   }
   if (!faults.empty()) throw core::BadInput(std::move(faults));
-  refuse_installed(document, draft.texts());
-  document.change(operation.title(o), draft.texts());
+  commit(document, operation.title(o), draft);
   return draft.said();
 }
 

@@ -5,12 +5,14 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/error.hpp>
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/modeller/operations/kinds.hpp>
 #include <trocar/modeller/operations/places.hpp>
 #include <trocar/modeller/operations/values.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/description/description.hpp>
+#include <trocar/scene/files/library.hpp>
 #include <trocar/scene/json/json_edit.hpp>
 #include <trocar/scene/json/like.hpp>
 
@@ -45,8 +47,11 @@ JsonValue own_value(Draft& draft, const std::string& key) {
   for (int depth = 0; depth < 8; ++depth) {
     const JsonValue scene = draft.value(file, "");
     if (const scene::JsonMember* m = scene.find(key)) {
-      if (depth > 0) draft.set(draft.document().root(), "/" + key, m->value);
-      return m->value;
+      if (depth == 0) return m->value;
+      const fs::path& root = draft.document().root();
+      JsonValue own = renamed_value(key, m->value, file.parent_path(), root.parent_path());
+      draft.set(root, "/" + key, own);
+      return own;
     }
     const scene::JsonMember* like = scene.find(scene::kLike);
     if (!like) break;
@@ -82,6 +87,22 @@ Operation port() {
           }};
 }
 
+/// Makes an instrument's file one of the scene's. @return the name that the file gives it
+std::string added_instrument(Draft& draft, const std::string& named) {
+  const fs::path folder = draft.document().root().parent_path();
+  const fs::path file = named_file(draft.document(), folder, named);
+  const scene::Library library(draft.document().root());
+  if (!library.holds(file)) throw core::BadInput({{{"", 0, 0}, library.refusal(named)}});
+  const JsonValue instrument = draft.value(file, "");
+  const JsonValue there = own_value(draft, "instruments");
+  const bool has = std::any_of(there.items.begin(), there.items.end(), [&](const JsonValue& item) {
+    return named_file(draft.document(), folder, item.text) == file;
+  });
+  if (!has) append(draft, "instruments", scene::json_text(named));
+  const scene::JsonMember* name = instrument.find("name");
+  return name && !name->value.text.empty() ? name->value.text : fs::path(named).stem().string();
+}
+
 Operation tool() {
   return {{"tool",
            "An instrument in a port, for a hand of its own: the first in the list is the left one.",
@@ -91,10 +112,7 @@ Operation tool() {
             keys::number("roll_deg", -360, 360, "turned about its shaft, default 0")}},
           [](const JsonObject& o, Draft& draft) {
             std::string instrument = o.text("instrument");
-            if (fs::path(instrument).extension() == ".json") {
-              append(draft, "instruments", scene::json_text(instrument));
-              instrument = fs::path(instrument).stem().string();
-            }
+            if (fs::path(instrument).extension() == ".json") instrument = added_instrument(draft, instrument);
             JsonValue placed = scene::json_object();
             scene::put(placed, "instrument", scene::json_text(instrument));
             scene::put(placed, "port", scene::json_text(o.text("port")));

@@ -10,9 +10,8 @@
 #include <trocar/geometry/nurbs/spline_bridge.hpp>
 #include <trocar/geometry/nurbs/surface_edit.hpp>
 #include <trocar/geometry/nurbs_fit/fit.hpp>
-#include <trocar/geometry/repair/mend.hpp>
-#include <trocar/geometry/surface_files/surface_file.hpp>
 #include <trocar/geometry/surfaces/loft.hpp>
+#include <trocar/modeller/operations/file_mesh.hpp>
 #include <trocar/modeller/operations/kinds.hpp>
 #include <trocar/modeller/operations/places.hpp>
 #include <trocar/modeller/operations/values.hpp>
@@ -192,21 +191,18 @@ Operation fit() {
             scene::needed(keys::name("tissue", "its material")),
             scene::needed(keys::number("cell_mm", 0.1, 100, "edge of its cells")),
             keys::text("part", "of several parts in the file, default: all"),
-            keys::number("unit_mm", 1e-6, 1e6, "unit of its coordinates, default: what its format or size says"),
+            keys::number("unit_mm", 1e-6, 1e6,
+                         "unit of its coordinates, default: what its format says or its size suggests"),
             keys::integer("around", 4, 64, "control points around, default 16"),
             keys::integer("along", 5, 96, "control points from pole to pole, default 24"),
             keys::number("most_mm", 0.001, 100, "greatest rms distance that is taken, default 1"),
             keys::vec3("place_mm", -2000, 2000, "where the file's origin goes, default where it is")}},
           [](const JsonObject& o, Draft& draft) {
             const fs::path path = whole_path(draft.document().root().parent_path() / o.text("file"));
-            const geometry::SurfaceFile file = geometry::read_surface_file(path);
-            geometry::TriMesh mesh;
-            for (const geometry::SurfacePart& part : file.parts)
-              if (!o.has("part") || part.name == o.text("part")) geometry::append(mesh, part.mesh);
-            if (mesh.triangles.empty()) return o.fault("file", "expected a file with this part, got none");
-            const double unit = o.has("unit_mm") ? o.number("unit_mm") * 1e-3 : file.metres > 0 ? file.metres : 1e-3;
-            mesh = geometry::mend(mesh).mesh;
-            for (Vec3d& p : mesh.positions) p = p * unit + o.vec3("place_mm") * 1e-3;
+            std::optional<FileMesh> there = mesh_from_file(o, path);
+            if (!there) return;
+            geometry::TriMesh& mesh = there->mesh;
+            for (Vec3d& p : mesh.positions) p = p + o.vec3("place_mm") * 1e-3;
             nurbs::BodyFitOptions options;
             options.around = o.integer("around", 16);
             options.along = o.integer("along", 24);
@@ -226,6 +222,7 @@ Operation fit() {
                          1e3 * made.report.rms, 1e3 * made.report.greatest, 1e3 * made.report.back_rms,
                          1e3 * made.report.back_greatest,
                          100 * (made.report.volume_of_fit / made.report.volume_of_mesh - 1)));
+            draft.say(there->notes);
           }};
 }
 

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/core/files.hpp>
 #include <trocar/core/text.hpp>
-#include <trocar/geometry/surface_files/surface_writer.hpp>
 #include <trocar/modeller/drive/readiness.hpp>
+#include <trocar/modeller/operations/beside.hpp>
 #include <trocar/modeller/operations/places.hpp>
 #include <trocar/modeller/operations/values.hpp>
 #include <trocar/modeller/scan/segment_organ.hpp>
@@ -53,32 +52,22 @@ SegmentOrgan make_organ(Document& document, const Scan& scan, const OrganWish& w
   const geometry::Bounds box = geometry::bounds(made.mesh.positions);
   const SegmentOrgan out{made.ml_of_label, made.ml, made.mesh.triangles.size(), (box.low + box.high) / 2.0 * 1e3,
                          (box.high - box.low) * 1e3};
-  JsonValue surface = scene::json_object(), solid = scene::json_object();
-  const std::string file = wish.name + ".stl";
-  scene::put(surface, "file", scene::json_text(file));
-  scene::put(surface, "unit_mm", number(1));
+  JsonValue solid = scene::json_object();
   const Vec3d centre = wish.centre_mm ? *wish.centre_mm : wish.place_mm ? wish.place_mm(out.size_mm) : out.middle_mm;
-  scene::put(surface, "place_mm", point(centre));
   const double cell = wish.cell_mm > 0 ? wish.cell_mm : std::round(10 * std::cbrt(made.ml * 1e3 / 700)) / 10;
   scene::put(solid, "name", scene::json_text(wish.name));
   scene::put(solid, "tissue", scene::json_text(wish.tissue));
   if (!wish.look.empty()) scene::put(solid, "look", scene::json_text(wish.look));
-  scene::put(solid, "surface", surface);
+  Draft trial(document);
+  add_thing(trial, "solid", solid, "");  // refuses a name that is taken before anything is written
+  scene::put(solid, "surface", surface_beside(document, wish.name, made.mesh, centre));
   scene::put(solid, "cell_mm", number(cell));
   if (wish.attach)
     scene::put(solid, "anchors", scene::json_array({attachment(made.mesh, centre - out.middle_mm, cell)}));
   if (wish.cuttable) scene::put(solid, "cuttable", scene::json_flag(true));
   Draft draft(document);
-  add_thing(draft, "solid", solid, "");  // refuses a name that is taken before anything is written
-  const fs::path path = document.root().parent_path() / file;
-  geometry::TriMesh about_middle = made.mesh;  // so that it is scaled about its middle
-  for (Vec3d& p : about_middle.positions) p = p - out.middle_mm * 1e-3;
-  const std::string bytes = geometry::to_stl(about_middle, 1e-3);
-  std::error_code ignored;
-  fs::create_directories(path.parent_path(), ignored);
-  if (const std::string said = core::write_file(path, bytes.data(), bytes.size()); !said.empty())
-    refuse_organ(path, tr("expected a file that can be written, got \"{}\"", said));
-  document.change("organ from " + wish.segment, draft.texts());
+  add_thing(draft, "solid", solid, "");
+  commit(document, "organ from " + wish.segment, draft);
   return out;
 }
 

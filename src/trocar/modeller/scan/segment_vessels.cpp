@@ -114,7 +114,7 @@ std::size_t make_vessels(Document& document, const Scan& scan, const VesselWish&
   for (const auto& [node, radius] : made.ends)
     text.ends.push_back(vessel_end(node, wish.flow_mL_min * radius * radius * radius / cubes));
   put_vessel_file(draft, wish.file, written_vessels(text));
-  document.change("vessels from " + wish.segment, draft.texts());
+  commit(document, "vessels from " + wish.segment, draft);
   return made.vessels.size();
 }
 

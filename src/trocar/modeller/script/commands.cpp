@@ -24,6 +24,17 @@ using scene::JsonObject;
 
 constexpr double kDegree = portable::pi / 180;
 
+/// A file that is there is written over only where the step says so; else that is a fault of the key that names it.
+bool may_write(const JsonObject& o, const char* key, const fs::path& file) {
+  std::error_code error;
+  if (o.flag("over") || !fs::exists(fs::symlink_status(file, error))) return true;
+  o.fault(key, tr("expected the name of a new file, got \"{}\", which exists: \"over\": true replaces it",
+                  file.generic_string()));
+  return false;
+}
+
+scene::Key over_key() { return keys::flag("over", "a file that exists is replaced; default false"); }
+
 Command open() {
   return {{"open", "Opens a scene or an organ.", {scene::needed(keys::text("file", "its file"))}},
           [](const JsonObject& o, Session& session) { session.put(Document::open(o.text("file"))); }};
@@ -45,13 +56,16 @@ Command begin() {
 }
 
 Command save() {
-  return {{"save", "Writes what has changed.", {keys::text("as", "another file, default: the one that it is")}},
-          [](const JsonObject& o, Session& session) {
-            if (o.has("as"))
-              session.document().save_as(o.text("as"));
-            else
-              session.document().save();
-          }};
+  return {
+      {"save", "Writes what has changed.", {keys::text("as", "another file, default: the one that it is"), over_key()}},
+      [](const JsonObject& o, Session& session) {
+        Document& document = session.document();
+        const fs::path file = o.has("as") ? whole_path(o.text("as")) : document.root();
+        if (file == document.root())
+          document.save(o.flag("over"));
+        else if (may_write(o, "as", file))
+          document.save_as(file);
+      }};
 }
 
 Command undo() {
@@ -248,14 +262,12 @@ Command export_body() {
       {"export",
        "Writes a body, a vessel or a wall as compiled: its skin as .obj, .stl, .ply or .vtk, its network with springs "
        "and cells as .msh.",
-       {scene::needed(keys::name("of", "the body")), scene::needed(keys::text("file", "the file; its end says what"))}},
+       {scene::needed(keys::name("of", "the body")), scene::needed(keys::text("file", "the file; its end says what")),
+        over_key()}},
       [](const JsonObject& o, Session& session) {
         const fs::path file = o.text("file");
-        const std::string bytes = exported(session.model(), o.text("of"), file.extension().string());
-        std::error_code ignored;
-        if (file.has_parent_path()) fs::create_directories(file.parent_path(), ignored);
-        if (const std::string said = core::write_file(file, bytes.data(), bytes.size()); !said.empty())
-          o.fault("file", tr("expected a file that can be written, got \"{}\"", said));
+        if (!may_write(o, "file", file)) return;
+        core::put_file(file, exported(session.model(), o.text("of"), file.extension().string()));
       }};
 }
 

@@ -93,7 +93,7 @@ void warn_mended(const ClosedShape& shape, const std::string& body, const core::
                  std::vector<core::Fault>& warnings) {
   if (!shape.surface) return;
   for (const std::string& warning : shape.surface->warnings)
-    warnings.push_back({at, tr("the surface '{}' of '{}' has defects; {}", shape.surface->file, body, warning)});
+    warnings.push_back({at, tr("the surface '{}' of '{}': {}", shape.surface->file, body, warning)});
 }
 
 void find_tips(const Description& d, const sim::Model& model, std::vector<core::Fault>& warnings) {
@@ -122,8 +122,7 @@ void find_warnings(const Description& d, const sim::Model& model, std::vector<co
     warn_mended(solid.shape, solid.name, solid.at, warnings);
     if (!solid.tets) continue;
     for (const std::string& warning : solid.tets->warnings)
-      warnings.push_back(
-          {solid.at, tr("the mesh '{}' of '{}' has defects; {}", solid.tets->file, solid.name, warning)});
+      warnings.push_back({solid.at, tr("the mesh '{}' of '{}': {}", solid.tets->file, solid.name, warning)});
     find_slivers(d, solid, model, warnings);
   }
   for (const Pouch& pouch : d.pouches) warn_mended(pouch.shape, pouch.name, pouch.at, warnings);

@@ -1,12 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
@@ -135,28 +132,18 @@ std::string keep_compliance(ContentKey key, int kept, const Compliance& c) {
   header.kept = std::uint32_t(kept);
   header.fields = std::uint32_t(c.fields.size() / (3 * std::size_t(std::max(1, kept))));
   header.sum = sum_of(c);
-  static std::atomic<int> number{0};
-  fs::path part = file;
-  part += fmt::format(".{}-{}.part", ::getpid(), number++);
-  bool written = false;
-  if (std::ofstream out(part, std::ios::binary); out) {
-    out.write(reinterpret_cast<const char*>(&header), sizeof header);
-    out.write(reinterpret_cast<const char*>(c.columns.data()), std::streamsize(c.columns.size() * sizeof(float)));
-    out.write(reinterpret_cast<const char*>(c.fields.data()), std::streamsize(c.fields.size() * sizeof(float)));
-    out.close();
-    written = bool(out);
-  }
-  if (written) fs::rename(part, file, error);
-  if (!written || error) {
-    std::error_code gone;
-    fs::remove(part, gone);
-    return "cannot write to " + file.parent_path().string() + (error ? " (" + error.message() + ")" : std::string());
-  }
+  const auto bytes_of = [](const std::vector<float>& values) {
+    return std::string_view(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+  };
+  const std::string_view head(reinterpret_cast<const char*>(&header), sizeof header);
+  if (const std::string said = core::write_file(file, {head, bytes_of(c.columns), bytes_of(c.fields)}); !said.empty())
+    return "cannot write to " + file.parent_path().string() + " (" + said + ")";
   trim_compliances(file.parent_path(), kMostCachedBytes);
   return "";
 }
 
 void trim_compliances(const fs::path& folder, std::uintmax_t most) {
+  core::remove_unfinished(folder);
   struct Kept {
     fs::file_time_type used;
     std::uintmax_t bytes;

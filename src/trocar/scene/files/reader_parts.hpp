@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <trocar/geometry/surface_files/unit_guess.hpp>
 #include <trocar/scene/description/variant.hpp>
 #include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/library.hpp>
@@ -19,6 +20,12 @@ namespace trocar::scene {
 inline constexpr int kMaxFiles = 256;          ///< of one scene
 inline constexpr int kMaxSolidNodes = 60'000;  ///< ten of today's organs: a tick of more is far from real time
 inline constexpr int kMaxSolidCells = 100'000;
+
+/// Whether an organ may have this extent [m], for files of meshes whose unit the scene does not say. Where not, a unit
+/// that the file itself says is a warning, and a millimetre that nobody said is a fault that names the key unit_mm.
+/// @param unit  that was taken [m]  @return false after a fault
+bool is_organ_sized(const JsonObject& o, const geometry::Extent& extent, double unit, bool file_says,
+                    std::vector<std::string>& warnings);
 
 /// Documents live here: objects point into them.
 class Reading {

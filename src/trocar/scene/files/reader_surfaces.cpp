@@ -9,7 +9,6 @@
 #include <trocar/geometry/formats/mesh_source.hpp>
 #include <trocar/geometry/repair/mend.hpp>
 #include <trocar/geometry/surface_files/surface_file.hpp>
-#include <trocar/geometry/surface_files/unit_guess.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
 
 namespace trocar::scene {
@@ -43,16 +42,6 @@ std::optional<geometry::TriMesh> parts_of(const JsonObject& o, const geometry::S
   return {};
 }
 
-/// Nobody has said in what unit it is: does it look like millimetres?
-void doubt_unit(SurfaceSource& source) {
-  const geometry::Bounds box = geometry::bounds(source.mesh.positions);
-  const Vec3d size = 1e-3 * (box.high - box.low);
-  const double longest = std::max({size.x, size.y, size.z});
-  if (longest < geometry::kShortestBody || longest > geometry::kLongestBody)
-    source.warnings.push_back("without \"unit_mm\" its coordinates are millimetres; " +
-                              geometry::guess_unit(box).words);
-}
-
 /// What to do about a file of several parts that are no body together.
 std::string parts_to_choose(const geometry::SurfaceFile& file, const std::string& chosen) {
   constexpr std::size_t kShown = 6;
@@ -66,19 +55,20 @@ std::string parts_to_choose(const geometry::SurfaceFile& file, const std::string
 /// Closed and outwards, mended where it may be; false, and a fault, where it cannot be.
 bool become_closed(const JsonObject& o, const std::string& parts, SurfaceSource& source) {
   const geometry::Diagnosis before = geometry::examine(source.mesh);
-  if (before.is_body()) return true;
+  if (before.is_body() && before.encloses()) return true;
   if (!source.mend) {
     o.fault("file", tr("expected a closed surface, as mending is off, got: {}{}", faults_of(before), parts));
     return false;
   }
   geometry::MendedMesh mended = geometry::mend(source.mesh);
-  if (!mended.after.is_body() || mended.mesh.triangles.empty()) {
-    const std::string left = one_by_one(mended.left, [](const std::string& words) { return words; });
-    o.fault("file", tr("expected a surface that can be mended to a closed one, got: {}{}",
-                       left.empty() ? faults_of(mended.after) : left, parts));
+  if (!mended.after.is_body() || mended.mesh.triangles.empty() || !mended.after.encloses()) {
+    std::string left = one_by_one(mended.left, [](const std::string& words) { return words; });
+    if (left.empty()) left = faults_of(mended.after);
+    if (left.empty()) left = tr("one that encloses nothing");
+    o.fault("file", tr("expected a surface that can be mended to a closed one, got: {}{}", left, parts));
     return false;
   }
-  for (const geometry::Change& c : mended.changes) source.warnings.push_back("mended: " + c.words);
+  for (const geometry::Change& c : mended.changes) source.warnings.push_back(tr("it has defects; mended: {}", c.words));
   source.mesh = std::move(mended.mesh);
   return true;
 }
@@ -102,6 +92,17 @@ bool is_sensible(const JsonObject& o, const SurfaceSource& source) {
 
 }  // namespace
 
+bool is_organ_sized(const JsonObject& o, const geometry::Extent& extent, double unit, bool file_says,
+                    std::vector<std::string>& warnings) {
+  const geometry::UnitChoice choice = geometry::choose_unit(geometry::in_unit(extent, unit), unit, "\"unit_mm\"");
+  if (choice.question.empty()) return true;
+  if (file_says)
+    warnings.push_back(choice.question);
+  else
+    o.fault("file", choice.question);
+  return file_says;
+}
+
 std::string Reading::bytes_beside(const fs::path& folder, const std::string& name) {
   const auto refuse = [&](std::string message) { throw core::BadInput({{{name, 1, 1}, std::move(message)}}); };
   const fs::path named(name);
@@ -120,6 +121,8 @@ std::optional<SurfaceSource> Reading::surface_of(const JsonObject& o, SurfaceSou
   if (!bytes) return {};
   const fs::path path = place_of(folder, source.file);
   std::string parts;
+  double metres = 0;
+  bool file_says = false;
   try {
     const geometry::SurfaceFile file = geometry::read_surfaces(
         *bytes, path.generic_string(),
@@ -128,15 +131,17 @@ std::optional<SurfaceSource> Reading::surface_of(const JsonObject& o, SurfaceSou
     if (!mesh) return {};
     source.mesh = std::move(*mesh);
     parts = parts_to_choose(file, source.part);
-    const double said = file.metres > 0 ? file.metres : 1e-3;
-    const double metres = source.unit > 0 ? source.unit : said;
-    if (!(file.metres > 0) && !(source.unit > 0)) doubt_unit(source);
+    if (file.axes != geometry::PatientAxes::none) source.warnings.push_back(geometry::turned_in_words(file.axes));
+    file_says = file.metres > 0;
+    metres = source.unit > 0 ? source.unit : file_says ? file.metres : 1e-3;
     for (Vec3d& p : source.mesh.positions) p = metres * p + source.place;
   } catch (const core::BadInput& e) {
     for (const core::Fault& f : e.faults()) tell(m_faults, f);
     return {};
   }
   if (!is_sensible(o, source) || !become_closed(o, parts, source)) return {};
+  const geometry::Extent extent = geometry::extent_of(source.mesh);
+  if (!(source.unit > 0) && !is_organ_sized(o, extent, metres, file_says, source.warnings)) return {};
   return source;
 }
 

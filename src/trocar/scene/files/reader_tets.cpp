@@ -78,10 +78,16 @@ void Reading::mesh_of(const JsonObject& o, TetSource source, const fs::path& fol
   if (!bytes) return;
   try {
     const std::string shown = place_of(folder, source.file).generic_string();
-    geometry::TetRepair repaired = geometry::repair(geometry::read_tets(*bytes, shown, source.unit).mesh);
-    for (const geometry::Mended& m : repaired.mended) source.warnings.push_back("mended: " + geometry::in_words(m));
+    const geometry::TetFile file = geometry::read_tets(*bytes, shown, source.unit);
+    geometry::TetRepair repaired = geometry::repair(file.mesh);
+    const geometry::Extent extent{geometry::bounds(repaired.mesh.points), geometry::volume(repaired.mesh)};
+    const bool file_says = file.axes != geometry::PatientAxes::none;
+    if (!o.has("unit_mm") && !is_organ_sized(o, extent, source.unit, file_says, source.warnings)) return;
+    if (file_says) source.warnings.push_back(geometry::turned_in_words(file.axes));
+    for (const geometry::Mended& m : repaired.mended)
+      source.warnings.push_back(tr("it has defects; mended: {}", geometry::in_words(m)));
     for (const std::string& left : geometry::left_as_is(repaired.mesh))
-      source.warnings.push_back("not mended: " + left);
+      source.warnings.push_back(tr("it has defects; not mended: {}", left));
     source.mesh = std::move(repaired.mesh);
     if (source.refill > 0) refill(source);
   } catch (const core::BadInput& e) {

@@ -1,10 +1,5 @@
-// JSON with comments, read into a tree in which every value and every key knows its line and column.
-//
-// People write the files of scenes/ by hand, so a fault must say where it stands, and all faults of a file must come in
-// one pass. Event interfaces of JSON libraries stop at the first bad number; this reader continues after every fault
-// that leaves the structure readable (a number that is not finite, a bad word, a key given twice, a comma too many) and
-// stops only where the structure itself is lost. Grammar: RFC 8259, and comments as in C++. Limits: 16 MiB, 64 levels
-// of nesting, a million values, 256 keys in one object.
+// Files of JSON that people write, from the disk or from memory: core/json/json_reader.hpp, in which every value and
+// every key knows its line and column.
 //
 //   std::vector<core::Fault> faults;
 //   const JsonDocument document = load_json("scenes/tissues.json", faults);
@@ -12,58 +7,27 @@
 //   for (const JsonMember& m : document.root.members) ...
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include <trocar/core/error.hpp>
+#include <trocar/core/json/json_reader.hpp>
 
 namespace trocar::scene {
 
-struct JsonMember;
-
-struct JsonValue {
-  /// `broken`: a fault has been reported about this value already; readers say no more about it.
-  enum class Kind : unsigned char { null, boolean, number, string, array, object, broken };
-
-  Kind kind = Kind::null;
-  bool truth = false;
-  int line = 0, column = 0;         ///< of the value's first character, 1-based; columns count characters, not bytes
-  std::uint32_t from = 0, to = 0;   ///< the value's bytes in the text, [from, to): for who edits it (json_edit.hpp)
-  double number = 0;                ///< always finite
-  std::string text;                 ///< string: UTF-8, escapes resolved
-  std::vector<JsonValue> items;     ///< array
-  std::vector<JsonMember> members;  ///< object, in file order, keys all different
-
-  const JsonMember* find(std::string_view key) const;  ///< null where the key is not there
-};
-
-struct JsonMember {
-  std::string key;
-  int line = 0, column = 0;  ///< of the key
-  JsonValue value;
-  std::uint32_t from = 0;  ///< of the key's first byte
-};
-
-struct JsonDocument {
-  std::string file;  ///< as faults show it
-  JsonValue root;    ///< broken where the text has no readable value
-};
+using core::JsonDocument;
+using core::JsonMember;
+using core::JsonValue;
+using core::kMaxFaults;
+using core::kMaxJsonDepth;
+using core::kMaxJsonKeys;
+using core::kMaxJsonValues;
+using core::parse_json;
+using core::shown;
+using core::tell;
 
 inline constexpr std::size_t kMaxJsonBytes = 16u << 20;
-inline constexpr int kMaxJsonDepth = 64;
-inline constexpr int kMaxJsonValues = 1'000'000;
-inline constexpr std::size_t kMaxJsonKeys = 256;  ///< in one object
-inline constexpr std::size_t kMaxFaults = 1000;   ///< told of one reading
-
-/// Appends a fault; where there are kMaxFaults already, only that not all are reported.
-void tell(std::vector<core::Fault>& faults, core::Fault fault);
-
-/// Reads `text`; what is wrong with it is appended to `faults`. Never throws on bad text.
-JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults);
 
 /// Texts that stand in for files, by path as given: lets tests feed readers without a disk, and editors read what is
 /// not saved yet.
@@ -76,11 +40,8 @@ struct MemoryFiles : std::map<std::filesystem::path, std::string> {
   static bool disk_too(const MemoryFiles* memory) { return !memory || memory->over_disk; }
 };
 
-/// The same for a file; one that cannot be read is a fault at line 0. With `memory` files are looked up there first.
+/// One that cannot be read is a fault at line 0. With `memory` files are looked up there first.
 JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults,
                        const MemoryFiles* memory = nullptr);
-
-/// How a fault names a value: `"text"`, `-3`, `an array`, `null` (long strings are shortened).
-std::string shown(const JsonValue& value);
 
 }  // namespace trocar::scene

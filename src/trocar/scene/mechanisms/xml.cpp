@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <trocar/core/json_grammar.hpp>
+#include <trocar/core/json/json_grammar.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/scene/json/json.hpp>
 #include <trocar/scene/mechanisms/xml.hpp>

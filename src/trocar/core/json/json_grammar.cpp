@@ -1,4 +1,4 @@
-#include <trocar/core/json_grammar.hpp>
+#include <trocar/core/json/json_grammar.hpp>
 
 namespace trocar::core {
 namespace {

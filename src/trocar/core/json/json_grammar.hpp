@@ -1,6 +1,4 @@
-// What readers of JSON share, whatever they make of it: the words of its grammar. People's files, with comments and all
-// faults in one pass, are read by scene/json; those of other programs, whose values know their bytes, by
-// geometry/surface_files.  [RFC 8259]
+// Words of JSON's grammar, and characters as UTF-8: for readers of text.  [RFC 8259]
 #pragma once
 
 #include <string>
