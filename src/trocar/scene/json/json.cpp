@@ -11,6 +11,7 @@
 #include <trocar/core/json_grammar.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/scene/json/foreign_text.hpp>
 #include <trocar/scene/json/json.hpp>
 
 namespace trocar::scene {
@@ -405,6 +406,11 @@ const std::string* MemoryFiles::text_of(const std::filesystem::path& path) const
 
 JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults) {
   JsonDocument document{std::move(file), {}};
+  if (std::string foreign = foreign_text(text); !foreign.empty()) {
+    document.root.kind = Kind::broken;
+    tell(faults, {{document.file, 1, 1}, std::move(foreign)});
+    return document;
+  }
   Parser parser(text, document.file, faults);
   document.root = parser.document();
   if (parser.is_lost()) document.root.kind = Kind::broken;  // its members still tell the file's kind
