@@ -245,9 +245,8 @@ void add_mechanism(CLI::App& program, Chosen& chosen) {
       ->capture_default_str();
   c->add_option("--set", given->sets, tr("a free coordinate, as NAME=DEGREES or NAME=MM; the others follow"));
   c->add_option("--drive", given->drives, tr("an actuator, as NAME=0..1"));
-  CLI::Option* frame =
-      c->add_option("--frame", given->frame,
-                    tr("workspace, tolerance, optimise: the frame that is measured; default: tip, else the first"));
+  c->add_option("--frame", given->frame,
+                tr("workspace, tolerance, optimise: the frame that is measured; default: tip, else the first"));
   c->add_option("--samples", given->samples,
                 tr("workspace: number of poses within limits; tolerance: number of mechanisms"))
       ->transform(whole_number(100, 10'000'000))
@@ -257,10 +256,7 @@ void add_mechanism(CLI::App& program, Chosen& chosen) {
       ->check(number_between(0.01, 1000, "mm"));
   c->add_option("--log", given->log, tr("design: write events of the window as JSON lines to this file"));
   add_design_options(*c, given->design);
-  c->callback([=, &chosen] {
-    given->design.follows = frame->count() > 0;
-    chosen.run = [=, &chosen] { return run_mechanism(*given, chosen.json); };
-  });
+  c->callback([=, &chosen] { chosen.run = [=, &chosen] { return run_mechanism(*given, chosen.json); }; });
 }
 
 }  // namespace trocar::app
