@@ -86,6 +86,17 @@ std::vector<sim::Input> inputs_of(const SimulateChoice& o, const attempt::Lesson
   });
 }
 
+/// What whoever reads the software box does, where it matters to its hands.
+void tell_of_reader(devices::PortReader before, devices::PortReader now, double seconds) {
+  using devices::PortReader;
+  if (now == PortReader::stopped)
+    core::log::warn("{}", tr("the program that reads the box has stopped asking: its hands wait at {:.1f} s", seconds));
+  else if (now == PortReader::asks && before == PortReader::stopped)
+    core::log::info("{}", tr("the program asks again: the hands resume at {:.1f} s", seconds));
+  else if (now == PortReader::none)
+    core::log::info("{}", tr("the port was closed at {:.1f} s: the hands restart with the next program", seconds));
+}
+
 int simulate(const SimulateChoice& o, bool json) {
   const devices::BoxWiring wiring = wiring_of(o.wiring, o.raw, o.framed, o.baud);
   if (o.exercise.empty() && (!o.motion.empty() || !o.replay.empty() || o.wave))
@@ -121,7 +132,13 @@ int simulate(const SimulateChoice& o, bool json) {
                  : tr("box at {} ({}), frames at {} Bd; Ctrl-C ends it\n", o.port, terminal.name(), wiring.baud));
   std::fflush(json ? stderr : stdout);
   const BoxTime end = o.seconds > 0 ? devices::box_now() + devices::box_time(o.seconds) : INT64_MAX;
-  devices::serve(box, terminal, [end] { return attempt::interrupted() || devices::box_now() >= end; });
+  devices::PortReader reader = devices::PortReader::none;
+  devices::serve(
+      box, terminal, [end] { return attempt::interrupted() || devices::box_now() >= end; },
+      [&](devices::PortReader now) {
+        tell_of_reader(reader, now, box.seconds());
+        reader = now;
+      });
   if (json)
     print({{"port", o.port}, {"sent", box.sent()}, {"dropped", box.dropped()}});
   else

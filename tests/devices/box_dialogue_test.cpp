@@ -188,6 +188,34 @@ TEST(SoftwareBox, ByRequestsItsMotionIsTheSameHoweverLongTheyTake) {
   }
 }
 
+TEST(SoftwareBox, ItsMotionWaitsWhileWhoReadsHasStopped) {
+  for (const double per_request : {0.0, 0.02}) {
+    SoftwareBox box({.per_request = per_request}, hundredths);
+    BoxDialogue dialogue({.mask = kTwentyFive});
+    std::vector<std::uint32_t> heard;
+    std::array<std::uint8_t, 64> bytes;
+    const BoxTime period = dialogue.settings().period(), stopped = box_time(4);
+    BoxTime due = 0, break_at = box_time(2);
+    for (BoxTime now = 0; now < box_time(8); now += kStep) {
+      if (now >= due) {
+        box.hear(dialogue.ask(now), now);
+        due += period;
+        if (now >= break_at) due = now + stopped, break_at = box_time(100);  // as by SIGSTOP
+      }
+      const std::size_t count = box.due(now, bytes);
+      dialogue.hear(std::span(bytes).first(count), now,
+                    [&](const BoxPacket& p) { heard.push_back(p.block.digital); });
+      EXPECT_EQ(box.waits(now), now > box_time(2.51) && now < box_time(5.99)) << now;
+    }
+    ASSERT_GT(heard.size(), 150u);
+    for (std::size_t i = 1; i < heard.size(); ++i) {
+      ASSERT_GE(heard[i], heard[i - 1]) << "it does not begin again";
+      ASSERT_LE(heard[i], heard[i - 1] + 5) << "and has not gone on meanwhile";
+    }
+    EXPECT_GT(heard.back(), 350u) << "and goes on afterwards";
+  }
+}
+
 TEST(SoftwareBox, NoiseHasTheSizeThatWasAskedFor) {
   Line line;
   line.asks.mask = kTwentyFive;
