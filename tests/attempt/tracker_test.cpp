@@ -296,8 +296,8 @@ TEST(TrackedSource, ToolsWhoseNamesAreCutToTheSameAreRefusedWithTheRemedy) {
   RestingSource rest(model);
   TrackedSource source(rest, model, plan);
   tracker.take_call();
-  tracker.say(devices::igtl_transform(
-      tool_at("InstrumentTipToReferenceA", model.scope.port, sim::pose_of(model.start.scope))));
+  tracker.say(
+      devices::igtl_transform(tool_at("InstrumentTipToReferenceA", model.scope.port, sim::pose_of(model.start.scope))));
   EXPECT_TRUE(before_long([&] { return source.waits_for().find("Shorten one") != std::string::npos; }))
       << source.waits_for();
   EXPECT_FALSE(source.ready());

@@ -127,10 +127,12 @@ TEST_F(BoxPort, WhoServesIsToldWhenTheReaderStopsComesBackAndGoes) {
   std::vector<PortReader> told;
   std::atomic<bool> stop{false};
   std::thread server([&] {
-    serve(box, terminal, [&] { return stop.load(); }, [&](PortReader reader) {
-      const std::lock_guard guard(lock);
-      told.push_back(reader);
-    });
+    serve(
+        box, terminal, [&] { return stop.load(); },
+        [&](PortReader reader) {
+          const std::lock_guard guard(lock);
+          told.push_back(reader);
+        });
   });
   {
     SerialPort host = SerialPort::open(port, 38'400);

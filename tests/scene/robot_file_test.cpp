@@ -79,11 +79,12 @@ TEST(Urdf, EveryLinkButTheRootNeedsAJoint) {
 
 /// Two jaws, the second of which mimics the first.
 std::vector<kinematics::ExcludedRange> excluded(const std::string& limits, const std::string& mimic) {
-  const std::string jaws = "<link name=\"l\"/><link name=\"r\"/>"
-                           "<joint name=\"jaw_l\" type=\"revolute\"><parent link=\"upper\"/><child link=\"l\"/>"
-                           "<limit lower=\"0\" upper=\"0.5\"/></joint>"
-                           "<joint name=\"jaw_r\" type=\"revolute\"><parent link=\"upper\"/><child link=\"r\"/><limit " +
-                           limits + "/><mimic joint=\"jaw_l\" " + mimic + "/></joint>";
+  const std::string jaws =
+      "<link name=\"l\"/><link name=\"r\"/>"
+      "<joint name=\"jaw_l\" type=\"revolute\"><parent link=\"upper\"/><child link=\"l\"/>"
+      "<limit lower=\"0\" upper=\"0.5\"/></joint>"
+      "<joint name=\"jaw_r\" type=\"revolute\"><parent link=\"upper\"/><child link=\"r\"/><limit " +
+      limits + "/><mimic joint=\"jaw_l\" " + mimic + "/></joint>";
   std::vector<core::Fault> faults;
   const kinematics::MechanismDescription d = read_urdf(arm(jaws), "arm.urdf", faults);
   EXPECT_TRUE(faults.empty());
@@ -104,7 +105,8 @@ TEST(Urdf, AMimickedJointWhoseLimitsExcludeItsLeadersRangeIsFound) {
 TEST(Urdf, NoShippedMechanismFollowsBeyondItsLimits) {
   for (const auto& entry : std::filesystem::directory_iterator(found_scenes_folder().value() / "mechanisms")) {
     const kinematics::Mechanism m = kinematics::build(read_mechanism(entry.path()));
-    for (const kinematics::ExcludedRange& range : excluded_ranges(m)) ADD_FAILURE() << m.name << ": " << words(m, range);
+    for (const kinematics::ExcludedRange& range : excluded_ranges(m))
+      ADD_FAILURE() << m.name << ": " << words(m, range);
   }
 }
 

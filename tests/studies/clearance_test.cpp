@@ -135,7 +135,8 @@ TEST(Clearance, NeighboursThatAreDrawnInEachOtherCountFromThatDepthOn) {
   Pose pose(m);
   forward(m, std::vector<double>{0.0}, pose);
   const LinkPair& pair = links.all()[0];
-  EXPECT_NEAR(links.drawn(m, pose)[0], 0.02, 1e-9) << "20 mm of each rod are the joint, 20 mm are left between surfaces";
+  EXPECT_NEAR(links.drawn(m, pose)[0], 0.02, 1e-9)
+      << "20 mm of each rod are the joint, 20 mm are left between surfaces";
   const std::vector<double> drawn{-0.005};
   EXPECT_NEAR(links.gap(pair, m, pose, drawn), 0.025, 1e-9);
 }

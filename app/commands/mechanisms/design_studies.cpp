@@ -112,19 +112,16 @@ Json clearance_json(const Mechanism& m, const ClearanceReport& r) {
   Json pairs = Json::array(), joined = Json::array();
   for (const PairClearance& p : r.pairs) pairs.push_back(pair_json(m, r, p));
   for (const PairClearance& p : r.joined) joined.push_back(pair_json(m, r, p));
-  return {{"poses", r.poses},
-          {"freedoms", r.drives.size()},
-          {"reached", r.reached},
-          {"least_mm", r.pairs.empty() ? Json(nullptr) : Json(1e3 * r.least)},
-          {"pairs", pairs},
-          {"always_overlapping", joined}};
+  return {{"poses", r.poses},     {"freedoms", r.drives.size()},
+          {"reached", r.reached}, {"least_mm", r.pairs.empty() ? Json(nullptr) : Json(1e3 * r.least)},
+          {"pairs", pairs},       {"always_overlapping", joined}};
 }
 void print_clearance(const Json& r) {
-  fmt::print("{}", r["freedoms"].get<int>() > 1
-                       ? tr("  {} poses of {} freedoms tried (Halton's sequence), {} closed and within limits\n",
-                            r["poses"].get<int>(), r["freedoms"].get<int>(), r["reached"].get<int>())
-                       : tr("  {} poses, {} closed and within limits\n", r["poses"].get<int>(),
-                            r["reached"].get<int>()));
+  fmt::print("{}",
+             r["freedoms"].get<int>() > 1
+                 ? tr("  {} poses of {} freedoms tried (Halton's sequence), {} closed and within limits\n",
+                      r["poses"].get<int>(), r["freedoms"].get<int>(), r["reached"].get<int>())
+                 : tr("  {} poses, {} closed and within limits\n", r["poses"].get<int>(), r["reached"].get<int>()));
   if (r["pairs"].empty()) fmt::print("{}", tr("  no links that could meet\n"));
   for (const Json& p : r["pairs"]) {
     std::string where;

@@ -25,8 +25,8 @@ template <class Pose>
 bool approach(Pose& from, const Pose& to) {
   constexpr double kNearDepth = 0.001, kNearAngle = 0.01;  // [m] [rad] caught up
   const double turn = kCatchTurn * core::kTick;
-  const double angle =
-      std::max({approach(from.yaw, to.yaw, turn), approach(from.pitch, to.pitch, turn), approach(from.roll, to.roll, turn)});
+  const double angle = std::max(
+      {approach(from.yaw, to.yaw, turn), approach(from.pitch, to.pitch, turn), approach(from.roll, to.roll, turn)});
   return approach(from.depth, to.depth, kCatchSpeed * core::kTick) < kNearDepth && angle < kNearAngle;
 }
 

@@ -10,7 +10,7 @@ using namespace kinematics;
 
 namespace {
 
-constexpr int kLooks = 16;       // over a parameter's bounds, before the nearest is refined
+constexpr int kLooks = 16;  // over a parameter's bounds, before the nearest is refined
 constexpr int kRefinements = 40;
 constexpr double kGoldenShare = 0.6180339887498949;
 
@@ -34,8 +34,8 @@ class Led {
     if (follow >= 0) end.followed = place(m.frames[std::size_t(follow)], m_work.pose).p;
     const int upper = m.frame("tip_upper"), lower = m.frame("tip_lower");
     if (upper >= 0 && lower >= 0)
-      end.jaws = inverse(place(m.frames[std::size_t(lower)], m_work.pose)) *
-                 place(m.frames[std::size_t(upper)], m_work.pose);
+      end.jaws =
+          inverse(place(m.frames[std::size_t(lower)], m_work.pose)) * place(m.frames[std::size_t(upper)], m_work.pose);
     return end;
   }
 

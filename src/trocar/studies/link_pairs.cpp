@@ -183,7 +183,8 @@ double LinkPairs::gap(const LinkPair& pair, const Mechanism& m, const Pose& pose
   for (std::size_t s = 0; s < pair.shapes.size(); ++s) {
     const auto [i, k] = pair.shapes[s];
     if (!pair.neighbours()) {
-      least = std::min(least, clearance(placed(m.shapes[std::size_t(i)], pose), placed(m.shapes[std::size_t(k)], pose)));
+      least =
+          std::min(least, clearance(placed(m.shapes[std::size_t(i)], pose), placed(m.shapes[std::size_t(k)], pose)));
     } else {
       const double as_drawn = drawn[std::size_t(pair.drawn) + s];
       least = std::min(least, gap_off_joints(pair, pair.shapes[s], m, pose) - std::min(0.0, as_drawn));

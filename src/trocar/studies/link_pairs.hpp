@@ -1,8 +1,9 @@
 // Which links of a mechanism may meet, and how far they are apart in a pose.
 //
-// Links that joints without freedom keep together are one part. Parts that a joint or a closure connects are neighbours:
-// they touch at the joint, and shapes are drawn there in each other. Of them counts what is new: a rod is looked at from
-// twice the shapes' thickness off the joint on, and shapes that are in each other as drawn count from that depth on.
+// Links that joints without freedom keep together are one part. Parts that a joint or a closure connects are
+// neighbours: they touch at the joint, and shapes are drawn there in each other. Of them counts what is new: a rod is
+// looked at from twice the shapes' thickness off the joint on, and shapes that are in each other as drawn count from
+// that depth on.
 //
 //   const LinkPairs pairs(m, {});
 //   const std::vector<double> drawn = pairs.drawn(pose);             // of the pose as described
@@ -20,10 +21,10 @@ namespace trocar::studies {
 
 /// Where two parts are joined.
 struct PartJoint {
-  int body = 0;             ///< that the joint moves: its frame's origin lies on it
-  bool axis = false;        ///< a hinge: all of its axis is the joint
-  bool slides = false;      ///< no place of it is
-  int closure = -1;         ///< or a closure: where its second frame is, which slides on the first
+  int body = 0;         ///< that the joint moves: its frame's origin lies on it
+  bool axis = false;    ///< a hinge: all of its axis is the joint
+  bool slides = false;  ///< no place of it is
+  int closure = -1;     ///< or a closure: where its second frame is, which slides on the first
 };
 
 /// Two links with shapes that may meet.

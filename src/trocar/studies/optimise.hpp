@@ -32,9 +32,9 @@ struct OptimiseResult {
   std::vector<double> values;                ///< (all parameters of the mechanism)
   ClearanceReport before, after;             ///< with all of the clearance's own resolution
   double range_before = 0, range_after = 0;  ///< of the frame: way [m] with one drive, else volume [m^3]
-  double end_off = 0;  ///< how far the end of the drive's way is from where it was [m]
+  double end_off = 0;                        ///< how far the end of the drive's way is from where it was [m]
   int evaluations = 0, starts = 0;
-  bool free = false;  ///< the wish is met, range and end are kept, and every pose within limits is as before
+  bool free = false;            ///< the wish is met, range and end are kept, and every pose within limits is as before
   std::vector<double> history;  ///< (evaluations) the best penalty so far
 };
 

@@ -1,5 +1,5 @@
-// Tools that a tracker sees control some of the hands, or the camera; the other inputs control the rest. While a tool is
-// not seen, time stands still; where it is seen again elsewhere, its instrument goes there at kCatchSpeed.
+// Tools that a tracker sees control some of the hands, or the camera; the other inputs control the rest. While a tool
+// is not seen, time stands still; where it is seen again elsewhere, its instrument goes there at kCatchSpeed.
 //
 //   TrackedSource source(hands, model, plan, tracker);        // all must outlive it
 #pragma once

@@ -120,9 +120,10 @@ std::vector<core::Fault> warnings_of(const TrackerPlan& plan) {
   for (std::size_t i = 0; i < plan.tools.size(); ++i) {
     const TrackerPlan::Tool& tool = plan.tools[i];
     if (tool.transform.size() > kRoom)
-      out.push_back({tool.at, tr("\"{}\" has {} letters: OpenIGTLink sends {} of a name. It is recognised as \"{}\", or "
-                                 "as the whole where the server sends it as metadata. Shorten it at the server to be sure.",
-                                 tool.transform, tool.transform.size(), kRoom, tool.transform.substr(0, kRoom))});
+      out.push_back(
+          {tool.at, tr("\"{}\" has {} letters: OpenIGTLink sends {} of a name. It is recognised as \"{}\", or "
+                       "as the whole where the server sends it as metadata. Shorten it at the server to be sure.",
+                       tool.transform, tool.transform.size(), kRoom, tool.transform.substr(0, kRoom))});
     for (std::size_t k = 0; k < i; ++k)
       if (tool.transform != plan.tools[k].transform && tool.transform.size() >= kRoom &&
           tool.transform.substr(0, kRoom) == plan.tools[k].transform.substr(0, kRoom))

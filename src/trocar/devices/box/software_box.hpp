@@ -27,8 +27,8 @@ struct SoftwareBoxSettings {
   double drop = 0;           ///< share of blocks that are not sent
   double corrupt = 0;        ///< share of bytes that arrive as others
   std::uint64_t seed = 1;
-  /// 0: its motion goes by the clock from the first request on, and waits while nobody asks. Else every request is so much later than the one before
-  /// [s]: who simulates slower than real time still sees all of it.
+  /// 0: its motion goes by the clock from the first request on, and waits while nobody asks. Else every request is so
+  /// much later than the one before [s]: who simulates slower than real time still sees all of it.
   double per_request = 0;
 };
 

@@ -58,7 +58,11 @@ double Durations::quantile(double share) const noexcept {
 }
 
 HapticLoop::HapticLoop(std::unique_ptr<HapticDevice> device, const ForceRenderer::Settings& settings)
-    : m_device(std::move(device)), m_renderer(m_device->capabilities(), settings), m_thread([this] { run(); }) {}
+    : m_device(std::move(device)), m_renderer(m_device->capabilities(), settings) {
+  m_report.turns = m_device->capabilities().turns;
+  m_report.grips = m_device->capabilities().grips;
+  m_thread = std::thread([this] { run(); });
+}
 
 void HapticLoop::stop() noexcept {
   m_stop.store(true);
@@ -95,7 +99,12 @@ void HapticLoop::once(double now) noexcept {
     m_report.sample = sample;
     m_sample_at = now;
   }
-  const double silence = std::max(since(m_model_at, now), since(m_sample_at, now));
+  if (const HapticCapabilities* can = m_device->new_capabilities()) {
+    m_renderer.adapt(*can);
+    m_report.turns = can->turns;
+    m_report.grips = can->grips;
+  }
+  const double silence = m_device->may_push() ? std::max(since(m_model_at, now), since(m_sample_at, now)) : kGone;
   const HapticForce force = m_renderer.force(m_report.sample, m_model, silence);
   m_device->write(force);
   m_report.force = force.force;

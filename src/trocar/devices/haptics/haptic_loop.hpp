@@ -40,10 +40,11 @@ class Durations {
 /// Where the hand is, and what it feels.
 struct HandReport {
   HapticSample sample;
-  Vec3d force;            ///< on the device [N]
-  double share = 0;       ///< of the force that is let through
-  double damping = 0;     ///< that passivity asks for just now [N s/m]
-  std::int32_t lost = 0;  ///< 1: the device has not spoken for a while
+  Vec3d force;                        ///< on the device [N]
+  double share = 0;                   ///< of the force that is let through
+  double damping = 0;                 ///< that passivity asks for just now [N s/m]
+  std::int32_t lost = 0;              ///< 1: the device has not spoken for a while
+  std::int32_t turns = 0, grips = 0;  ///< 1: the device measures that, as far as it has said
 };
 
 class HapticLoop {

@@ -157,8 +157,7 @@ bool IgtlReader::read_status(const IgtlBody& body) {
   const unsigned code = unsigned(big_endian(body.content.first(2)));
   if (code == kStatusOk) return true;
   const std::string error = igtl_text(body.content.subspan(10, 20));
-  m_listener->unseen(
-      {whole_name(body.texts, m_header.device), error.empty() ? fmt::format("STATUS {}", code) : error});
+  m_listener->unseen({whole_name(body.texts, m_header.device), error.empty() ? fmt::format("STATUS {}", code) : error});
   return true;
 }
 

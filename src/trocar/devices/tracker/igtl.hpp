@@ -2,9 +2,9 @@
 // socket, so that tests and fuzzing hand it theirs.
 //
 // A message is a header of 58 bytes (version, type, device, time stamp, size, CRC-64, all big-endian) and a body.
-// TRANSFORM, POSITION (QTRANS), TDATA, QTDATA, SENSOR and STATUS are read, of version 1 and, with extended headers, of 2
-// and 3; other types are passed over without being stored. A stream cannot be found again once a header is unsound: then
-// it has ended, and who listens connects again.
+// TRANSFORM, POSITION (QTRANS), TDATA, QTDATA, SENSOR and STATUS are read, of version 1 and, with extended headers, of
+// 2 and 3; other types are passed over without being stored. A stream cannot be found again once a header is unsound:
+// then it has ended, and who listens connects again.
 //
 // A tool may not be seen: its server says so in a text (igtl_texts.hpp), by a STATUS of the tool's name, or sends the
 // exact identity, at which no tool is ever measured.

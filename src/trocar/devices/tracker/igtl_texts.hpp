@@ -1,6 +1,6 @@
 // What messages of version 2 and 3 carry beside their content: an extended header before it, and after it a table of
-// named texts (the protocol's metadata). Two of the texts matter here: whether a tool is seen, and a name that is longer
-// than the protocol's field.
+// named texts (the protocol's metadata). Two of the texts matter here: whether a tool is seen, and a name that is
+// longer than the protocol's field.
 #pragma once
 
 #include <utility>

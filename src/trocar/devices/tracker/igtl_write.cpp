@@ -6,8 +6,8 @@
 namespace trocar::devices {
 namespace {
 
-constexpr std::uint64_t kAscii = 3;      // how a text is written
-constexpr double kMillimetres = 1000;    // of a metre
+constexpr std::uint64_t kAscii = 3;    // how a text is written
+constexpr double kMillimetres = 1000;  // of a metre
 
 void put(std::vector<std::uint8_t>& out, std::uint64_t value, int bytes) {
   for (int i = bytes - 1; i >= 0; --i) out.push_back(std::uint8_t(value >> (8 * i)));

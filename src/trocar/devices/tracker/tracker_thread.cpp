@@ -15,7 +15,7 @@
 namespace trocar::devices {
 namespace {
 
-constexpr int kLookEvery = 50;  // whether it is over [ms]
+constexpr int kLookEvery = 50;                              // whether it is over [ms]
 constexpr auto kTryAgain = std::chrono::milliseconds(300);  // after every end and every refusal of a connection
 
 std::int64_t steady_now() {
@@ -34,8 +34,7 @@ TrackerThread::Heard<T>* place_of(std::map<std::string, TrackerThread::Heard<T>>
 /// The newest of each name.
 template <class T>
 void note(std::map<std::string, TrackerThread::Heard<T>>& all, const T& what) {
-  if (TrackerThread::Heard<T>* heard = place_of(all, what.name))
-    *heard = {what, steady_now(), heard->times + 1, {}};
+  if (TrackerThread::Heard<T>* heard = place_of(all, what.name)) *heard = {what, steady_now(), heard->times + 1, {}};
 }
 
 /// What is known of a tool that is not seen stays.

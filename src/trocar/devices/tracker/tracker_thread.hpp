@@ -1,5 +1,5 @@
-// The thread that listens to a tracker's server (OpenIGTLink over TCP), and connects again when it was gone: three times
-// a second at most, also where the server accepts and hangs up.
+// The thread that listens to a tracker's server (OpenIGTLink over TCP), and connects again when it was gone: three
+// times a second at most, also where the server accepts and hangs up.
 //
 //   TrackerThread tracker("127.0.0.1", 18944);        // throws core::EnvironmentLacks
 //   if (const auto seen = tracker.pose("Grasper")) ...  // any thread
@@ -34,7 +34,8 @@ class TrackerThread {
     std::uint64_t messages = 0, damaged = 0, connections = 0;
   };
 
-  /// Of that name, whole or as the protocol cuts it, the newest; nothing: none has come, or several are cut to the same.
+  /// Of that name, whole or as the protocol cuts it, the newest; nothing: none has come, or several are cut to the
+  /// same.
   std::optional<Heard<TrackedPose>> pose(const std::string& name) const;
   std::optional<Heard<SensorValues>> values(const std::string& name) const;
   std::vector<Heard<TrackedPose>> poses() const;

@@ -9,8 +9,8 @@
 namespace trocar::kinematics {
 namespace {
 
-constexpr double kNoLimit = 1e5;     // a limit beyond this is none [rad, m]
-constexpr double kRounding = 1e-3;   // of a range: files round angles
+constexpr double kNoLimit = 1e5;    // a limit beyond this is none [rad, m]
+constexpr double kRounding = 1e-3;  // of a range: files round angles
 
 struct Interval {
   double low = 0, high = 0;
@@ -55,10 +55,12 @@ std::string words(const Mechanism& m, const ExcludedRange& range) {
   const double unit = angle ? 180 / portable::pi : 1e3;
   std::string leaders;
   for (const int l : range.leaders) leaders += (leaders.empty() ? "" : ", ") + m.coordinates[std::size_t(l)];
-  return tr("{} follows {}, which leads it from {:.4g} to {:.4g} {}; its own limits are {:.4g} to {:.4g}. What is beyond "
-            "them cannot be reached: correct its limits, or its ratio (\"multiplier\").",
-            m.coordinates[q], leaders.empty() ? tr("nothing") : leaders, unit * range.low, unit * range.high,
-            angle ? tr("degrees") : tr("mm"), unit * m.low[q], unit * m.high[q]);
+  return tr(
+      "{} follows {}, which leads it from {:.4g} to {:.4g} {}; its own limits are {:.4g} to {:.4g}. It cannot go "
+      "beyond "
+      "them: correct its limits, or its ratio (\"multiplier\").",
+      m.coordinates[q], leaders.empty() ? tr("nothing") : leaders, unit * range.low, unit * range.high,
+      angle ? tr("degrees") : tr("mm"), unit * m.low[q], unit * m.high[q]);
 }
 
 }  // namespace trocar::kinematics

@@ -32,7 +32,10 @@ std::string_view without_blank(std::string_view text) {
 /// Past what stands before the first element; empty where that is nothing.
 std::string_view from_first_element(std::string_view text) {
   for (text = without_blank(without_mark(text)); !text.empty() && text[0] == '<'; text = without_blank(text)) {
-    const char* end = begins_with(text, "<?") ? "?>" : begins_with(text, "<!--") ? "-->" : begins_with(text, "<!") ? ">" : nullptr;
+    const char* end = begins_with(text, "<?")     ? "?>"
+                      : begins_with(text, "<!--") ? "-->"
+                      : begins_with(text, "<!")   ? ">"
+                                                  : nullptr;
     if (!end) return text;
     const std::size_t at = text.find(end);
     if (at == text.npos) return {};
@@ -52,7 +55,8 @@ bool is_yaml(std::string_view text) {
     const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
     text.remove_prefix(std::min(text.size(), line.size() + 1));
     if (line.find_first_not_of(kBlank) == line.npos || line[0] == '#') continue;
-    if (begins_with(line, "%yaml") || line == "---" || begins_with(line, "--- ") || begins_with(line, "- ")) return true;
+    if (begins_with(line, "%yaml") || line == "---" || begins_with(line, "--- ") || begins_with(line, "- "))
+      return true;
     const std::size_t colon = line.find(':');
     if (colon == line.npos || !is_letter(line[0])) return false;
     const bool plain = line.substr(0, colon).find_first_of("{}[]\",/<>") == line.npos;

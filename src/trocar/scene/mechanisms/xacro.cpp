@@ -12,7 +12,7 @@
 namespace trocar::scene {
 namespace {
 
-constexpr std::size_t kToldPlaces = 8;    // of what is left over
+constexpr std::size_t kToldPlaces = 8;  // of what is left over
 constexpr std::size_t kLongestShown = 60;
 
 bool ends_with(const std::string& text, const std::string& end) {
@@ -21,8 +21,11 @@ bool ends_with(const std::string& text, const std::string& end) {
 
 /// The command that expands the file.
 std::string remedy(const std::string& file) {
-  const std::string stem = file.substr(0, file.size() - (ends_with(file, ".xacro") ? 6 : ends_with(file, ".urdf") ? 5 : 0));
-  const std::string out = ends_with(stem, ".urdf") ? stem : stem + (ends_with(file, ".xacro") ? ".urdf" : "_expanded.urdf");
+  const std::string stem = file.substr(0, file.size() - (ends_with(file, ".xacro")  ? 6
+                                                         : ends_with(file, ".urdf") ? 5
+                                                                                    : 0));
+  const std::string out =
+      ends_with(stem, ".urdf") ? stem : stem + (ends_with(file, ".xacro") ? ".urdf" : "_expanded.urdf");
   return fmt::format("xacro {} -o {}", core::printable(file), core::printable(out));
 }
 
@@ -40,8 +43,8 @@ class XacroSearch {
           left({m_file, e.line, e.column}, fmt::format("<{}>", e.name));
     }
     if (m_count > kToldPlaces)
-      tell(m_faults, {{m_file, 0, 0}, tr("expected no xacro, got {} more of its elements and expressions",
-                                         m_count - kToldPlaces)});
+      tell(m_faults, {{m_file, 0, 0},
+                      tr("expected no xacro, got {} more of its elements and expressions", m_count - kToldPlaces)});
     return m_count > 0;
   }
 
@@ -63,7 +66,8 @@ class XacroSearch {
 
   void look(const XmlElement& e) {
     for (const XmlAttribute& a : e.attributes)
-      if (a.name.compare(0, 6, "xmlns:") == 0 && a.value.find("xacro") != a.value.npos) m_prefixes.insert(a.name.substr(6));
+      if (a.name.compare(0, 6, "xmlns:") == 0 && a.value.find("xacro") != a.value.npos)
+        m_prefixes.insert(a.name.substr(6));
     if (is_xacro(e.name)) return left({m_file, e.line, e.column}, fmt::format("<{}>", core::printable(e.name)));
     for (const XmlAttribute& a : e.attributes) {
       const bool expression = a.value.find("${") != a.value.npos;
