@@ -157,11 +157,11 @@ struct MonitorChoice {
 
 std::string line_text(const devices::BoxStatus& s, double age_ms) {
   return tr(
-      "{}  {:5.1f} blocks/s  {} blocks  {} missed ({:.2f} %)  {} bad  round trip {:.1f} ms ({:.1f} at "
-      "most)  newest {:.0f} ms old",
+      "{}  {:5.1f} blocks/s  {} blocks  {} missed ({:.2f} %)  {} bad  round trip {:.1f} ms ({:.1f} at most; since the "
+      "start 99.9 % within {:.1f}, longest {:.1f})  newest {:.0f} ms old",
       s.open ? "open " : "CLOSED", s.rate, s.counts.blocks, s.counts.missed, 100 * s.counts.missed_share(),
       s.counts.bad, 1000 * devices::box_seconds(s.counts.round_trip), 1000 * devices::box_seconds(s.longest_trip),
-      age_ms);
+      1000 * s.trip_p999, 1000 * s.trip_most, age_ms);
 }
 
 std::string table_text(const devices::BoxPose& pose, const devices::BoxWiring& wiring) {
@@ -205,6 +205,8 @@ Json status_json(const devices::BoxStatus& s, double age_ms) {
           {"bad", s.counts.bad},
           {"round_trip_ms", 1000 * devices::box_seconds(s.counts.round_trip)},
           {"round_trip_most_ms", 1000 * devices::box_seconds(s.longest_trip)},
+          {"round_trip_p999_ms", 1000 * s.trip_p999},
+          {"round_trip_longest_ms", 1000 * s.trip_most},
           {"age_ms", age_ms}};
 }
 
@@ -212,8 +214,7 @@ int monitor(const MonitorChoice& o, bool json) {
   devices::BoxWiring wiring = wiring_of(o.wiring, o.raw, o.framed, o.baud);
   const devices::ChannelMask mask = o.all ? devices::kAllBoxChannels : wiring.mask();
   const std::size_t bytes = wiring.raw ? devices::kRawBlockBytes : devices::data_size(mask);
-  const double most = 1 / devices::box_seconds(devices::time_on_line(bytes, wiring.baud));
-  wiring.rate = std::min(o.hz > 0 ? o.hz : wiring.rate, most);
+  wiring.rate = std::min(o.hz > 0 ? o.hz : wiring.rate, devices::most_blocks(bytes, wiring.baud));
   attempt::catch_interrupts();
   devices::BoxThread box(o.port, wiring, mask);
   const bool screen = !json && isatty(STDOUT_FILENO) != 0;

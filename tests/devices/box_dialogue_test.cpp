@@ -76,6 +76,30 @@ TEST(BoxDialogue, AllChannelsWithoutFramesKeepFiftyHertzOnlyBecauseRequestsOverl
   EXPECT_EQ(line.counts.bad, 0u);
 }
 
+TEST(BoxDialogue, ABlockTakesAtMostTwentyMillisecondsWithAsManyChannelsAsTheLineCarries) {
+  struct Case {
+    bool raw;
+    int baud;
+    ChannelMask mask;
+    double bound;  // [ms]
+  };
+  for (const Case& c : {Case{true, 38'400, kAllBoxChannels, 20}, Case{false, 38'400, (ChannelMask(1) << 44) - 1, 20},
+                        Case{false, 57'600, kAllBoxChannels, 15}, Case{false, 38'400, kAllBoxChannels, 21.6}}) {
+    Line line;
+    line.asks = {c.baud, 50, c.raw, c.mask};
+    line.answers.raw = c.raw;
+    line.answers.baud = c.baud;
+    const std::size_t bytes = c.raw ? kRawBlockBytes : data_size(c.mask);
+    line.asks.rate = std::min(50.0, most_blocks(bytes, c.baud));
+    line.run(60);
+    EXPECT_EQ(line.counts.missed, 0u);
+    double most = 0;
+    for (const BoxPacket& p : line.packets) most = std::max(most, 1000 * box_seconds(p.arrived - p.acquired));
+    EXPECT_LE(most, c.bound + 1e-6 * double(kStep)) << bytes << " bytes at " << c.baud << " Bd";
+    EXPECT_GT(most, 1000 * box_seconds(time_on_line(bytes, c.baud))) << "that is what the line alone takes";
+  }
+}
+
 TEST(BoxDialogue, AllChannelsWithFramesDoNotFitIntoFiftyHertz) {
   Line line;
   line.run(60);

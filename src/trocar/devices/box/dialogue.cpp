@@ -9,6 +9,7 @@ namespace {
 constexpr BoxTime kSilence = 25'000'000;
 constexpr BoxTime kTellAgain = 200'000'000;  // a CONFIG that had no effect
 constexpr int kLeap = 1024;                  // codes
+constexpr BoxTime kEarly = 1'000'000;        // a line may be so much faster than its name says
 
 }  // namespace
 
@@ -99,9 +100,19 @@ bool BoxDialogue::believed(const BoxBlock& block) noexcept {
   return true;
 }
 
+/// When the request was over that a raw block answers: the newest from which the line had time for it.
+BoxTime BoxDialogue::raw_asked(BoxTime now) const noexcept {
+  const BoxTime block = time_on_line(kRawBlockBytes, m_settings.baud), ask = time_on_line(1, m_settings.baud);
+  for (std::uint64_t n = m_number; n > 0 && n + m_asked.size() > m_number; --n) {
+    const BoxTime over = m_asked[n % m_asked.size()] + ask;
+    if (over + block <= now + kEarly) return std::min(now, over);
+  }
+  return now - block;
+}
+
 BoxPacket BoxDialogue::raw_packet(const BoxBlock& block, BoxTime now) noexcept {
   BoxPacket packet{block, kAllBoxChannels, 0, 0, false, 0, now};
-  packet.acquired = now - time_on_line(kRawBlockBytes, m_settings.baud);
+  packet.acquired = raw_asked(now);
   const BoxTime since = now - m_last_block;
   const auto blocks_ago = std::uint64_t(std::max<BoxTime>(1, (since + m_settings.period() / 2) / m_settings.period()));
   number(m_answered + (m_heard_any ? blocks_ago : 1), packet);

@@ -75,6 +75,7 @@ class BoxDialogue {
  private:
   BoxPacket packet(const DataFrame& frame, BoxTime now) noexcept;
   BoxPacket raw_packet(const BoxBlock& block, BoxTime now) noexcept;
+  BoxTime raw_asked(BoxTime now) const noexcept;
   bool believed(const BoxBlock& block) noexcept;
   template <class F>
   void raw(const BoxBlock& block, BoxTime now, F&& each) {

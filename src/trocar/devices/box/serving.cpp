@@ -2,6 +2,7 @@
 #include <thread>
 
 #include <trocar/devices/box/serving.hpp>
+#include <trocar/devices/real_time.hpp>
 
 namespace trocar::devices {
 namespace {
@@ -13,6 +14,7 @@ constexpr BoxTime kIdle = 20'000'000;
 
 void serve(SoftwareBox& box, PseudoTerminal& terminal, const std::function<bool()>& stop,
            const std::function<void(PortReader)>& changed) {
+  raise_priority();
   std::array<std::uint8_t, 256> in, out;
   PortReader reader = PortReader::none;
   const auto note = [&](PortReader now) {

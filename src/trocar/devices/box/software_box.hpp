@@ -21,7 +21,7 @@ struct SoftwareBoxSettings {
   bool raw = false;  ///< blocks without frames
   int baud = 38'400;
   double stream_rate = 0;    ///< blocks a second that it sends without being asked; 0: on request [1/s]
-  double turnaround = 2e-4;  ///< from a request to the first start bit, when the line is free [s]
+  double turnaround = 5e-5;  ///< from a request to the first start bit, when the line is free [s]
   double latency = 0;        ///< added to every byte, as adapters do [s]
   double noise = 0;          ///< of every channel, standard deviation [codes]
   double drop = 0;           ///< share of blocks that are not sent
