@@ -175,6 +175,26 @@ TEST(BoxDialogue, ABoxThatIsSwitchedOnAnewIsToldItsChannelsAnew) {
   EXPECT_EQ(packets.back().flags & kBoxFresh, 0);
 }
 
+TEST(BoxDialogue, AnswersThatNobodyAskedForAreNotBelieved) {
+  BoxDialogue dialogue({.mask = kTwentyFive});
+  int heard = 0;
+  std::array<std::uint8_t, kLongestData> out{};
+  const auto answer = [&](std::uint8_t seq, BoxTime now) {
+    const std::size_t size = write_data({hundredths(1), kTwentyFive, seq, 0}, out);
+    dialogue.hear(std::span(out).first(size), now, [&](const BoxPacket&) { ++heard; });
+  };
+  answer(1, 0);
+  EXPECT_EQ(heard, 0) << "before anything was asked";
+  static_cast<void>(dialogue.ask(1'000'000));  // with seq 1
+  answer(9, 2'000'000);
+  EXPECT_EQ(heard, 0) << "another one";
+  answer(1, 14'000'000);
+  answer(1, 15'000'000);
+  EXPECT_EQ(heard, 1) << "once";
+  EXPECT_EQ(dialogue.counts().blocks, 1u);
+  EXPECT_EQ(dialogue.counts().bad, 3u);
+}
+
 TEST(BoxDialogue, ABoxThatSendsByItselfIsCountedToo) {
   Line line;
   line.asks.mask = kTwentyFive;

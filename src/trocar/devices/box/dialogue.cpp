@@ -23,12 +23,13 @@ bool unlikely_after(const BoxBlock& before, const BoxBlock& now, ChannelMask mas
 BoxDialogue::BoxDialogue(const BoxDialogueSettings& settings)
     : m_settings(settings), m_silence(std::max(kSilence, 2 * time_on_line(kLongestData, settings.baud))) {
   if (!m_parser.expect(settings.mask)) m_settings.mask = kAllBoxChannels;
+  m_asked.fill(kNotAsked);
 }
 
 void BoxDialogue::begin() noexcept {
   m_parser.clear();
   m_raw.clear();
-  m_asked = {};
+  m_asked.fill(kNotAsked);
   m_number = m_answered = 0;
   m_heard_any = false;
   m_needs_config = true;
@@ -71,18 +72,22 @@ void BoxDialogue::number(std::uint64_t number, BoxPacket& packet) noexcept {
   m_counts.round_trip = packet.arrived - packet.acquired;
 }
 
-BoxPacket BoxDialogue::packet(const DataFrame& frame, BoxTime now) noexcept {
+/// Nothing: an answer to what is not asked for now, as of another program before.
+std::optional<BoxPacket> BoxDialogue::packet(const DataFrame& frame, BoxTime now) noexcept {
   BoxPacket packet{frame.block, frame.mask, 0, frame.flags, true, 0, now};
   m_needs_config = frame.mask != m_settings.mask || (frame.flags & kBoxFresh) != 0;
   packet.acquired = now - time_on_line(data_size(frame.mask), m_settings.baud);
   BoxTime& asked = m_asked[frame.seq];
   const bool answer = (frame.flags & kBoxStreams) == 0;
-  if (answer && asked != 0) packet.acquired = std::min(now, asked + time_on_line(kPollBytes, m_settings.baud));
-  asked = 0;
+  if (answer && asked == kNotAsked) {
+    ++m_unasked;
+    return {};
+  }
+  if (answer) packet.acquired = std::min(now, asked + time_on_line(kPollBytes, m_settings.baud));
+  asked = kNotAsked;
   // The newest poll with this seq; of a box that sends by itself, the block that follows the last one by as much.
   const std::uint64_t from = answer ? m_number : m_answered;
   const std::uint64_t number = answer ? from - ((from - frame.seq) & 15) : from + ((frame.seq - from) & 15);
-  if (answer && number > m_number) return packet;  // a seq that was never asked for: of no use for counting
   this->number(number, packet);
   return packet;
 }
@@ -121,7 +126,7 @@ BoxPacket BoxDialogue::raw_packet(const BoxBlock& block, BoxTime now) noexcept {
 
 BoxCounts BoxDialogue::counts() const noexcept {
   BoxCounts counts = m_counts;
-  counts.bad = m_settings.raw ? m_raw.counts().torn + m_unlikely : m_parser.counts().bad;
+  counts.bad = m_settings.raw ? m_raw.counts().torn + m_unlikely : m_parser.counts().bad + m_unasked;
   counts.skipped = m_parser.counts().skipped;
   return counts;
 }
