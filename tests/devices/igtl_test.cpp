@@ -229,6 +229,11 @@ TEST(Igtl, PositionsAndToolsWithQuaternionsAreRead) {
     EXPECT_NEAR(listener.poses[i].turned.m[1][0], std::sin(0.5), 1e-6) << "a turn by 0.5 rad about z";
   }
   EXPECT_EQ(listener.poses[2].turned.m[1][1], 1);
+  Octets none;
+  add_tool(none, "Left", 2, {8, 20, 30, 0, 0, 0, 0});
+  listener.hear(igtl_message("QTDATA", "Tracker", none));
+  EXPECT_EQ(listener.poses.size(), 3u);
+  EXPECT_EQ(listener.reader.damaged(), 1u) << "a quaternion of zeros is no rotation";
 }
 
 TEST(Igtl, ADamagedMessageIsLeftOutAndTheNextOneIsRead) {

@@ -45,6 +45,10 @@ TrackedPose pose_of_position(IgtlBytes bytes, std::string name) {
   const double x = double(float_at(bytes, 12)), y = double(float_at(bytes, 16)), z = double(float_at(bytes, 20));
   const double w =
       bytes.size() < 28 ? std::sqrt(std::max(0.0, 1 - x * x - y * y - z * z)) : double(float_at(bytes, 24));
+  if (!(std::fabs(x * x + y * y + z * z + w * w - 1) < 0.02)) {  // no rotation: sound() refuses it
+    pose.turned = Mat3d{};
+    return pose;
+  }
   pose.turned = Mat3d::from_columns({1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
                                     {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
                                     {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)});

@@ -35,7 +35,7 @@ class XacroSearch {
 
   bool find(const XmlElement& root) {
     if (ends_with(m_file, ".xacro")) {
-      left({m_file, root.line, root.column}, "a .xacro file");
+      left({m_file, root.line, root.column}, tr("a .xacro file"));
     } else {
       look(root);
       for (const XmlElement& e : root.children)  // as files before its namespace have it
