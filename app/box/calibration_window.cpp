@@ -53,7 +53,7 @@ std::vector<devices::BoxWiring> lines_to_try(const CalibrationOptions& o) {
 /// All channels go over the line: not more often than they fit.
 devices::BoxWiring paced(devices::BoxWiring line) {
   const std::size_t bytes = line.raw ? devices::kRawBlockBytes : devices::data_size(devices::kAllBoxChannels);
-  line.rate = std::min(line.rate, 1 / devices::box_seconds(devices::time_on_line(bytes, line.baud)));
+  line.rate = std::min(line.rate, devices::most_blocks(bytes, line.baud));
   return line;
 }
 

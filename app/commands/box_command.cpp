@@ -86,6 +86,17 @@ std::vector<sim::Input> inputs_of(const SimulateChoice& o, const attempt::Lesson
   });
 }
 
+/// What whoever reads the software box does, where it matters to its hands.
+void tell_of_reader(devices::PortReader before, devices::PortReader now, double seconds) {
+  using devices::PortReader;
+  if (now == PortReader::stopped)
+    core::log::warn("{}", tr("the program that reads the box has stopped asking: its hands wait at {:.1f} s", seconds));
+  else if (now == PortReader::asks && before == PortReader::stopped)
+    core::log::info("{}", tr("the program asks again: the hands resume at {:.1f} s", seconds));
+  else if (now == PortReader::none)
+    core::log::info("{}", tr("the port was closed at {:.1f} s: the hands restart with the next program", seconds));
+}
+
 int simulate(const SimulateChoice& o, bool json) {
   const devices::BoxWiring wiring = wiring_of(o.wiring, o.raw, o.framed, o.baud);
   if (o.exercise.empty() && (!o.motion.empty() || !o.replay.empty() || o.wave))
@@ -121,7 +132,13 @@ int simulate(const SimulateChoice& o, bool json) {
                  : tr("box at {} ({}), frames at {} Bd; Ctrl-C ends it\n", o.port, terminal.name(), wiring.baud));
   std::fflush(json ? stderr : stdout);
   const BoxTime end = o.seconds > 0 ? devices::box_now() + devices::box_time(o.seconds) : INT64_MAX;
-  devices::serve(box, terminal, [end] { return attempt::interrupted() || devices::box_now() >= end; });
+  devices::PortReader reader = devices::PortReader::none;
+  devices::serve(
+      box, terminal, [end] { return attempt::interrupted() || devices::box_now() >= end; },
+      [&](devices::PortReader now) {
+        tell_of_reader(reader, now, box.seconds());
+        reader = now;
+      });
   if (json)
     print({{"port", o.port}, {"sent", box.sent()}, {"dropped", box.dropped()}});
   else
@@ -140,11 +157,11 @@ struct MonitorChoice {
 
 std::string line_text(const devices::BoxStatus& s, double age_ms) {
   return tr(
-      "{}  {:5.1f} blocks/s  {} blocks  {} missed ({:.2f} %)  {} bad  round trip {:.1f} ms ({:.1f} at "
-      "most)  newest {:.0f} ms old",
+      "{}  {:5.1f} blocks/s  {} blocks  {} missed ({:.2f} %)  {} bad  round trip {:.1f} ms ({:.1f} at most; since the "
+      "start 99.9 % within {:.1f}, longest {:.1f})  newest {:.0f} ms old",
       s.open ? "open " : "CLOSED", s.rate, s.counts.blocks, s.counts.missed, 100 * s.counts.missed_share(),
       s.counts.bad, 1000 * devices::box_seconds(s.counts.round_trip), 1000 * devices::box_seconds(s.longest_trip),
-      age_ms);
+      1000 * s.trip_p999, 1000 * s.trip_most, age_ms);
 }
 
 std::string table_text(const devices::BoxPose& pose, const devices::BoxWiring& wiring) {
@@ -188,6 +205,8 @@ Json status_json(const devices::BoxStatus& s, double age_ms) {
           {"bad", s.counts.bad},
           {"round_trip_ms", 1000 * devices::box_seconds(s.counts.round_trip)},
           {"round_trip_most_ms", 1000 * devices::box_seconds(s.longest_trip)},
+          {"round_trip_p999_ms", 1000 * s.trip_p999},
+          {"round_trip_longest_ms", 1000 * s.trip_most},
           {"age_ms", age_ms}};
 }
 
@@ -195,8 +214,7 @@ int monitor(const MonitorChoice& o, bool json) {
   devices::BoxWiring wiring = wiring_of(o.wiring, o.raw, o.framed, o.baud);
   const devices::ChannelMask mask = o.all ? devices::kAllBoxChannels : wiring.mask();
   const std::size_t bytes = wiring.raw ? devices::kRawBlockBytes : devices::data_size(mask);
-  const double most = 1 / devices::box_seconds(devices::time_on_line(bytes, wiring.baud));
-  wiring.rate = std::min(o.hz > 0 ? o.hz : wiring.rate, most);
+  wiring.rate = std::min(o.hz > 0 ? o.hz : wiring.rate, devices::most_blocks(bytes, wiring.baud));
   attempt::catch_interrupts();
   devices::BoxThread box(o.port, wiring, mask);
   const bool screen = !json && isatty(STDOUT_FILENO) != 0;

@@ -17,6 +17,8 @@ namespace {
 
 using devices::TrackerThread;
 
+constexpr double kUnseenMs = 500;  // as in an attempt
+
 struct TrackerChoice {
   std::string place;
   double seconds = 0;
@@ -27,14 +29,26 @@ std::int64_t steady_nanoseconds() {
       .count();
 }
 
+double age_ms(const TrackerThread::Heard<devices::TrackedPose>& tool) {
+  return 1e-6 * double(steady_nanoseconds() - tool.at);
+}
+bool is_seen(const TrackerThread::Heard<devices::TrackedPose>& tool) {
+  return tool.times > 0 && tool.unseen.empty() && age_ms(tool) < kUnseenMs;
+}
+
+Json tool_json(const TrackerThread::Heard<devices::TrackedPose>& tool) {
+  Json out{{"seen", is_seen(tool)}, {"times", tool.times}};
+  if (!tool.unseen.empty()) out["status"] = tool.unseen;
+  if (tool.times == 0) return out;
+  const Vec3d at = tool.what.place;
+  out["at_mm"] = {1000 * at.x, 1000 * at.y, 1000 * at.z};
+  out["age_ms"] = age_ms(tool);
+  return out;
+}
+
 Json seen_json(const TrackerThread& tracker) {
   Json tools = Json::object(), sensors = Json::object();
-  for (const auto& heard : tracker.poses()) {
-    const Vec3d at = heard.what.place;
-    tools[heard.what.name] = {{"at_mm", {1000 * at.x, 1000 * at.y, 1000 * at.z}},
-                              {"age_ms", 1e-6 * double(steady_nanoseconds() - heard.at)},
-                              {"times", heard.times}};
-  }
+  for (const auto& heard : tracker.poses()) tools[heard.what.name] = tool_json(heard);
   for (const auto& heard : tracker.all_values()) sensors[heard.what.name] = heard.what.values;
   const TrackerThread::Status status = tracker.status();
   return {{"connected", status.connected},
@@ -44,14 +58,26 @@ Json seen_json(const TrackerThread& tracker) {
           {"sensors", sensors}};
 }
 
+void show_tool(const TrackerThread::Heard<devices::TrackedPose>& tool) {
+  const std::string& name = tool.what.name;
+  const double age = age_ms(tool);
+  if (is_seen(tool)) {
+    fmt::print("{}", tr("  {:20} {:9.1f} {:9.1f} {:9.1f} mm  {:5.0f} ms old  {} times\n", name,
+                        1000 * tool.what.place.x, 1000 * tool.what.place.y, 1000 * tool.what.place.z, age, tool.times));
+  } else if (tool.times == 0) {
+    fmt::print("{}", tr("  {:20} not seen ({})\n", name, tool.unseen));
+  } else if (tool.unseen.empty()) {
+    fmt::print("{}", tr("  {:20} not seen for {:.1f} s\n", name, 1e-3 * age));
+  } else {
+    fmt::print("{}", tr("  {:20} not seen for {:.1f} s ({})\n", name, 1e-3 * age, tool.unseen));
+  }
+}
+
 void show_seen(const TrackerThread& tracker) {
   const TrackerThread::Status status = tracker.status();
   fmt::print("{}", status.connected ? tr("connected  {} messages, {} damaged\n", status.messages, status.damaged)
                                     : tr("GONE  {} messages, {} damaged\n", status.messages, status.damaged));
-  for (const auto& heard : tracker.poses())
-    fmt::print("{}", tr("  {:20} {:9.1f} {:9.1f} {:9.1f} mm  {:5.0f} ms old  {} times\n", heard.what.name,
-                        1000 * heard.what.place.x, 1000 * heard.what.place.y, 1000 * heard.what.place.z,
-                        1e-6 * double(steady_nanoseconds() - heard.at), heard.times));
+  for (const auto& heard : tracker.poses()) show_tool(heard);
   for (const auto& heard : tracker.all_values()) {
     fmt::print("  {:20}", heard.what.name);
     for (const double value : heard.what.values) fmt::print(" {:9.3f}", value);
@@ -72,9 +98,10 @@ int monitor_tracker(const TrackerChoice& o, bool json) {
       show_seen(tracker);
     if (std::fflush(stdout) != 0) break;  // nobody reads any more
   }
-  if (tracker.status().messages == 0)
+  if (tracker.poses().empty() && tracker.all_values().empty())
     throw core::EnvironmentLacks(
-        tr("nothing that can be read came from {}: does it send TRANSFORM, POSITION or TDATA (OpenIGTLink)?", o.place));
+        tr("nothing that can be read came from {}: does it send TRANSFORM, POSITION, TDATA or QTDATA (OpenIGTLink)?",
+           o.place));
   return core::kDone;
 }
 

@@ -104,8 +104,7 @@ class RoomWindow {
 
   void show_time() {
     if (m_report.steps.empty()) return;
-    const auto k = std::min(m_report.steps.size() - 1, std::size_t(m_time / kPlayedEvery + 0.5));
-    m_pose = m_report.steps[k].pose;
+    m_pose = step_at(m_report, m_time).pose;
     stand();
   }
 

@@ -98,6 +98,14 @@ TEST_F(Check, TellsWhatDevicesLead) {
   EXPECT_EQ(checked("inputs/tracker.json", core::kDone)["leads"].size(), 3u);
 }
 
+TEST_F(Check, ATrackersNameThatTheProtocolCutsIsAWarning) {
+  replace("inputs/tracker.json", "\"RightToReference\"", "\"RightGrasperTipToReference\"");
+  const Json r = checked("inputs/tracker.json", core::kDone);
+  EXPECT_EQ(r["verdict"], "to mend");
+  ASSERT_EQ(r["warnings"].size(), 1u);
+  EXPECT_NE(r["warnings"][0].get<std::string>().find("\"RightGrasperTipToRef\""), std::string::npos) << r["warnings"];
+}
+
 TEST_F(Check, AnOrganOfPouchesAloneIsAnOrgan) {
   EXPECT_EQ(checked("organs/gallbladder_free.json", core::kDone)["kind"], "organ");
 }

@@ -1,5 +1,7 @@
 // `trocar mechanism`: poses and workspaces as scripts ask for them, and what it says of faults.
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -105,6 +107,84 @@ TEST(Mechanism, AnInternalCollisionIsToldAndOptimisedAway) {
   EXPECT_GE(after.json()["after"]["least_mm"], 0.1);
   EXPECT_GE(after.json()["range_share"], 0.95);
   EXPECT_TRUE(std::ifstream(folder + "/index.html").good());
+}
+
+/// An instrument with 16 mm of jaws around a mechanism's file beside it.
+std::string instrument_around(const std::filesystem::path& folder, const std::string& mechanism) {
+  const std::filesystem::path file = folder / "mine.json";
+  std::ofstream(file) << R"({"format": 1, "name": "mine", "title": "Mine", "kind": "grasper", "shaft_diameter_mm": 5,
+ "shaft_length_mm": 310, "jaw_length_mm": 16, "jaw_width_mm": 4, "jaw_thickness_mm": 1.8, "mechanism": ")"
+                      << mechanism << R"(", "pinch_max_N": 20, "friction": 1.67})";
+  return file.string();
+}
+
+TEST(Mechanism, AnOptimisedGrasperClosesAndAnInstrumentTakesIt) {
+  const std::filesystem::path folder = testing::TempDir() + "trocar_optimised";
+  std::filesystem::create_directories(folder);
+  const std::string optimised = (folder / "optimised.json").string();
+  const Outcome o =
+      trocar({"mechanism", "colliding_grasper", "optimise", "--clearance-um", "100", "--output", optimised});
+  ASSERT_EQ(o.exit, 0) << o.out << o.err;
+  EXPECT_NE(o.out.find("with handle at 1 it ends 0.0"), std::string::npos) << o.out;
+  const Outcome closed = trocar({"mechanism", optimised, "pose", "--drive", "handle=1", "--json"});
+  ASSERT_EQ(closed.exit, 0) << closed.err;
+  EXPECT_NEAR(coordinate(closed.json(), "jaw_upper"), 0, 0.3);
+  EXPECT_EQ(trocar({"mechanism", optimised, "clearance"}).exit, 0);
+  EXPECT_EQ(trocar({"check", optimised}).exit, 0);
+  EXPECT_EQ(trocar({"check", instrument_around(folder, "optimised.json")}).exit, 0);
+}
+
+TEST(Mechanism, AnInstrumentWhoseJawsDoNotMeetIsAFaultOfItsOwnFile) {
+  const std::filesystem::path folder = testing::TempDir() + "trocar_open_jaws";
+  std::filesystem::create_directories(folder);
+  std::ifstream in(TROCAR_SOURCE_DIR "/scenes/mechanisms/colliding_grasper.json");
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string shut = "\"rod_shut\", \"length_mm\": 8.377";
+  ASSERT_NE(text.find(shut), std::string::npos);
+  text.replace(text.find(shut), shut.size(), "\"rod_shut\", \"length_mm\": 8.2");
+  std::ofstream(folder / "open.json") << text;
+  const Outcome o = trocar({"check", instrument_around(folder, "open.json")});
+  EXPECT_EQ(o.exit, 2);
+  EXPECT_NE(o.err.find("expected jaws that meet when the handle is closed"), std::string::npos) << o.err;
+}
+
+TEST(Mechanism, ARingThatIsReleasedSwingsAndKeepsItsEnergy) {
+  const std::string table = testing::TempDir() + "trocar_motion.csv";
+  const Outcome o = trocar({"mechanism", "bricard", "motion", "--seconds", "0.5", "--data", table, "--json"});
+  ASSERT_EQ(o.exit, 0) << o.out << o.err;
+  const Json motion = o.json();
+  EXPECT_EQ(motion["steps"], 1000);
+  EXPECT_GT(motion["most_kinetic_J"], 0);
+  EXPECT_LT(motion["energy_off_J"], 1e-6);
+  std::ifstream in(table);
+  std::size_t lines = 0;
+  for (std::string line; std::getline(in, line);) ++lines;
+  EXPECT_EQ(lines, 1002u) << "a head, the start, and every step";
+  EXPECT_EQ(trocar({"mechanism", "bricard", "motion", "--seconds", "100", "--step-ms", "0.01"}).exit, 2);
+}
+
+TEST(Mechanism, CheckWarnsOfAMimickedJointThatCannotFollow) {
+  const std::string path = testing::TempDir() + "trocar_mimic.urdf";
+  std::ofstream(path) << R"(<robot name="jaws"><link name="base"/><link name="l"/><link name="r"/>
+<joint name="jaw_l" type="revolute"><parent link="base"/><child link="l"/><limit lower="0" upper="0.5"/></joint>
+<joint name="jaw_r" type="revolute"><parent link="base"/><child link="r"/><limit lower="0" upper="0.5"/>
+<mimic joint="jaw_l" multiplier="-1"/></joint></robot>)";
+  const Outcome o = trocar({"check", path});
+  EXPECT_EQ(o.exit, 0) << o.err;
+  EXPECT_NE(o.out.find("mechanism, to mend"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("warning: "), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("jaw_r follows jaw_l, which leads it from -28.65 to 0 degrees"), std::string::npos) << o.out;
+}
+
+TEST(Mechanism, CheckNamesXacroAndYamlWithTheRemedy) {
+  const std::string xacro = testing::TempDir() + "arm.urdf.xacro", yaml = testing::TempDir() + "network.yml";
+  std::ofstream(xacro) << "<robot name=\"arm\"><link name=\"base\"/></robot>";
+  std::ofstream(yaml) << "project name: cca\nnetwork:\n  - label: cca\n";
+  const Outcome o = trocar({"check", xacro, yaml});
+  EXPECT_EQ(o.exit, 2);
+  EXPECT_NE(o.err.find("Expand it: xacro "), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("network.yml:1:1: expected JSON, got YAML"), std::string::npos) << o.err;
+  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 2) << o.err;
 }
 
 TEST(Mechanism, WrongWordsOfAStudyExitWithTwo) {

@@ -7,6 +7,7 @@
 #include <trocar/attempt/box/box_file.hpp>
 #include <trocar/attempt/box/box_playback.hpp>
 #include <trocar/attempt/box/box_source.hpp>
+#include <trocar/attempt/catch_up.hpp>
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/core/error.hpp>
 
@@ -166,7 +167,7 @@ TEST(BoxLeader, FromWhereTheyArePlacedInstrumentsGoToTheHandsNoFasterThanStated)
   float before = scene().model.start.tools[0].depth;
   for (int i = 0; i < 400; ++i) {
     const float depth = led.rest(far, 1).tools[0].depth;
-    EXPECT_LE(std::abs(depth - before), BoxLeader::kCatchSpeed * 0.001 + 1e-7);
+    EXPECT_LE(std::abs(depth - before), kCatchSpeed * 0.001 + 1e-7);
     before = depth;
   }
   EXPECT_NEAR(led.rest(far, 400).tools[0].depth, far.tools[0].depth, 0.0002);

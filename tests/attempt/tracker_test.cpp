@@ -1,13 +1,17 @@
 // Tools that a tracker sees lead instruments and the camera; their file; what happens when the tracker is gone.
+#include <atomic>
 #include <chrono>
 #include <fstream>
+#include <memory>
 #include <sstream>
+#include <thread>
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <trocar/attempt/catch_up.hpp>
 #include <trocar/attempt/sources.hpp>
 #include <trocar/attempt/tracker/tracked_source.hpp>
 #include <trocar/core/error.hpp>
@@ -201,6 +205,117 @@ TEST(TrackedSource, AToolThatIsHiddenStopsTimeUntilItIsSeenAgain) {
   EXPECT_NE(source.waits_for().find("not visible"), std::string::npos) << source.waits_for();
   tracker.say(pose);
   EXPECT_TRUE(before_long([&] { return source.ready(); }));
+}
+
+/// A source whose one tool is the camera's, seen once where the scene has it.
+struct SeenScope {
+  explicit SeenScope(const std::string& name = "Scope") {
+    plan.file = "tracker.json", plan.address = "127.0.0.1", plan.port = tracker.port;
+    plan.tools = {{"camera", name, {}, {}}};
+    source = std::make_unique<TrackedSource>(rest, model, plan);
+    tracker.take_call();
+  }
+  kinematics::FulcrumPose start() const { return sim::pose_of(model.start.scope); }
+  devices::TrackedPose at(const std::string& name, double yaw) const {
+    kinematics::FulcrumPose pose = start();
+    pose.yaw += yaw;
+    return tool_at(name, model.scope.port, pose);
+  }
+  bool ready_before_long() {
+    return before_long([&] { return source->ready(); });
+  }
+  FakeTracker tracker;
+  const sim::Model& model = gynaecology().model;
+  TrackerPlan plan;
+  RestingSource rest{model};
+  std::unique_ptr<TrackedSource> source;
+};
+
+TEST(TrackedSource, AToolThatItsServerCallsMissingStopsTimeAndMovesNothing) {
+  SeenScope seen;
+  seen.tracker.say(devices::igtl_transform(seen.at("Scope", 0), 2, {{"TransformStatus", "OK"}}));
+  ASSERT_TRUE(seen.ready_before_long()) << seen.source->waits_for();
+  const sim::State state = sim::initial_state(seen.model);
+  sim::Input input;
+  const auto still_there = [&] {
+    seen.source->next(state, input);
+    return std::abs(double(input.scope.yaw) - seen.start().yaw) < 1e-6;
+  };
+  ASSERT_TRUE(still_there());
+  const auto missing = devices::igtl_transform({"Scope", {}, Mat3d::identity()}, 2, {{"TransformStatus", "MISSING"}});
+  ASSERT_TRUE(before_long([&] {
+    seen.tracker.say(missing);
+    EXPECT_TRUE(still_there()) << input.scope.yaw;
+    return !seen.source->ready();
+  })) << "it is sent on and on, and is not seen";
+  EXPECT_NE(seen.source->waits_for().find("Scope is not visible (MISSING)"), std::string::npos)
+      << seen.source->waits_for();
+}
+
+TEST(TrackedSource, AToolThatIsSeenAgainElsewhereIsGoneAfterSlowly) {
+  SeenScope seen;
+  seen.tracker.say(devices::igtl_transform(seen.at("Scope", 0)));
+  ASSERT_TRUE(seen.ready_before_long());
+  const sim::State state = sim::initial_state(seen.model);
+  sim::Input input;
+  ASSERT_TRUE(seen.source->next(state, input));
+  ASSERT_TRUE(before_long([&] { return !seen.source->ready(); }));
+  seen.tracker.say(devices::igtl_transform(seen.at("Scope", 0.3)));
+  ASSERT_TRUE(seen.ready_before_long());
+  float before = input.scope.yaw;
+  int ticks = 0;
+  for (; ticks < 2000 && std::abs(double(input.scope.yaw) - seen.start().yaw - 0.3) > 1e-3; ++ticks) {
+    seen.source->next(state, input);
+    ASSERT_LE(std::abs(input.scope.yaw - before), 1.5f * float(kCatchTurn) * float(core::kTick)) << ticks;
+    before = input.scope.yaw;
+  }
+  EXPECT_GE(ticks, 290) << "0.3 rad at 1 rad/s";
+  EXPECT_LT(ticks, 600);
+}
+
+TEST(TrackedSource, ALongNameIsRecognisedAsTheProtocolCutsIt) {
+  const std::string whole = "EndoscopeTipToReference";
+  SeenScope seen(whole);
+  seen.tracker.say(devices::igtl_transform(seen.at(whole, 0)));  // cut by the protocol's field
+  EXPECT_TRUE(seen.ready_before_long()) << seen.source->waits_for();
+  SeenScope wrong("Another");
+  wrong.tracker.say(devices::igtl_transform(wrong.at("Scope", 0)));
+  EXPECT_TRUE(before_long([&] {
+    return wrong.source->waits_for().find("the tracker sends Scope") != std::string::npos;
+  })) << wrong.source->waits_for();
+}
+
+TEST(TrackedSource, ToolsWhoseNamesAreCutToTheSameAreRefusedWithTheRemedy) {
+  FakeTracker tracker;
+  const sim::Model& model = gynaecology().model;
+  TrackerPlan plan;
+  plan.address = "127.0.0.1", plan.port = tracker.port;
+  plan.tools = {{"camera", "InstrumentTipToReferenceA", {}, {}},
+                {model.hands[0].name, "InstrumentTipToReferenceB", {}, {}}};
+  EXPECT_EQ(warnings_of(plan).size(), 3u) << "two are long, and both begin alike";
+  RestingSource rest(model);
+  TrackedSource source(rest, model, plan);
+  tracker.take_call();
+  tracker.say(
+      devices::igtl_transform(tool_at("InstrumentTipToReferenceA", model.scope.port, sim::pose_of(model.start.scope))));
+  EXPECT_TRUE(before_long([&] { return source.waits_for().find("Shorten one") != std::string::npos; }))
+      << source.waits_for();
+  EXPECT_FALSE(source.ready());
+}
+
+TEST(TrackerThread, AServerThatHangsUpIsCalledThreeTimesASecondAtMost) {
+  FakeTracker tracker;
+  devices::TrackerThread thread("127.0.0.1", tracker.port);
+  std::atomic<bool> over{false};
+  std::thread server([&] {
+    while (!over) tracker.take_call(), tracker.hang_up();
+  });
+  std::this_thread::sleep_for(1500ms);
+  const std::uint64_t calls = thread.status().connections;
+  EXPECT_GE(calls, 2u);
+  EXPECT_LE(calls, 7u);
+  over = true;  // the next call ends the server's loop
+  server.join();
 }
 
 TEST(TrackedSource, TwoToolsCannotLeadTheSame) {

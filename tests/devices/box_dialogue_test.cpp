@@ -76,6 +76,30 @@ TEST(BoxDialogue, AllChannelsWithoutFramesKeepFiftyHertzOnlyBecauseRequestsOverl
   EXPECT_EQ(line.counts.bad, 0u);
 }
 
+TEST(BoxDialogue, ABlockTakesAtMostTwentyMillisecondsWithAsManyChannelsAsTheLineCarries) {
+  struct Case {
+    bool raw;
+    int baud;
+    ChannelMask mask;
+    double bound;  // [ms]
+  };
+  for (const Case& c : {Case{true, 38'400, kAllBoxChannels, 20}, Case{false, 38'400, (ChannelMask(1) << 44) - 1, 20},
+                        Case{false, 57'600, kAllBoxChannels, 15}, Case{false, 38'400, kAllBoxChannels, 21.6}}) {
+    Line line;
+    line.asks = {c.baud, 50, c.raw, c.mask};
+    line.answers.raw = c.raw;
+    line.answers.baud = c.baud;
+    const std::size_t bytes = c.raw ? kRawBlockBytes : data_size(c.mask);
+    line.asks.rate = std::min(50.0, most_blocks(bytes, c.baud));
+    line.run(60);
+    EXPECT_EQ(line.counts.missed, 0u);
+    double most = 0;
+    for (const BoxPacket& p : line.packets) most = std::max(most, 1000 * box_seconds(p.arrived - p.acquired));
+    EXPECT_LE(most, c.bound + 1e-6 * double(kStep)) << bytes << " bytes at " << c.baud << " Bd";
+    EXPECT_GT(most, 1000 * box_seconds(time_on_line(bytes, c.baud))) << "that is what the line alone takes";
+  }
+}
+
 TEST(BoxDialogue, AllChannelsWithFramesDoNotFitIntoFiftyHertz) {
   Line line;
   line.run(60);
@@ -151,6 +175,26 @@ TEST(BoxDialogue, ABoxThatIsSwitchedOnAnewIsToldItsChannelsAnew) {
   EXPECT_EQ(packets.back().flags & kBoxFresh, 0);
 }
 
+TEST(BoxDialogue, AnswersThatNobodyAskedForAreNotBelieved) {
+  BoxDialogue dialogue({.mask = kTwentyFive});
+  int heard = 0;
+  std::array<std::uint8_t, kLongestData> out{};
+  const auto answer = [&](std::uint8_t seq, BoxTime now) {
+    const std::size_t size = write_data({hundredths(1), kTwentyFive, seq, 0}, out);
+    dialogue.hear(std::span(out).first(size), now, [&](const BoxPacket&) { ++heard; });
+  };
+  answer(1, 0);
+  EXPECT_EQ(heard, 0) << "before anything was asked";
+  static_cast<void>(dialogue.ask(1'000'000));  // with seq 1
+  answer(9, 2'000'000);
+  EXPECT_EQ(heard, 0) << "another one";
+  answer(1, 14'000'000);
+  answer(1, 15'000'000);
+  EXPECT_EQ(heard, 1) << "once";
+  EXPECT_EQ(dialogue.counts().blocks, 1u);
+  EXPECT_EQ(dialogue.counts().bad, 3u);
+}
+
 TEST(BoxDialogue, ABoxThatSendsByItselfIsCountedToo) {
   Line line;
   line.asks.mask = kTwentyFive;
@@ -185,6 +229,33 @@ TEST(SoftwareBox, ByRequestsItsMotionIsTheSameHoweverLongTheyTake) {
     line.run(100 / rate);
     ASSERT_GE(line.packets.size(), 98u);
     for (std::size_t i = 0; i < 98; ++i) EXPECT_EQ(line.packets[i].block.digital, 2 * i) << rate;
+  }
+}
+
+TEST(SoftwareBox, ItsMotionWaitsWhileWhoReadsHasStopped) {
+  for (const double per_request : {0.0, 0.02}) {
+    SoftwareBox box({.per_request = per_request}, hundredths);
+    BoxDialogue dialogue({.mask = kTwentyFive});
+    std::vector<std::uint32_t> heard;
+    std::array<std::uint8_t, 64> bytes;
+    const BoxTime period = dialogue.settings().period(), stopped = box_time(4);
+    BoxTime due = 0, break_at = box_time(2);
+    for (BoxTime now = 0; now < box_time(8); now += kStep) {
+      if (now >= due) {
+        box.hear(dialogue.ask(now), now);
+        due += period;
+        if (now >= break_at) due = now + stopped, break_at = box_time(100);  // as by SIGSTOP
+      }
+      const std::size_t count = box.due(now, bytes);
+      dialogue.hear(std::span(bytes).first(count), now, [&](const BoxPacket& p) { heard.push_back(p.block.digital); });
+      EXPECT_EQ(box.waits(now), now > box_time(2.5) && now < box_time(6)) << now;
+    }
+    ASSERT_GT(heard.size(), 150u);
+    for (std::size_t i = 1; i < heard.size(); ++i) {
+      ASSERT_GE(heard[i], heard[i - 1]) << "it does not begin again";
+      ASSERT_LE(heard[i], heard[i - 1] + 5) << "and has not gone on meanwhile";
+    }
+    EXPECT_GT(heard.back(), 350u) << "and goes on afterwards";
   }
 }
 

@@ -1,6 +1,7 @@
 // The box at a port: a pseudo-terminal with a software box behind it, plugged in and out.
 #include <atomic>
 #include <filesystem>
+#include <mutex>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -117,6 +118,36 @@ TEST_F(BoxPort, UnpluggedAndPluggedInAgainItGoesOn) {
   EXPECT_TRUE(box.status().open);
   EXPECT_GE(box.status().opened, 2u);
   EXPECT_EQ(pose.wired, (1u << 25) - 1) << "it was told its channels anew";
+}
+
+TEST_F(BoxPort, WhoServesIsToldWhenTheReaderStopsComesBackAndGoes) {
+  PseudoTerminal terminal(port);
+  SoftwareBox box({}, still);
+  std::mutex lock;
+  std::vector<PortReader> told;
+  std::atomic<bool> stop{false};
+  std::thread server([&] {
+    serve(
+        box, terminal, [&] { return stop.load(); },
+        [&](PortReader reader) {
+          const std::lock_guard guard(lock);
+          told.push_back(reader);
+        });
+  });
+  {
+    SerialPort host = SerialPort::open(port, 38'400);
+    std::array<std::uint8_t, kPollBytes> poll{};
+    write_poll(1, poll);
+    host.write(poll);
+    std::this_thread::sleep_for(800ms);
+    write_poll(2, poll);
+    host.write(poll);
+    std::this_thread::sleep_for(100ms);
+  }
+  std::this_thread::sleep_for(200ms);
+  stop = true;
+  server.join();
+  EXPECT_EQ(told, (std::vector<PortReader>{PortReader::asks, PortReader::stopped, PortReader::asks, PortReader::none}));
 }
 
 TEST_F(BoxPort, AHostThatComesBackFindsTheBox) {

@@ -1,6 +1,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <memory>
 #include <thread>
 
 #include <arpa/inet.h>
@@ -140,6 +141,73 @@ TEST(Seam, WithoutAProgramItSaysWhatToDo) {
   } catch (const core::EnvironmentLacks& lacks) {
     EXPECT_NE(std::string(lacks.what()).find("start the program"), std::string::npos) << lacks.what();
   }
+}
+
+namespace {
+
+/// A device that presses 10 mm deep into a floor, 1000 times a second, and hears what it is pushed with.
+struct Presser {
+  explicit Presser(SeamDevice& device) : link(device.port()) {}
+  void state(double force_max) {
+    HapticCapabilities can;
+    can.force_max = force_max;
+    can.own_damping = 3;
+    std::array<std::uint8_t, kAbilityBytes> bytes;
+    write_abilities(bytes, can);
+    link.say(bytes);
+  }
+  /// @return the greatest force that was heard meanwhile
+  double press(HapticLoop* loop, double seconds) {
+    LocalModel floor;
+    floor.plane[0] = {{0, 0, 0}, {0, 0, 1}};
+    floor.planes = 1;
+    floor.stiffness = 400;
+    double most = 0;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    for (; std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
+      link.say(at(-0.01, ++number));
+      if (loop) loop->put(floor);
+      std::uint32_t answered = 0;
+      while (const std::optional<HapticForce> force = link.hear(answered)) most = std::max(most, length(force->force));
+    }
+    return most;
+  }
+  Link link;
+  std::uint32_t number = 0;
+};
+
+/// An open device whose program has sent samples and no abilities.
+std::unique_ptr<SeamDevice> opened(std::unique_ptr<Presser>& presser) {
+  auto device = std::make_unique<SeamDevice>(0, 1);
+  device->bind();
+  presser = std::make_unique<Presser>(*device);
+  presser->press(nullptr, 0.02);
+  device->open();
+  return device;
+}
+
+}  // namespace
+
+TEST(Seam, AWeakDeviceThatSaysSoAfterItsFirstSamplesIsHeard) {
+  std::unique_ptr<Presser> presser;
+  HapticLoop loop(opened(presser));
+  EXPECT_EQ(presser->press(&loop, 0.1), 0) << "what it bears is not known yet";
+  presser->state(0.1);
+  const double most = presser->press(&loop, 0.5);
+  EXPECT_LE(most, 0.1 + 1e-9);
+  EXPECT_GT(most, 0.05);
+}
+
+TEST(Seam, ADeviceThatNeverSaysWhatItCanIsTakenForAModestOneAfterHalfASecond) {
+  std::unique_ptr<Presser> presser;
+  HapticLoop loop(opened(presser));
+  EXPECT_EQ(presser->press(&loop, 0.2), 0);
+  const double most = presser->press(&loop, 0.9);
+  EXPECT_GT(most, 1);
+  EXPECT_LE(most, 3 + 1e-9);
+  presser->state(0.1);
+  presser->press(&loop, 0.05);
+  EXPECT_LE(presser->press(&loop, 0.2), 0.1 + 1e-9) << "less counts at once";
 }
 
 TEST(Seam, TheExampleProgramIsADeviceThatAWallHoldsBack) {

@@ -200,6 +200,30 @@ TEST(HapticRenderer, WhatIsHeldPullsBothWaysAndASealHoldsBackWithItsFrictionWhic
   EXPECT_NEAR(renderer.force(sample, sealed, 0).force.z, -0.5, 1e-9);
 }
 
+TEST(HapticRenderer, LessCountsAtOnceAndMoreFadesInSlowly) {
+  HapticCapabilities strong;
+  strong.force_max = 5, strong.own_damping = 5;
+  ForceRenderer renderer(strong, {.passivity = false, .rate_max = 1e9});
+  const LocalModel m = floor_of(800);
+  HapticSample sample;
+  sample.position = {0, 0, -0.02};
+  for (int i = 0; i < 200; ++i) renderer.force(sample, m, 0);
+  EXPECT_NEAR(renderer.force(sample, m, 0).force.z, 5, 1e-9);
+  HapticCapabilities weak = strong;
+  weak.force_max = 0.1;
+  renderer.adapt(weak);
+  EXPECT_NEAR(renderer.force(sample, m, 0).force.z, 0.1, 1e-9);
+  renderer.adapt(strong);
+  double before = 0.1;
+  int periods = 0;
+  for (; periods < 2000 && renderer.force_limit() < 5; ++periods) {
+    const double now = renderer.force(sample, m, 0).force.z;
+    ASSERT_LE(now - before, 5 * kHapticPeriod / ForceRenderer::kGrowth + 1e-9);
+    before = now;
+  }
+  EXPECT_NEAR(periods * kHapticPeriod, 0.98 * ForceRenderer::kGrowth, 0.01);
+}
+
 TEST(HapticRenderer, APointThatIsDraggedOverAPlaneIsHeldBackByCoulombsShareOfThePress) {
   const SimulatedDevice device;
   ForceRenderer renderer(device.capabilities(), {.passivity = false, .rate_max = 1e9});

@@ -1,6 +1,7 @@
 // What a tracker says: known messages, in pieces, damaged, and of other kinds. The bytes of the known ones were packed
 // by the OpenIGTLink library, 1.11.
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -48,11 +49,12 @@ const std::string kStatus =
 struct Listener {
   IgtlReader reader;
   std::vector<TrackedPose> poses;
+  std::vector<UnseenTool> unseen;
   std::vector<SensorValues> values;
   bool hear(const Octets& bytes) {
-    return reader.hear(
-        bytes, [this](const TrackedPose& p) { poses.push_back(p); },
-        [this](const SensorValues& v) { values.push_back(v); });
+    return reader.hear(bytes, {[this](const TrackedPose& p) { poses.push_back(p); },
+                               [this](const UnseenTool& u) { unseen.push_back(u); },
+                               [this](const SensorValues& v) { values.push_back(v); }});
   }
 };
 
@@ -114,6 +116,124 @@ TEST(Igtl, AnExtendedHeaderAndATableOfTextsAroundAPoseArePassedOver) {
   ASSERT_TRUE(listener.hear(v3));
   ASSERT_EQ(listener.poses.size(), 1u);
   EXPECT_NEAR(listener.poses[0].place.z, 0.10025, 1e-9);
+}
+
+TrackedPose somewhere(const std::string& name) { return {name, {0.008, 0.02, 0.03}, Mat3d::identity()}; }
+
+void add_float(Octets& out, float value) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  for (int shift = 24; shift >= 0; shift -= 8) out.push_back(std::uint8_t(bits >> shift));
+}
+/// An element of TDATA (twelve numbers) or QTDATA (seven).
+void add_tool(Octets& out, const std::string& name, std::uint8_t kind, const std::vector<float>& numbers) {
+  for (std::size_t i = 0; i < 20; ++i) out.push_back(i < name.size() ? std::uint8_t(name[i]) : 0);
+  out.push_back(kind);
+  out.push_back(0);
+  for (const float number : numbers) add_float(out, number);
+}
+const std::vector<float> kMatrix = {1, 0, 0, 0, 1, 0, 0, 0, 1, 8, 20, 30};
+
+TEST(Igtl, AToolIsNotSeenWhileItsServerSaysSo) {
+  for (const int version : {2, 3})
+    for (const char* status : {"MISSING", "OUT_OF_VIEW", "OUT_OF_VOLUME", "TOOL_MISSING", "invalid", "UNKNOWN"}) {
+      Listener listener;
+      listener.hear(igtl_transform(somewhere("Left"), version, {{"TransformStatus", "OK"}}));
+      listener.hear(igtl_transform(somewhere("Left"), version, {{"TransformStatus", status}}));
+      EXPECT_EQ(listener.poses.size(), 1u) << status;
+      ASSERT_EQ(listener.unseen.size(), 1u) << status;
+      EXPECT_EQ(listener.unseen[0].name, "Left");
+      EXPECT_EQ(listener.reader.damaged(), 0u) << "a tool that is not seen is no damage";
+    }
+  Listener listener;
+  listener.hear(igtl_transform(somewhere("Left"), 2, {{"TransformValid", "0"}}));
+  listener.hear(igtl_transform(somewhere("Left"), 2, {{"Status", "MISSING"}, {"TransformStatus", "OK"}}));
+  EXPECT_EQ(listener.unseen.size(), 2u) << "one text that says so is enough";
+  listener.hear(igtl_transform(somewhere("Left"), 2, {{"TransformStatus", "SWITCH1_IS_ON"}}));
+  listener.hear(igtl_transform(somewhere("Left"), 2, {{"MRMLNodeName", "MISSING"}}));
+  EXPECT_EQ(listener.poses.size(), 2u) << "a pressed button, and a text about something else";
+}
+
+TEST(Igtl, ToolsOfOneMessageAreSeenOrNotEachByItself) {
+  Octets tools;
+  add_tool(tools, "LeftToReference", 2, kMatrix);
+  add_tool(tools, "RightToReference", 2, kMatrix);
+  Listener listener;
+  listener.hear(igtl_message("TDATA", "Tracker", tools, 2,
+                             {{"LeftToReferenceStatus", "OUT_OF_VIEW"}, {"RightToReferenceStatus", "OK"}}));
+  ASSERT_EQ(listener.unseen.size(), 1u);
+  EXPECT_EQ(listener.unseen[0].name, "LeftToReference");
+  EXPECT_EQ(listener.unseen[0].why, "OUT_OF_VIEW");
+  ASSERT_EQ(listener.poses.size(), 1u);
+  EXPECT_EQ(listener.poses[0].name, "RightToReference");
+  listener.hear(igtl_message("TDATA", "Tracker", tools, 2, {{"TransformStatus", "MISSING"}}));
+  EXPECT_EQ(listener.unseen.size(), 3u) << "said of the whole message";
+}
+
+TEST(Igtl, AStatusOfAToolThatIsNotOkSaysThatItIsNotSeen) {
+  Octets status = {0, 13, 0, 0, 0, 0, 0, 0, 0, 0};  // not ready
+  status.resize(30);
+  std::memcpy(&status[10], "NotReady", 8);
+  status.push_back(0);
+  Listener listener;
+  listener.hear(igtl_message("STATUS", "Left", status));
+  listener.hear(igtl_message("STATUS", "Left", status, 3));
+  ASSERT_EQ(listener.unseen.size(), 2u);
+  EXPECT_EQ(listener.unseen[1].why, "NotReady");
+  listener.hear(bytes_of(kStatus));
+  EXPECT_EQ(listener.unseen.size(), 2u) << "the library's own says OK";
+  EXPECT_EQ(listener.reader.damaged(), 0u);
+}
+
+TEST(Igtl, TheExactIdentityIsNoPlaceOfATool) {
+  Listener listener;
+  listener.hear(igtl_transform({"Left", {}, Mat3d::identity()}));
+  ASSERT_EQ(listener.unseen.size(), 1u);
+  EXPECT_EQ(listener.unseen[0].why, kSentAsIdentity);
+  listener.hear(igtl_transform({"Left", {0, 1e-6, 0}, Mat3d::identity()}));
+  listener.hear(igtl_transform({"Left", {}, Mat3d::identity()}, 2, {{"TransformStatus", "OK"}}));
+  EXPECT_EQ(listener.poses.size(), 2u) << "beside it, or where the server calls it seen";
+}
+
+TEST(Igtl, NamesAreCutTo20LettersUnlessTheServerSendsTheWhole) {
+  const std::string whole = "LeftGrasperTipToReference", cut = whole.substr(0, 20);
+  Listener listener;
+  listener.hear(igtl_transform(somewhere(whole)));
+  listener.hear(igtl_transform(somewhere(whole), 2, {{"IGTL_DEVICE_NAME", whole}}));
+  listener.hear(igtl_transform(somewhere(whole), 3, {{"NodeName", whole}}));
+  Octets tools;
+  add_tool(tools, whole, 2, kMatrix);
+  listener.hear(igtl_message("TDATA", "Tracker", tools, 2, {{whole + "Status", "OK"}}));
+  listener.hear(igtl_message("TDATA", "Tracker", tools, 2, {{cut + "Status", "MISSING"}}));
+  ASSERT_EQ(listener.poses.size(), 4u);
+  EXPECT_EQ(listener.poses[0].name, cut);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(listener.poses[i].name, whole) << i;
+  ASSERT_EQ(listener.unseen.size(), 1u);
+  EXPECT_EQ(listener.unseen[0].name, cut);
+  EXPECT_TRUE(same_tool_name(whole, cut) && same_tool_name(cut, whole) && same_tool_name(whole, whole));
+  EXPECT_FALSE(same_tool_name("Left", "LeftTool")) << "only a name of 20 letters may have been cut";
+}
+
+TEST(Igtl, PositionsAndToolsWithQuaternionsAreRead) {
+  Octets position;
+  for (const float number : {8.f, 20.f, 30.f, 0.f, 0.f, std::sin(0.25f)}) add_float(position, number);
+  Octets tools;
+  add_tool(tools, "Left", 2, {8, 20, 30, 0, 0, std::sin(0.25f), std::cos(0.25f)});
+  add_tool(tools, "Tip", 3, {8, 20, 30, 0, 0, 0, 0});  // measured without a rotation
+  Listener listener;
+  listener.hear(igtl_message("POSITION", "Left", position));
+  listener.hear(igtl_message("QTDATA", "Tracker", tools, 2));
+  ASSERT_EQ(listener.poses.size(), 3u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(length(listener.poses[i].place - Vec3d{0.008, 0.02, 0.03}), 0, 1e-8);
+    EXPECT_NEAR(listener.poses[i].turned.m[1][0], std::sin(0.5), 1e-6) << "a turn by 0.5 rad about z";
+  }
+  EXPECT_EQ(listener.poses[2].turned.m[1][1], 1);
+  Octets none;
+  add_tool(none, "Left", 2, {8, 20, 30, 0, 0, 0, 0});
+  listener.hear(igtl_message("QTDATA", "Tracker", none));
+  EXPECT_EQ(listener.poses.size(), 3u);
+  EXPECT_EQ(listener.reader.damaged(), 1u) << "a quaternion of zeros is no rotation";
 }
 
 TEST(Igtl, ADamagedMessageIsLeftOutAndTheNextOneIsRead) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include <trocar/core/files.hpp>
+#include <trocar/kinematics/chains/excluded_range.hpp>
 #include <trocar/kinematics/loops/mobility.hpp>
 #include <trocar/scene/mechanisms/mechanism_file.hpp>
 #include <trocar/scene/mechanisms/urdf.hpp>
@@ -25,6 +26,10 @@ void check_mechanism(const MechanismDescription& description) {
   const Mechanism m = build(description);
   require(m.u_count() <= m.q_count() && m.q_count() <= kMostCoordinates, "coordinates are bounded");
   for (const double x : m.dimensions) require(std::isfinite(x), "dimensions are finite");
+  for (const ExcludedRange& range : excluded_ranges(m)) {
+    require(range.low <= range.high && std::isfinite(range.high - range.low), "a range that is led to has two ends");
+    require(!words(m, range).empty(), "and is told of in words");
+  }
   if (m.q_count() > 12 || m.rows > 24 || m.bodies.size() > 40) return;  // quick only
   LoopWork work(m);
   hold_drives(m, work);
@@ -76,6 +81,8 @@ std::vector<Seed> urdf_seeds() {
            bytes_of("<robot name='s'><link name='x'/><link name='y'><visual><geometry><sphere radius='1'/></geometry>"
                     "</visual></link><joint name='p' type='prismatic'><parent link='x'/><child link='y'/><limit "
                     "lower='0' upper='1'/></joint></robot>")},
+          {"xacro", bytes_of("<robot xmlns:xacro=\"http://ros.org/wiki/xacro\" name=\"${n}\"><xacro:hand a='1'/>"
+                             "<link name='l'/><property/></robot>")},
           {"entities", bytes_of("<!-- c --><robot name=\"&lt;&#65;&amp;\"><link name='l'/><![CDATA[<x>]]></robot>")}};
 }
 
@@ -91,6 +98,9 @@ std::vector<std::string> urdf_words() {
           "<axis xyz=\"0 0 1\"/>",
           "<limit lower=\"0\" upper=\"1\"/>",
           "<mimic joint=\"j\"/>",
+          "<xacro:a b=\"${c}\"/>",
+          "xmlns:x=\"http://ros.org/wiki/xacro\"",
+          "$(arg a)",
           "type=\"prismatic\"",
           "type=\"fixed\"",
           "<!--",

@@ -26,12 +26,17 @@ void tracker_stream(Bytes bytes) {
   std::uint64_t poses = 0, heard = 0;
   while (bytes.size() > 1) {
     const std::size_t size = std::min<std::size_t>(std::size_t(bytes[0]) + 1, bytes.size() - 1);
-    const bool sound = reader.hear(
-        bytes.subspan(1, size), [&poses](const devices::TrackedPose& pose) { check_pose(pose), ++poses; },
-        [](const devices::SensorValues& sensor) {
-          require(sensor.values.size() <= devices::IgtlReader::kMostValues, "values are bounded");
-          for (const double v : sensor.values) require(std::isfinite(v), "and numbers");
-        });
+    const bool sound =
+        reader.hear(bytes.subspan(1, size),
+                    {[&poses](const devices::TrackedPose& pose) { check_pose(pose), ++poses; },
+                     [](const devices::UnseenTool& tool) {
+                       require(!tool.why.empty() && tool.why.size() <= 60, "a server's word is short");
+                       require(tool.name.size() <= devices::kLongestName, "names are bounded");
+                     },
+                     [](const devices::SensorValues& sensor) {
+                       require(sensor.values.size() <= devices::IgtlReader::kMostValues, "values are bounded");
+                       for (const double v : sensor.values) require(std::isfinite(v), "and numbers");
+                     }});
     heard += size;
     bytes = bytes.subspan(1 + size);
     require(reader.kept() <= devices::IgtlReader::kMostBody, "no more is kept than a message");
@@ -58,6 +63,12 @@ std::vector<Seed> tracker_seeds() {
   bytes.insert(bytes.end(), sensor.begin(), sensor.end());
   bytes.insert(bytes.end(), bytes.begin(), bytes.end());
   portions("both", bytes);
+  portions("texts", devices::igtl_transform(
+                        {"LeftGrasperTipToReference", {0.1, 0.2, 0.3}, Mat3d::identity()}, 2,
+                        {{"TransformStatus", "MISSING"}, {"IGTL_DEVICE_NAME", "LeftGrasperTipToReference"}}));
+  for (const auto& [type, size] :
+       {std::pair("TDATA", 140u), std::pair("QTDATA", 100u), std::pair("STATUS", 36u), std::pair("POSITION", 24u)})
+    portions(type, devices::igtl_message(type, "Tool", std::vector<std::uint8_t>(size, 0), 3, {{"ToolStatus", "OK"}}));
   bytes = devices::igtl_transform({"Tool", {0.1, 0.2, 0.3}, Mat3d::identity()});
   std::copy_n("IMAGE\0\0\0\0", 9, bytes.begin() + 2);
   bytes.insert(bytes.end(), sensor.begin(), sensor.end());

@@ -5,7 +5,11 @@
 
 #include <trocar/core/random.hpp>
 #include <trocar/numerics/portable.hpp>
+#include <trocar/scene/mechanisms/mechanism_file.hpp>
 #include <trocar/studies/clearance.hpp>
+#include <trocar/studies/end_of_way.hpp>
+#include <trocar/studies/halton.hpp>
+#include <trocar/studies/link_pairs.hpp>
 #include <trocar/studies/optimise.hpp>
 #include <trocar/studies/shape_distance.hpp>
 
@@ -97,6 +101,121 @@ TEST(Clearance, OfAnArmIsTheSameEveryTimeAndNeverAboveThatOfAnyPose) {
   const ClearanceReport a = clearance_over_motion(m, coarse), b = clearance_over_motion(m, coarse);
   EXPECT_EQ(a.least, b.least);
   EXPECT_LE(clearance_over_motion(m, fine).least, a.least);
+}
+
+/// Two rods, the second of which turns about the end of the first, as far as the limits say.
+Mechanism folding(double limit_deg) {
+  std::vector<core::Fault> faults;
+  const std::string limits = "[" + std::to_string(-limit_deg) + ", " + std::to_string(limit_deg) + "]";
+  const MechanismDescription d = scene::parse_mechanism(
+      R"({"format": 1, "name": "folding", "links": [
+      {"name": "base", "joint": {"kind": "fixed"},
+       "shapes": [{"kind": "capsule", "from_mm": [0, 0, 0], "to_mm": [0, 0, 100], "radius_mm": 10}]},
+      {"name": "arm", "parent": "base", "at_mm": [0, 0, 100],
+       "joint": {"kind": "revolute", "axis": [0, 1, 0], "limits_deg": )" +
+          limits + R"(},
+       "shapes": [{"kind": "capsule", "from_mm": [0, 0, 0], "to_mm": [0, 0, 100], "radius_mm": 10}]}]})",
+      "folding.json", faults);
+  EXPECT_TRUE(faults.empty());
+  return build(d);
+}
+
+TEST(Clearance, NeighboursCountWhereTheyAreInEachOtherOffTheirJoint) {
+  EXPECT_TRUE(clearance_over_motion(folding(90), {}).pairs.empty()) << "at the joint they are meant to be";
+  const ClearanceReport folded = clearance_over_motion(folding(180), {});
+  ASSERT_EQ(folded.pairs.size(), 1u);
+  EXPECT_TRUE(folded.pairs[0].beside_joint);
+  EXPECT_NEAR(folded.pairs[0].least, -0.02, 1e-6) << "one on the other";
+}
+
+TEST(Clearance, NeighboursThatAreDrawnInEachOtherCountFromThatDepthOn) {
+  const Mechanism m = folding(90);
+  const LinkPairs links(m, {});
+  ASSERT_EQ(links.all().size(), 1u);
+  Pose pose(m);
+  forward(m, std::vector<double>{0.0}, pose);
+  const LinkPair& pair = links.all()[0];
+  EXPECT_NEAR(links.drawn(m, pose)[0], 0.02, 1e-9)
+      << "20 mm of each rod are the joint, 20 mm are left between surfaces";
+  const std::vector<double> drawn{-0.005};
+  EXPECT_NEAR(links.gap(pair, m, pose, drawn), 0.025, 1e-9);
+}
+
+TEST(Clearance, OfJawsThatGoOnThroughEachOtherIsFoundThoughTheyShareTheirHinge) {
+  const Mechanism m = shipped("colliding_grasper");
+  std::vector<double> values = m.parameter_values;
+  const auto set = [&](const char* name, double value) { values[std::size_t(m.parameter(name))] = value; };
+  set("tang", 1.857e-3), set("bar", 5.5e-3), set("rod_open", 6.5575e-3), set("rod_shut", 7.2727e-3);
+  const ClearanceReport r = clearance_over_motion(m.with(values), {});
+  ASSERT_FALSE(r.pairs.empty());
+  EXPECT_TRUE(r.pairs[0].beside_joint);
+  EXPECT_EQ(m.links[std::size_t(r.pairs[0].first)], "jaw_upper");
+  EXPECT_EQ(m.links[std::size_t(r.pairs[0].second)], "jaw_lower");
+  EXPECT_LT(r.least, -0.5e-3);
+  EXPECT_NEAR(r.pairs[0].handles[0], 1, 1e-6);
+}
+
+TEST(Clearance, OfArmsWithLoopsAndWithoutDrivesIsLookedForInManyPoses) {
+  for (const char* name : {"artemis_arm", "redundant_arm"}) {
+    const Mechanism m = shipped(name);
+    ClearanceOptions options;
+    options.samples = 50;
+    options.refine = false;
+    const ClearanceReport a = clearance_over_motion(m, options), b = clearance_over_motion(m, options);
+    EXPECT_EQ(a.reached, 50) << name << ": poses within limits";
+    EXPECT_GT(a.drives.size(), 5u) << name;
+    ASSERT_EQ(a.pairs.size(), b.pairs.size());
+    for (std::size_t k = 0; k < a.pairs.size(); ++k) EXPECT_EQ(a.pairs[k].least, b.pairs[k].least);
+  }
+}
+
+TEST(Halton, ItsAxesDifferAndFillTheirRange) {
+  for (int axis = 0; axis < kHaltonAxes; ++axis) {
+    double low = 1, high = 0, sum = 0;
+    for (int k = 1; k <= 2000; ++k) {
+      const double value = halton(std::int64_t(1009) * k, axis);
+      low = std::min(low, value), high = std::max(high, value), sum += value;
+      if (axis > 0 && k < 4) EXPECT_NE(value, halton(std::int64_t(1009) * k, axis - 1));
+    }
+    EXPECT_LT(low, 0.01) << axis;
+    EXPECT_GT(high, 0.99) << axis;
+    EXPECT_NEAR(sum / 2000, 0.5, 0.02) << axis;
+  }
+}
+
+TEST(Optimise, ItsGrasperClosesAndNotThroughItsOtherJaw) {
+  const Mechanism m = shipped("colliding_grasper");
+  OptimiseOptions options;
+  options.clearance = 1e-4;
+  options.follow = m.frame("tip_upper");
+  const OptimiseResult r = optimise(m, options);
+  ASSERT_TRUE(r.free);
+  const Mechanism best = m.with(r.values);
+  const auto before = end_of_way(m, options.follow), after = end_of_way(best, options.follow);
+  ASSERT_TRUE(before && after);
+  EXPECT_LT(length(*after->followed - *before->followed), 0.005 * r.range_before);
+  EXPECT_LT(length(turn_between(before->jaws->r, after->jaws->r)), 0.3 * portable::pi / 180);
+  for (const PairClearance& p : r.after.pairs) EXPECT_FALSE(p.beside_joint);
+  for (const int i : r.parameters) {
+    const double unit = m.parameters[std::size_t(i)].measure == Measure::length ? 1e6 : 180e3 / portable::pi;
+    const double value = unit * r.values[std::size_t(i)];
+    EXPECT_NEAR(value, std::round(value), 1e-6) << "as a drawing has it: " << m.parameters[std::size_t(i)].name;
+  }
+}
+
+TEST(Optimise, TheEndOfTheWayFollowsFromTheOtherDimensions) {
+  const Mechanism m = shipped("colliding_grasper");
+  const int tip = m.frame("tip_upper"), end = end_parameter(m);
+  ASSERT_EQ(end, m.parameter("rod_shut"));
+  std::vector<double> values = m.parameter_values;
+  values[std::size_t(m.parameter("bar"))] = 5.9e-3;
+  const EndOfWay drawn = *end_of_way(m, tip);
+  const auto shorter = end_of_way(m.with(values), tip);
+  ASSERT_TRUE(shorter.has_value());
+  EXPECT_GT(shorter->off(drawn, m.length), 1e-3) << "a shorter bar alone turns the jaw too far";
+  values[std::size_t(end)] = fitted_end(m.with(values), end, tip, drawn);
+  EXPECT_LT(end_of_way(m.with(values), tip)->off(drawn, m.length), 1e-6);
+  EXPECT_EQ(end_parameter(shipped("dvrk_arm")), -1) << "several drives have no one way";
 }
 
 TEST(Optimise, FreesTheCollidingGrasperAndKeepsItsJawsWay) {

@@ -70,7 +70,7 @@ TEST(OperatingRoom, JawAxesPointWhereTheyAreToldAndRollAboutIt) {
 TEST(OperatingRoom, AProgrammeKeepsItsPortsToATenthOfAMillimetreAndLoopsToTenToTheMinusTen) {
   const MotionReport r = go_through(shipped(), motion_of(shipped(), programme("triangle")), {});
   EXPECT_TRUE(r.good()) << told(r);
-  EXPECT_EQ(r.count, 501);
+  EXPECT_EQ(r.count, 503) << "501 steps of 20 ms, and two middles of moves between them";
   EXPECT_LE(r.port_gap, 1e-4);
   EXPECT_LE(r.loop_gap, 1e-10);
   EXPECT_LE(r.most_speed, 1);
@@ -109,6 +109,60 @@ TEST(OperatingRoom, AProgrammeThroughThePatientIsRefusedFromWhenItTouches) {
     }
   }
   EXPECT_TRUE(has(r, MotionFaultKind::speed)) << told(r);
+}
+
+/// The left arm's poses of "triangle", with some put in between, or all of it in less time.
+scene::Programme leaping(const std::vector<scene::Programme::Pose>& put_in, double faster = 1) {
+  scene::Programme p = programme("triangle");
+  std::vector<scene::Programme::Pose>& poses = p.moves[0].poses;
+  poses.insert(poses.begin() + 1, put_in.begin(), put_in.end());
+  for (scene::Programme::Move& m : p.moves)
+    for (scene::Programme::Pose& pose : m.poses) pose.at /= faster;
+  return p;
+}
+
+TEST(OperatingRoom, ALeapBetweenTwoStepsIsSeen) {
+  const Vec3d there{-0.062, 0.108, -0.098}, away{-0.5, -0.5, -0.5};
+  const MotionReport far = go_through(
+      shipped(), motion_of(shipped(), leaping({{1.005, there, true}, {1.01, away, true}, {1.015, there, true}})), {});
+  EXPECT_FALSE(far.good());
+  EXPECT_TRUE(has(far, MotionFaultKind::reach) || has(far, MotionFaultKind::limit)) << told(far);
+  EXPECT_TRUE(has(far, MotionFaultKind::speed)) << told(far);
+  // Within reach, there and back between two steps.
+  const Vec3d near = there + Vec3d{0.004, 0, 0};
+  const MotionReport twitch = go_through(
+      shipped(), motion_of(shipped(), leaping({{1.005, there, true}, {1.006, near, true}, {1.007, there, true}})), {});
+  ASSERT_TRUE(has(twitch, MotionFaultKind::speed)) << told(twitch);
+  EXPECT_NE(told(twitch).find("1.006"), std::string::npos) << told(twitch);
+  EXPECT_NE(told(twitch).find(" s needs "), std::string::npos) << told(twitch);
+}
+
+TEST(OperatingRoom, PosesCloserThanArmsCanMoveCannotBeDoneHoweverShortTheyAre) {
+  for (const double faster : {100.0, 1e6}) {
+    const MotionReport r = go_through(shipped(), motion_of(shipped(), leaping({}, faster)), {});
+    EXPECT_TRUE(has(r, MotionFaultKind::speed)) << faster << told(r);
+    EXPECT_GT(r.most_speed, 10) << faster;
+  }
+}
+
+TEST(OperatingRoom, TheGreatestSpeedOfAShortMoveIsFoundWithinAPercentOfAFineLook) {
+  const scene::Programme quick = leaping({}, 20);  // moves of 75 to 150 ms
+  MotionOptions fine;
+  fine.step = 5e-4;
+  const double looked = go_through(shipped(), motion_of(shipped(), quick), {}).most_speed;
+  const double finely = go_through(shipped(), motion_of(shipped(), quick), fine).most_speed;
+  EXPECT_NEAR(looked, finely, 0.02 * finely);
+}
+
+TEST(OperatingRoom, ATableThatTiltsFasterThanItCanIsTold) {
+  scene::Programme p = programme("triangle");
+  const scene::RoomTilt from = shipped().room().table.tilt;
+  p.tilts = {{0, from}, {4, {from.head_down + 0.05, from.left_down}}};
+  EXPECT_FALSE(has(go_through(shipped(), motion_of(shipped(), p), {}), MotionFaultKind::speed));
+  p.tilts[1].at = 0.01;
+  const MotionReport r = go_through(shipped(), motion_of(shipped(), p), {});
+  ASSERT_TRUE(has(r, MotionFaultKind::speed)) << told(r);
+  EXPECT_NE(told(r).find("the table would move at"), std::string::npos) << told(r);
 }
 
 TEST(OperatingRoom, ATableThatTiltsFurtherThanItCanIsToldWhen) {

@@ -11,6 +11,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/kinematics/chains/excluded_range.hpp>
 #include <trocar/kinematics/loops/mobility.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/json/json.hpp>
@@ -22,6 +23,7 @@
 #include "commands/checks/check_room.hpp"
 #include "commands/checks/check_scene.hpp"
 #include "commands/checks/check_vessels.hpp"
+#include "commands/checks/check_warnings.hpp"
 #include "commands/command.hpp"
 #include "commands/number_options.hpp"
 
@@ -72,7 +74,7 @@ void print_tissues(const Json& tissues) {
 }
 
 bool is_mechanism_file(const fs::path& path) {
-  if (path.extension() == ".urdf") return true;
+  if (scene::is_robot_file(path)) return true;
   std::vector<core::Fault> ignored;
   return path.extension() == ".json" && scene::load_json(path, ignored).root.find("links") != nullptr;
 }
@@ -85,6 +87,10 @@ Json describe_mechanism(const fs::path& path) {
            {"links", m.links.size() - 1},   {"coordinates", m.q_count()},
            {"free", m.u_count()},           {"conditions", m.rows},
            {"mobility", freedoms.mobility}, {"mobility_words", words(freedoms)}};
+  std::vector<core::Fault> warnings;
+  for (const kinematics::ExcludedRange& range : kinematics::excluded_ranges(m))
+    warnings.push_back({{path.generic_string(), 0, 0}, words(m, range)});
+  add_warnings(out, warnings);
   if (freedoms.poses == 0) out["verdict"] = "its loops do not close where it begins";
   return out;
 }
@@ -139,6 +145,7 @@ void print_checks(const Json& r) {
   if (r.contains("mesh") || r.contains("surface_parts")) print_mesh(r);
   if (r.contains("vessels")) print_vessels(r);
   if (r.contains("tissues")) print_tissues(r["tissues"]);
+  print_warnings(r);
   if (r.contains("mobility_words")) fmt::print("  {}\n", r["mobility_words"].get<std::string>());
   if (r.contains("note")) fmt::print("  {}\n", r["note"].get<std::string>());
   if (!r.contains("bodies")) return;

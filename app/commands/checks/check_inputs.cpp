@@ -5,6 +5,8 @@
 #include <trocar/attempt/inputs/input_map.hpp>
 #include <trocar/attempt/tracker/tracker_file.hpp>
 
+#include "commands/checks/check_warnings.hpp"
+
 namespace trocar::app {
 namespace {
 
@@ -23,7 +25,9 @@ Json describe_inputs(const std::filesystem::path& path, const scene::JsonValue& 
     out["leads"].push_back({{"role", role}, {"by", by}});
   };
   if (is_tracker(root)) {
-    for (const auto& tool : attempt::read_tracker_plan(path).tools) lead(tool.role, tool.transform);
+    const attempt::TrackerPlan plan = attempt::read_tracker_plan(path);
+    for (const auto& tool : plan.tools) lead(tool.role, tool.transform);
+    add_warnings(out, attempt::warnings_of(plan));
   } else {
     for (const auto& part : attempt::read_input_map(path).parts) lead(part.role, part.device);
   }

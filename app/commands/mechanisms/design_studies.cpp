@@ -105,27 +105,32 @@ Json pair_json(const Mechanism& m, const ClearanceReport& r, const PairClearance
           {"second", m.links[std::size_t(p.second)]},
           {"least_mm", 1e3 * p.least},
           {"most_mm", 1e3 * p.most},
+          {"beside_joint", p.beside_joint},
           {"where", where}};
 }
 Json clearance_json(const Mechanism& m, const ClearanceReport& r) {
   Json pairs = Json::array(), joined = Json::array();
   for (const PairClearance& p : r.pairs) pairs.push_back(pair_json(m, r, p));
   for (const PairClearance& p : r.joined) joined.push_back(pair_json(m, r, p));
-  return {{"poses", r.poses},
-          {"reached", r.reached},
-          {"least_mm", r.pairs.empty() ? Json(nullptr) : Json(1e3 * r.least)},
-          {"pairs", pairs},
-          {"always_overlapping", joined}};
+  return {{"poses", r.poses},     {"freedoms", r.drives.size()},
+          {"reached", r.reached}, {"least_mm", r.pairs.empty() ? Json(nullptr) : Json(1e3 * r.least)},
+          {"pairs", pairs},       {"always_overlapping", joined}};
 }
 void print_clearance(const Json& r) {
-  fmt::print("{}", tr("  {} poses, {} closed and within limits\n", r["poses"].get<int>(), r["reached"].get<int>()));
+  fmt::print("{}",
+             r["freedoms"].get<int>() > 1
+                 ? tr("  {} poses of {} freedoms tried (Halton's sequence), {} closed and within limits\n",
+                      r["poses"].get<int>(), r["freedoms"].get<int>(), r["reached"].get<int>())
+                 : tr("  {} poses, {} closed and within limits\n", r["poses"].get<int>(), r["reached"].get<int>()));
   if (r["pairs"].empty()) fmt::print("{}", tr("  no links that could meet\n"));
   for (const Json& p : r["pairs"]) {
     std::string where;
     for (const auto& [name, handle] : p["where"].items())
       where += fmt::format(" {}={:.4f}", name, handle.get<double>());
     fmt::print("  {:20} {:20} {:>10.4f} mm {} at{}\n", p["first"].get<std::string>(), p["second"].get<std::string>(),
-               p["least_mm"].get<double>(), p["least_mm"].get<double>() < 0 ? "IN EACH OTHER" : "apart", where);
+               p["least_mm"].get<double>(), p["least_mm"].get<double>() < 0 ? tr("IN EACH OTHER") : tr("apart"), where);
+    if (p["beside_joint"].get<bool>())
+      fmt::print("{}", tr("    they share a joint, and are deeper in each other than drawn, beside it\n"));
   }
   for (const Json& p : r["always_overlapping"])
     fmt::print("{}", tr("  {} and {} overlap in every pose: taken as meant\n", p["first"].get<std::string>(),
@@ -160,7 +165,7 @@ void add_design_options(CLI::App& c, DesignOptions& o) {
       ->transform(whole_number(2, 100'000))
       ->capture_default_str()
       ->group(clearance);
-  c.add_option("--poses", o.poses, tr("clearance: poses where there are several drives"))
+  c.add_option("--poses", o.poses, tr("clearance: poses within limits where there are several drives"))
       ->transform(whole_number(1, 1'000'000))
       ->capture_default_str()
       ->group(clearance);
@@ -232,7 +237,7 @@ int show_optimised(const Mechanism& m, const DesignOptions& o, bool json) {
   OptimiseOptions wish;
   wish.clearance = 1e-6 * o.clearance_um;
   wish.keep = o.keep;
-  if (o.follows) wish.follow = frame_named(m, o.study.frame);
+  if (!o.study.frame.empty()) wish.follow = frame_named(m, o.study.frame);
   OptimiseResult r;
   try {
     r = optimise(m, wish, sweep_of(m, o));
@@ -256,6 +261,7 @@ int show_optimised(const Mechanism& m, const DesignOptions& o, bool json) {
            {"before", clearance_json(m, r.before)},
            {"after", clearance_json(m, r.after)},
            {"range_share", r.range_before > 0 ? Json(r.range_after / r.range_before) : Json(nullptr)},
+           {"end_off_mm", 1e3 * r.end_off},
            {"tried", r.evaluations},
            {"starts", r.starts}};
   if (!page.empty()) out["page"] = page;
@@ -271,6 +277,8 @@ int show_optimised(const Mechanism& m, const DesignOptions& o, bool json) {
     fmt::print("{}", r.range_before > 0 ? tr("  {} tried from {} starts; range of {} {:.1f} %\n", r.evaluations,
                                              r.starts, o.study.frame, 100 * r.range_after / r.range_before)
                                         : tr("  {} tried from {} starts\n", r.evaluations, r.starts));
+    if (m.drives.size() == 1)
+      fmt::print("{}", tr("  with {} at 1 it ends {:.4f} mm from where it did\n", m.drives[0].name, 1e3 * r.end_off));
     fmt::print(" before:\n");
     print_clearance(out["before"]);
     fmt::print(" after:\n");

@@ -17,7 +17,6 @@ struct DesignOptions {
   int steps = 200, poses = 2000;
   double clearance_um = 100, keep = 0.95;
   bool strict = false;
-  bool follows = false;        ///< a frame was named
   std::string report;          ///< folder; empty: none
   std::string output;          ///< of optimise: the file that is written; empty: none
   std::filesystem::path path;  ///< of the mechanism

@@ -14,7 +14,9 @@
 #include <trocar/scene/mechanisms/mechanism_file.hpp>
 
 #include "commands/command.hpp"
+#include "commands/mechanisms/coordinate_units.hpp"
 #include "commands/mechanisms/design_studies.hpp"
+#include "commands/mechanisms/motion_study.hpp"
 #include "commands/number_options.hpp"
 #include "mechanisms/design_window.hpp"
 
@@ -28,13 +30,9 @@ struct MechanismWords {
   std::vector<std::string> sets, drives;
   int samples = 100'000;
   double cell_mm = 0;
+  MotionChoice motion;
   DesignOptions design;
 };
-
-double in_file(const Mechanism& m, int q, double value) {
-  return m.measures[std::size_t(q)] == Measure::angle ? value * 180 / portable::pi : 1e3 * value;
-}
-const char* unit_of(const Mechanism& m, int q) { return m.measures[std::size_t(q)] == Measure::angle ? "deg" : "mm"; }
 
 std::vector<Target> targets_of(const Mechanism& m, const MechanismWords& words) {
   std::vector<Target> targets;
@@ -123,38 +121,61 @@ void print_pose(const Json& r) {
   }
 }
 
-int show_pose(const Mechanism& m, const MechanismWords& given, bool json) {
+/// Where a mechanism stands with what was chosen.
+struct Standing {
+  std::vector<double> u;
+  LoopReport report;
+  std::string said;
+  double reached = 1;
+  bool there() const { return report.closed() && reached >= 1; }
+};
+
+Standing stand(const Mechanism& m, const MechanismWords& given, LoopWork& work) {
   const std::vector<Target> targets = targets_of(m, given);
-  std::vector<double> u = m.start_u(), near = u;
+  Standing s{m.start_u(), {}, {}, 1};
+  hold_drives(m, work);
+  s.report = close(m, s.u, work);
+  s.said = words(m, s.report);
+  if (!s.report.closed() || targets.empty()) return s;
+  std::vector<int> held;
+  for (const Target& t : targets) held.push_back(t.independent);
+  hold(work, held);
+  const MoveReport moved = move(m, s.u, targets, branch_at(m, s.u, work), work);
+  s.report = moved.last;
+  s.reached = moved.reached;
+  s.said = words(m, moved);
+  return s;
+}
+
+int show_released(const Mechanism& m, const MechanismWords& given, bool json) {
+  LoopWork work(m);
+  Standing s = stand(m, given, work);
+  if (s.there()) return show_motion(m, std::move(s.u), given.motion, json);
+  fmt::print(stderr, "{}: {}\n", m.name, s.said);
+  if (json) print({{"name", m.name}, {"kind", "motion"}, {"good", false}, {"words", s.said}});
+  return core::kGoalNotReached;
+}
+
+int show_pose(const Mechanism& m, const MechanismWords& given, bool json) {
+  std::vector<double> near = m.start_u();
   const Mobility freedoms = mobility(m, near);
   LoopWork work(m);
-  hold_drives(m, work);
-  LoopReport report = close(m, u, work);
-  std::string said = words(m, report);
-  double reached = 1;
-  if (report.closed() && !targets.empty()) {
-    std::vector<int> held;
-    for (const Target& t : targets) held.push_back(t.independent);
-    hold(work, held);
-    const MoveReport moved = move(m, u, targets, branch_at(m, u, work), work);
-    report = moved.last;
-    reached = moved.reached;
-    said = words(m, moved);
-  }
-  const bool good = report.closed() && reached >= 1 && report.limit < 0;
+  const Standing s = stand(m, given, work);
+  const LoopReport& report = s.report;
+  const bool good = s.there() && report.limit < 0;
   Json out{{"name", m.name},
            {"kind", "pose"},
            {"mobility", freedoms.mobility},
            {"mobility_words", words(freedoms)},
            {"closed", report.closed()},
-           {"reached", reached},
+           {"reached", s.reached},
            {"within_limits", report.limit < 0},
            {"gap_mm", 1e3 * report.metres},
            {"gap_deg", report.radians * 180 / portable::pi},
            {"rank", report.rank},
            {"conditions", report.conditions},
            {"smallest_pivot", report.pivot},
-           {"words", said}};
+           {"words", s.said}};
   out.update(describe_pose(m, work.pose));
   if (json)
     print(out);
@@ -218,6 +239,7 @@ int run_mechanism(MechanismWords given, bool json) {
   }
   if (given.what == "pose") return show_pose(m, given, json);
   if (given.what == "workspace") return show_workspace(m, given, json);
+  if (given.what == "motion") return show_released(m, given, json);
   if (!given.sets.empty()) refuse_words(given.sets[0], "expected --drive with a study, got --set");
   DesignOptions design = given.design;
   design.study.file = given.file;
@@ -240,14 +262,15 @@ void add_mechanism(CLI::App& program, Chosen& chosen) {
   c->add_option("file", given->file,
                 tr("a mechanism's file (.json, .urdf), or a name that `trocar list mechanisms` shows"))
       ->required();
-  c->add_option("what", given->what, tr("pose, workspace, tolerance, clearance or optimise; design opens a window"))
-      ->check(CLI::IsMember({"pose", "workspace", "tolerance", "clearance", "optimise", "design"}))
+  c->add_option("what", given->what,
+                tr("pose, workspace, motion, tolerance, clearance or optimise; design opens a window"))
+      ->check(CLI::IsMember({"pose", "workspace", "motion", "tolerance", "clearance", "optimise", "design"}))
       ->capture_default_str();
-  c->add_option("--set", given->sets, tr("a free coordinate, as NAME=DEGREES or NAME=MM; the others follow"));
+  c->add_option("--set", given->sets,
+                tr("pose, motion: a free coordinate, as NAME=DEGREES or NAME=MM; the others follow"));
   c->add_option("--drive", given->drives, tr("an actuator, as NAME=0..1"));
-  CLI::Option* frame =
-      c->add_option("--frame", given->frame,
-                    tr("workspace, tolerance, optimise: the frame that is measured; default: tip, else the first"));
+  c->add_option("--frame", given->frame,
+                tr("workspace, tolerance, optimise: the frame that is measured; default: tip, else the first"));
   c->add_option("--samples", given->samples,
                 tr("workspace: number of poses within limits; tolerance: number of mechanisms"))
       ->transform(whole_number(100, 10'000'000))
@@ -255,12 +278,21 @@ void add_mechanism(CLI::App& program, Chosen& chosen) {
   c->add_option("--cell-mm", given->cell_mm,
                 tr("workspace: edge of a cell [mm]; default: 1/40 of the workspace's size"))
       ->check(number_between(0.01, 1000, "mm"));
+  const char* motion = tr("Motion under gravity and springs");
+  c->add_option("--seconds", given->motion.seconds, tr("motion: duration [s]"))
+      ->check(number_between(0.001, 100, "s"))
+      ->capture_default_str()
+      ->group(motion);
+  c->add_option("--step-ms", given->motion.step_ms, tr("motion: time step [ms]"))
+      ->check(number_between(0.01, 10, "ms"))
+      ->capture_default_str()
+      ->group(motion);
+  c->add_option("--data", given->motion.data,
+                tr("motion: write coordinates and energies of every step to this file (CSV)"))
+      ->group(motion);
   c->add_option("--log", given->log, tr("design: write events of the window as JSON lines to this file"));
   add_design_options(*c, given->design);
-  c->callback([=, &chosen] {
-    given->design.follows = frame->count() > 0;
-    chosen.run = [=, &chosen] { return run_mechanism(*given, chosen.json); };
-  });
+  c->callback([=, &chosen] { chosen.run = [=, &chosen] { return run_mechanism(*given, chosen.json); }; });
 }
 
 }  // namespace trocar::app

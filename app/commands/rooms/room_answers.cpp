@@ -160,14 +160,12 @@ int answer_motion(const RoomModel& model, const RoomMotion& motion, const std::s
     RoomCamera camera(first, pictures::parse_size(words.size));
     int number = 0;
     for (const auto& [at, what] : moments) {
-      const auto step = std::min_element(
-          r.steps.begin(), r.steps.end(),
-          [t = at](const MotionStep& a, const MotionStep& b) { return std::fabs(a.at - t) < std::fabs(b.at - t); });
-      view::Scenery scenery = scenery_of(model, step->pose);
-      show_clearance(scenery, model, step->pose, kShownGap);
+      const MotionStep& step = step_at(r, at);
+      view::Scenery scenery = scenery_of(model, step.pose);
+      show_clearance(scenery, model, step.pose, kShownGap);
       const std::string file = fmt::format("moment-{:02}.png", ++number);
       camera.take(scenery, room_views()[1].orbit, folder + "/" + file);
-      shown.push_back({file, fmt::format("{:.2f} s: {}", step->at, what)});
+      shown.push_back({file, fmt::format("{:.2f} s: {}", step.at, what)});
     }
     out["pictures"] = Json::array();
     for (const reports::RoomPicture& p : shown) out["pictures"].push_back(folder + "/" + p.file);

@@ -6,7 +6,7 @@
 #include <trocar/studies/clearance.hpp>
 #include <trocar/studies/halton.hpp>
 #include <trocar/studies/handles.hpp>
-#include <trocar/studies/shape_distance.hpp>
+#include <trocar/studies/link_pairs.hpp>
 
 namespace trocar::studies {
 
@@ -15,22 +15,29 @@ using namespace kinematics;
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kNoLimit = 1e5;      // a limit beyond this is none [rad, m]
+constexpr int kMostTries = 20;        // for each pose within limits that is wanted
+constexpr int kPlainSequence = 8;     // freedoms up to which Halton's sequence fills a cube as it is
+constexpr std::int64_t kLeap = 1009;  // beyond, every so many of its points; no base divides it [Kocis & Whiten 1997]
 
-/// Parts: bodies that nothing moves against each other have one number, that of the first of them.
-std::vector<int> parts_of(const Mechanism& m) {
-  std::vector<int> part(m.bodies.size());
-  for (std::size_t b = 0; b < m.bodies.size(); ++b)
-    part[b] = b > 0 && m.bodies[b].motion == Motion::none ? part[std::size_t(m.bodies[b].parent)] : int(b);
-  return part;
-}
-
-/// Without drives and loops coordinates with limits are what leads.
+/// Without drives, coordinates lead that loops leave free: within their limits, angles without limits a whole turn.
 Mechanism led(const Mechanism& m) {
   Mechanism out = m;
-  for (int u = 0; u < m.u_count() && m.drives.empty() && m.rows == 0; ++u) {
+  if (!m.drives.empty()) return out;
+  std::vector<char> follows(std::size_t(m.u_count()), 0);
+  if (m.rows > 0) {
+    LoopWork work(m);
+    std::vector<double> u = m.start_u();
+    hold(work, {});
+    if (!close(m, u, work).closed()) return out;
+    for (const int column : branch_at(m, u, work).columns) follows[std::size_t(column)] = 1;
+  }
+  for (int u = 0; u < m.u_count(); ++u) {
     const auto q = std::size_t(m.independent[std::size_t(u)]);
-    if (std::isfinite(m.low[q]) && std::isfinite(m.high[q]))
-      out.drives.push_back({m.coordinates[q], u, 0, m.low[q], m.high[q]});
+    const bool limited = m.low[q] > -kNoLimit && m.high[q] < kNoLimit;
+    if (follows[std::size_t(u)] || (!limited && m.measures[q] != Measure::angle)) continue;
+    out.drives.push_back(
+        {m.coordinates[q], u, 0, limited ? m.low[q] : -portable::pi, limited ? m.high[q] : portable::pi});
   }
   return out;
 }
@@ -38,8 +45,13 @@ Mechanism led(const Mechanism& m) {
 class ClearanceSweep {
  public:
   ClearanceSweep(const Mechanism& mechanism, const ClearanceOptions& options, int follow)
-      : m(led(mechanism)), m_options(options), m_follow(follow), m_work(mechanism), m_u(mechanism.start_u()) {
-    list_pairs();
+      : m(led(mechanism)),
+        m_options(options),
+        m_follow(follow),
+        m_work(mechanism),
+        m_u(mechanism.start_u()),
+        m_links(mechanism, options.ignored) {
+    for (const LinkPair& p : m_links.all()) m_pairs.push_back({{p.first, p.second, kFar, -kFar, {}, {}, false}, {}});
     for (const Drive& d : m.drives) m_out.drives.push_back(d.name);
   }
 
@@ -49,6 +61,7 @@ class ClearanceSweep {
     if (!first.closed()) throw std::invalid_argument("the start: " + words(m, first));
     m_branch = branch_at(m, m_u, m_work);
     m_start = m_u;
+    m_drawn = m_options.drawn.empty() ? m_links.drawn(m, m_work.pose) : m_options.drawn;
     if (m.drives.empty())
       look({}, true);
     else if (m.drives.size() == 1)
@@ -56,75 +69,28 @@ class ClearanceSweep {
     else
       at_many_handles();
     if (m_options.refine)
-      for (Pair& p : m_pairs)
-        if (std::isfinite(p.out.least)) refine(p);
+      for (std::size_t k = 0; k < m_pairs.size(); ++k)
+        if (std::isfinite(m_pairs[k].out.least)) refine(k);
     return sorted();
   }
 
  private:
   struct Pair {
     PairClearance out;
-    std::vector<std::pair<int, int>> shapes;
-    double now = 0;
     std::vector<double> u;  ///< the pose where it is least
   };
 
-  /// Bodies without mass between a joint's freedoms are the joint, not parts.
-  bool neighbours(int a, int b) const {
-    return std::find(m_joined.begin(), m_joined.end(), std::pair(std::min(a, b), std::max(a, b))) != m_joined.end();
-  }
-  void join(int a, int b) {
-    if (a != b) m_joined.emplace_back(std::min(a, b), std::max(a, b));
-  }
-
-  void list_pairs() {
-    const std::vector<int> part = parts_of(m);
-    std::vector<int> link_of(m.bodies.size(), -1);
-    for (std::size_t l = 0; l < m.links.size(); ++l) link_of[std::size_t(m.link_body[l])] = int(l);
-    for (std::size_t b = 1; b < m.bodies.size(); ++b) {
-      int parent = m.bodies[b].parent;
-      while (link_of[std::size_t(parent)] < 0) parent = m.bodies[std::size_t(parent)].parent;
-      if (link_of[b] >= 0) join(part[b], part[std::size_t(parent)]);
-    }
-    for (const Closure& c : m.closures) join(part[std::size_t(c.a.body)], part[std::size_t(c.b.body)]);
-    for (std::size_t i = 0; i < m.shapes.size(); ++i)
-      for (std::size_t k = i + 1; k < m.shapes.size(); ++k) {
-        const int a = m.shapes[i].body, b = m.shapes[k].body;
-        const int first = link_of[std::size_t(a)], second = link_of[std::size_t(b)];
-        const int pa = part[std::size_t(a)], pb = part[std::size_t(b)];
-        if (pa == pb || neighbours(pa, pb) || ignored(first, second)) continue;
-        pair_of(first, second).shapes.emplace_back(int(i), int(k));
-      }
-  }
-  bool ignored(int a, int b) const {
-    return std::any_of(m_options.ignored.begin(), m_options.ignored.end(), [&](const std::pair<int, int>& p) {
-      return (p.first == a && p.second == b) || (p.first == b && p.second == a);
-    });
-  }
-  Pair& pair_of(int first, int second) {
-    for (Pair& p : m_pairs)
-      if (p.out.first == first && p.out.second == second) return p;
-    m_pairs.push_back({});
-    m_pairs.back().out = {first, second, kFar, -kFar, {}, {}};
-    return m_pairs.back();
-  }
-
-  double of(const Pair& p) const {
-    double least = kFar;
-    for (const auto& [i, k] : p.shapes)
-      least = std::min(least, clearance(placed(m.shapes[std::size_t(i)], m_work.pose),
-                                        placed(m.shapes[std::size_t(k)], m_work.pose)));
-    return least;
-  }
+  double gap(std::size_t pair) const { return m_links.gap(m_links.all()[pair], m, m_work.pose, m_drawn); }
 
   /// Takes the pose where m_work stands.
   void look(const std::vector<double>& handles, bool there) {
     ++m_out.poses;
     if (m.drives.size() == 1) m_out.handles.push_back(handles[0]);
     m_out.reached += there;
-    for (Pair& p : m_pairs) {
-      const double now = there ? of(p) : std::numeric_limits<double>::quiet_NaN();
-      if (m.drives.size() == 1) p.out.curve.push_back(now);
+    for (std::size_t k = 0; k < m_pairs.size(); ++k) {
+      Pair& p = m_pairs[k];
+      const double now = there ? gap(k) : std::numeric_limits<double>::quiet_NaN();
+      if (m.drives.size() == 1) p.out.curve.push_back(std::isfinite(now) ? now : std::nan(""));
       if (there && now < p.out.least) {
         p.out.least = now;
         p.out.handles = handles;
@@ -158,10 +124,12 @@ class ClearanceSweep {
       look(handles, there);
     }
   }
+  /// Until enough poses are within limits.
   void at_many_handles() {
     std::vector<double> handles(m.drives.size());
-    for (int k = 0; k < m_options.samples; ++k) {
-      for (std::size_t d = 0; d < handles.size(); ++d) handles[d] = halton(k + 1, int(d));
+    const std::int64_t leap = int(handles.size()) > kPlainSequence ? kLeap : 1;
+    for (int k = 0; m_out.reached < m_options.samples && k < kMostTries * m_options.samples; ++k) {
+      for (std::size_t d = 0; d < handles.size(); ++d) handles[d] = halton(leap * (k + 1), int(d));
       m_u = m_start;
       const bool there = go(handles);
       look(handles, there);
@@ -169,7 +137,8 @@ class ClearanceSweep {
   }
 
   /// Compass search in the handles about the least pose.
-  void refine(Pair& p) {
+  void refine(std::size_t pair) {
+    Pair& p = m_pairs[pair];
     double step = m.drives.size() == 1 ? 1.0 / m_options.steps : 0.1;
     for (int round = 0; round < 60 && step > 1e-5; ++round) {
       bool better = false;
@@ -179,7 +148,7 @@ class ClearanceSweep {
           handles[d] = std::clamp(handles[d] + by, 0.0, 1.0);
           m_u = p.u;
           if (!go(handles)) continue;
-          const double now = of(p);
+          const double now = gap(pair);
           if (!(now < p.out.least)) continue;
           p.out.least = now;
           p.out.handles = handles;
@@ -190,11 +159,16 @@ class ClearanceSweep {
     }
   }
 
+  /// Neighbours are told of where they are in each other as they are not drawn; elsewhere they are meant to touch.
   ClearanceReport sorted() {
     m_out.least = kFar;
-    for (Pair& p : m_pairs)
-      if (std::isfinite(p.out.least))
-        (p.out.always() && !m_options.strict ? m_out.joined : m_out.pairs).push_back(std::move(p.out));
+    for (std::size_t k = 0; k < m_pairs.size(); ++k) {
+      PairClearance& p = m_pairs[k].out;
+      const LinkPair& links = m_links.all()[k];
+      p.beside_joint = links.neighbours();
+      if (!std::isfinite(p.least) || (p.beside_joint && p.least >= -m_links.slack(links, m))) continue;
+      (p.always() && !p.beside_joint && !m_options.strict ? m_out.joined : m_out.pairs).push_back(std::move(p));
+    }
     std::stable_sort(m_out.pairs.begin(), m_out.pairs.end(),
                      [](const PairClearance& a, const PairClearance& b) { return a.least < b.least; });
     if (!m_out.pairs.empty()) m_out.least = m_out.pairs.front().least;
@@ -206,8 +180,9 @@ class ClearanceSweep {
   int m_follow;
   LoopWork m_work;
   std::vector<double> m_u, m_start;
+  LinkPairs m_links;
+  std::vector<double> m_drawn;
   Branch m_branch;
-  std::vector<std::pair<int, int>> m_joined;
   std::vector<Pair> m_pairs;
   Vec3d m_before;
   bool m_followed = false;

@@ -3,10 +3,10 @@
 //   const ClearanceReport r = clearance_over_motion(m, {});
 //   r.least;  r.pairs[0].first; r.pairs[0].handles;             // how near, which links, and where
 //
-// Links that joints without freedom keep together are one part. Parts that a joint or a closure connects are
-// neighbours, and meant to touch: they are not looked at. A pair that overlaps in every pose is modelled so (hinged on
-// one pin) and is reported separately. A mechanism with neither drives nor loops is controlled by all coordinates that
-// have limits.
+// Parts that a joint or a closure connects are neighbours, and meant to touch there (link_pairs.hpp): they are told of
+// only where they are in each other off the joint, and deeper than drawn. Another pair that overlaps in every pose is
+// modelled so (hinged on one pin) and is reported separately. A mechanism without drives is led by the coordinates that
+// its loops leave free. Poses of several drives are of Halton's sequence, until enough of them are within limits.
 #pragma once
 
 #include <string>
@@ -19,17 +19,19 @@ namespace trocar::studies {
 
 struct ClearanceOptions {
   int steps = 200;                           ///< of a single drive's way
-  int samples = 2000;                        ///< with several drives: poses, of Halton's sequence [Halton 1960]
+  int samples = 2000;                        ///< with several drives: poses within limits [Halton 1960]
   bool refine = true;                        ///< look about the nearest pose of each pair for a nearer one
   bool strict = false;                       ///< pairs that overlap in every pose count, too
   std::vector<std::pair<int, int>> ignored;  ///< links (into Mechanism::links)
+  std::vector<double> drawn = {};            ///< LinkPairs::drawn() of another version; empty: of the start
 };
 
 struct PairClearance {
   int first = 0, second = 0;    ///< into Mechanism::links
-  double least = 0, most = 0;   ///< [m], below 0: in each other
+  double least = 0, most = 0;   ///< [m], below 0: in each other; of neighbours: by how much deeper than drawn
   std::vector<double> handles;  ///< (drives) where it is least
   std::vector<double> curve;    ///< (poses of a single drive) NaN where the loops stay open
+  bool beside_joint = false;    ///< they are neighbours
   bool always() const noexcept { return most < 0; }
 };
 
@@ -37,7 +39,7 @@ struct ClearanceReport {
   std::vector<PairClearance> pairs;   ///< the nearest first; without those that always overlap
   std::vector<PairClearance> joined;  ///< these
   double least = 0;                   ///< of `pairs`; without any: infinite
-  int poses = 0, reached = 0;         ///< looked at; of them closed and within limits
+  int poses = 0, reached = 0;         ///< tried; of them closed and within limits, and looked at
   double path = 0;                    ///< of the frame that is followed, with one drive [m]
   std::vector<std::string> drives;    ///< what leads, by name
   std::vector<double> handles;        ///< (poses) with one drive

@@ -4,7 +4,6 @@
 
 #include <trocar/studies/design_desk.hpp>
 #include <trocar/studies/handles.hpp>
-#include <trocar/studies/shape_distance.hpp>
 
 namespace trocar::studies {
 
@@ -34,7 +33,8 @@ DesignDesk::DesignDesk(const MechanismDescription& description)
       m_kept(m_values),
       m_u(m_start.start_u()),
       m_good(m_u),
-      m_work(m_start) {
+      m_work(m_start),
+      m_links(m_start, {}) {
   for (int i = 0; i < m_start.named_parameters; ++i) m_dials.push_back(dial_of(m_start.parameters[std::size_t(i)], i));
   find_leads();
   for (const Lead& l : m_leads) {
@@ -42,6 +42,7 @@ DesignDesk::DesignDesk(const MechanismDescription& description)
     m_handles.push_back(way != 0 ? std::clamp((m_u[std::size_t(l.independent)] - l.at_0) / way, 0.0, 1.0) : 0);
   }
   stand();
+  m_drawn = m_links.drawn(m_now, pose());
 }
 
 void DesignDesk::find_leads() {
@@ -127,7 +128,9 @@ const std::optional<ClearanceReport>& DesignDesk::clearance() const {
   m_clearance.reset();
   if (m_leads.empty()) return m_clearance;
   try {
-    m_clearance = clearance_over_motion(m_now, kQuickSweep);
+    ClearanceOptions sweep = kQuickSweep;
+    sweep.drawn = m_drawn;
+    m_clearance = clearance_over_motion(m_now, sweep);
   } catch (const std::invalid_argument&) {
     // its start does not close: words() says so
   }
@@ -135,13 +138,8 @@ const std::optional<ClearanceReport>& DesignDesk::clearance() const {
 }
 
 double DesignDesk::gap_now(const PairClearance& pair) const {
-  const int first = m_now.link_body[std::size_t(pair.first)], second = m_now.link_body[std::size_t(pair.second)];
-  double least = 1e9;
-  for (const BodyShape& a : m_now.shapes)
-    for (const BodyShape& b : m_now.shapes)
-      if (a.body == first && b.body == second)
-        least = std::min(least, studies::clearance(placed(a, pose()), placed(b, pose())));
-  return least;
+  const LinkPair* links = m_links.of(pair.first, pair.second);
+  return links ? m_links.gap(*links, m_now, pose(), m_drawn) : 1e9;
 }
 
 std::vector<Vec3d> DesignDesk::path(int frame) const {

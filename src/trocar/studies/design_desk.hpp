@@ -15,6 +15,7 @@
 #include <trocar/kinematics/chains/description.hpp>
 #include <trocar/kinematics/loops/close.hpp>
 #include <trocar/studies/clearance.hpp>
+#include <trocar/studies/link_pairs.hpp>
 
 namespace trocar::studies {
 
@@ -67,7 +68,7 @@ class DesignDesk {
 
   /// Over the whole motion, with these dimensions; nothing: it does not close at its start, or nothing leads it.
   const std::optional<ClearanceReport>& clearance() const;
-  /// How far those two links are apart as it stands; below 0: in each other. [m]
+  /// How far those two links are apart as it stands; below 0: in each other, neighbours deeper than in the file. [m]
   double gap_now(const PairClearance& pair) const;
   /// Where a frame goes while the first lead goes its way, the others being where they are. [m]
   std::vector<Vec3d> path(int frame) const;
@@ -83,6 +84,8 @@ class DesignDesk {
   std::vector<double> m_values, m_kept, m_handles;
   std::vector<double> m_u, m_good;  ///< as it stands; the last that closed
   kinematics::LoopWork m_work;
+  LinkPairs m_links;
+  std::vector<double> m_drawn;  ///< gaps of neighbours as in the file
   kinematics::LoopReport m_report;
   std::vector<std::vector<double>> m_undone_to, m_redone_to;  ///< values
   mutable std::optional<ClearanceReport> m_clearance;

@@ -4,7 +4,9 @@
 #include <stdexcept>
 
 #include <trocar/kinematics/inverse/workspace.hpp>
+#include <trocar/studies/end_of_way.hpp>
 #include <trocar/studies/halton.hpp>
+#include <trocar/studies/link_pairs.hpp>
 #include <trocar/studies/optimise.hpp>
 
 namespace trocar::studies {
@@ -17,6 +19,8 @@ constexpr double kNever = 1e9;          // penalty of what does not close
 constexpr double kBeside = 0.01;        // of the wish for little change beside what is missing
 constexpr double kMargin = 0.02;        // of the wished clearance more, as poses between those looked at may be nearer
 constexpr double kFinest = 1.0 / 2048;  // of a parameter's bounds
+constexpr double kEndKept = 0.005;      // of the frame's way: further off, the end of the drive's way is another
+constexpr double kRoundLength = 1e-6, kRoundAngle = 1e-3 * portable::pi / 180, kRoundRatio = 1e-6;
 
 class PatternSearch {
  public:
@@ -33,11 +37,13 @@ class PatternSearch {
     for (const PairClearance& p : m_out.before.joined) m_judge.ignored.emplace_back(p.first, p.second);
     m_judge.strict = m_options.sweep.strict = true;
     m_options.sweep.ignored = m_judge.ignored;
+    m_judge.drawn = m_options.sweep.drawn = drawn_gaps();
     m_sweep_before = clearance_over_motion(m, m_options.sweep, m_options.follow);
+    m_end = end_of_way(m, m_options.follow);
+    m_tied = m_end ? end_parameter(m) : -1;
     m_out.range_before = range(m, m_out.before);
     m_sweep_range = range(m, m_sweep_before);
     m_first = unit_of(m.parameter_values);
-    m_best = m_first;
     m_least = penalty(m_first);
     for (int start = 0; start < m_options.starts && m_out.evaluations < m_options.evaluations; ++start) {
       ++m_out.starts;
@@ -47,11 +53,12 @@ class PatternSearch {
       descend(x);
       if (m_least < 1) break;  // nothing is missing: only the change is left
     }
-    m_out.values = values_of(m_best);
+    m_out.values = rounded(m_best);
     const Mechanism best = m.with(m_out.values);
+    m_out.end_off = end_off(best);
     m_out.after = clearance_over_motion(best, m_judge, m_options.follow);
     m_out.range_after = range(best, m_out.after);
-    m_out.free = m_out.after.least >= m_options.clearance &&
+    m_out.free = m_out.after.least >= m_options.clearance && m_out.end_off <= end_slack() &&
                  m_out.after.reached_share() >= m_out.before.reached_share() &&
                  m_out.range_after >= m_options.keep * m_out.range_before &&
                  m_out.range_after <= m_options.most * m_out.range_before;
@@ -77,6 +84,46 @@ class PatternSearch {
     return values;
   }
 
+  /// Gaps of neighbours as they were drawn: whatever changes, they are not to be deeper in each other.
+  std::vector<double> drawn_gaps() const {
+    LoopWork work(m);
+    std::vector<double> u = m.start_u();
+    hold_drives(m, work);
+    close(m, u, work);
+    return LinkPairs(m, m_judge.ignored).drawn(m, work.pose);
+  }
+
+  double end_slack() const { return kEndKept * (m_out.range_before > 0 ? m_out.range_before : m.length); }
+  double end_off(const Mechanism& of) const {
+    if (!m_end) return 0;
+    const std::optional<EndOfWay> end = end_of_way(of, m_options.follow);
+    return end ? end->off(*m_end, m.length) : kNever;
+  }
+  /// Takes these values; where the drive's way ends follows from the others, if it may.
+  void take(std::vector<double>& values) {
+    m_changed.assign(values);
+    if (m_tied < 0) return;
+    values[std::size_t(m_tied)] = fitted_end(m_changed, m_tied, m_options.follow, *m_end);
+    m_changed.assign(values);
+  }
+
+  /// As drawings have them. What has not changed stays as it is.
+  std::vector<double> rounded(std::vector<double> values) {
+    const auto round_one = [&](int i) {
+      const Parameter& p = m.parameters[std::size_t(i)];
+      double& value = values[std::size_t(i)];
+      const double to = p.measure == Measure::length  ? kRoundLength
+                        : p.measure == Measure::angle ? kRoundAngle
+                                                      : kRoundRatio;
+      if (value != m.parameter_values[std::size_t(i)])
+        value = std::clamp(to * std::floor(value / to + 0.5), p.low, p.high);
+    };
+    for (const int i : m_out.parameters) round_one(i);
+    take(values);
+    if (m_tied >= 0) round_one(m_tied);
+    return values;
+  }
+
   double range(const Mechanism& of, const ClearanceReport& swept) const {
     if (m_options.follow < 0) return 0;
     if (of.drives.size() == 1) return swept.path;
@@ -91,11 +138,13 @@ class PatternSearch {
     double change = 0;
     for (std::size_t d = 0; d < x.size(); ++d) change += (x[d] - m_first[d]) * (x[d] - m_first[d]);
     double missing = kNever;
-    m_changed.assign(values_of(x));
+    std::vector<double> values = values_of(x);
+    take(values);
     try {
       const ClearanceReport r = clearance_over_motion(m_changed, m_options.sweep, m_options.follow);
       const double wish = m_options.clearance * (1 + kMargin);
       missing = std::isfinite(r.least) ? std::max(0.0, wish - r.least) / m_changed.length : 0;
+      missing += std::max(0.0, end_off(m_changed) - 0.5 * end_slack()) / m_changed.length;
       missing += 10 * std::max(0.0, m_sweep_before.reached_share() - r.reached_share());
       if (m_options.follow >= 0 && m_sweep_range > 0) {
         const double share = range(m_changed, r) / m_sweep_range;
@@ -108,7 +157,7 @@ class PatternSearch {
     const double value = missing > 0 ? 1 + 1e3 * missing + beside : beside;
     if (m_out.evaluations == 1 || value < m_least) {
       m_least = value;
-      m_best = x;
+      m_best = values;
     }
     m_out.history.push_back(m_least);
     return value;
@@ -118,6 +167,7 @@ class PatternSearch {
   double explore(std::vector<double>& x, double value, double step) {
     for (std::size_t d = 0; d < x.size() && m_out.evaluations < m_options.evaluations; ++d)
       for (const double by : {step, -step}) {
+        if (m_out.parameters[d] == m_tied) continue;
         const double before = x[d];
         x[d] = std::clamp(before + by, 0.0, 1.0);
         const double next = x[d] == before ? value : penalty(x);
@@ -155,8 +205,10 @@ class PatternSearch {
   ClearanceOptions m_judge;
   Mechanism m_changed;
   ClearanceReport m_sweep_before;
+  std::optional<EndOfWay> m_end;
+  int m_tied = -1;  ///< the parameter that follows
   double m_sweep_range = 0, m_least = 0;
-  std::vector<double> m_first, m_best;
+  std::vector<double> m_first, m_best;  ///< as shares of bounds; as values
   OptimiseResult m_out;
 };
 

@@ -193,10 +193,10 @@ class WiringReader {
   /// Do so many blocks go through the line?
   static void check_rate(const scene::JsonObject& o, const BoxWiring& w) {
     const std::size_t bytes = w.raw ? devices::kRawBlockBytes : devices::data_size(w.mask());
-    const double most = 1 / devices::box_seconds(devices::time_on_line(bytes, w.baud));
+    const double most = devices::most_blocks(bytes, w.baud);
     if (w.rate > most)
       o.fault("rate_hz", tr("expected at most {:.1f}, as a block of {} bytes takes {:.2f} ms at {} Bd, got {}", most,
-                            bytes, 1000 / most, w.baud, w.rate));
+                            bytes, 1000 * devices::box_seconds(devices::time_on_line(bytes, w.baud)), w.baud, w.rate));
   }
 
   Taken m_channels{"channel"}, m_bits{"bit"};

@@ -6,6 +6,7 @@
 
 #include <trocar/attempt/box/box_file.hpp>
 #include <trocar/attempt/box/box_source.hpp>
+#include <trocar/attempt/catch_up.hpp>
 #include <trocar/attempt/hand_names.hpp>
 #include <trocar/attempt/sources.hpp>
 #include <trocar/core/error.hpp>
@@ -20,28 +21,11 @@ using devices::BoxFreshness;
 using devices::BoxTime;
 
 constexpr BoxTime kTickTime = 1'000'000'000 / BoxTime(core::kTicksPerSecond);
-constexpr BoxTime kFirstAnswer = 3'000'000'000;          // that long a box is asked before it is given up
-constexpr BoxTime kLostAnswer = 150'000'000;             // stepped: that long an answer is waited for
-constexpr BoxTime kStoodStill = 200'000'000;             // between two ticks, and hands have gone elsewhere
-constexpr double kNearDepth = 0.001, kNearAngle = 0.01;  // [m] [rad] caught up
+constexpr BoxTime kFirstAnswer = 3'000'000'000;  // that long a box is asked before it is given up
+constexpr BoxTime kLostAnswer = 150'000'000;     // stepped: that long an answer is waited for
+constexpr double kNearPost = 0.01;               // [rad] caught up
 constexpr float kNearGrip = 0.05f;
 constexpr double kInTrocar = 0.010;  // [m] an exchanged instrument waits this deep
-
-/// `from` goes to `to` by at most `most`; the way that is left.
-float approach(float& from, float to, double most) {
-  from += float(std::clamp(double(to) - double(from), -most, most));
-  return std::abs(to - from);
-}
-
-/// The fulcrum's coordinates, slowly. True: it is there.
-template <class Pose>
-bool approach(Pose& from, const Pose& to) {
-  const double turn = BoxLeader::kCatchTurn * core::kTick;
-  const double angle = double(std::max(
-      {approach(from.yaw, to.yaw, turn), approach(from.pitch, to.pitch, turn), approach(from.roll, to.roll, turn)}));
-  return double(approach(from.depth, to.depth, BoxLeader::kCatchSpeed * core::kTick)) < kNearDepth &&
-         angle < kNearAngle;
-}
 
 }  // namespace
 
@@ -114,8 +98,8 @@ void BoxLeader::go_towards(const sim::Input& wanted) {
     command.handle = handle;
   }
   if (m_scope_catches) {
-    const float post = approach(m_command.scope.post, wanted.scope.post, kCatchTurn * core::kTick);
-    m_scope_catches = !approach(m_command.scope, wanted.scope) || double(post) > kNearAngle;
+    const double post = approach(m_command.scope.post, wanted.scope.post, kCatchTurn * core::kTick);
+    m_scope_catches = !approach(m_command.scope, wanted.scope) || post > kNearPost;
   } else {
     m_command.scope = wanted.scope;
   }

@@ -28,8 +28,6 @@ enum class BoxPace {
 /// What a box says, tick by tick, of the hands' commands: catching up, exchanging, smoothing. No port and no clock.
 class BoxLeader {
  public:
-  static constexpr double kCatchSpeed = 0.1;   ///< [m/s] along the shaft
-  static constexpr double kCatchTurn = 1;      ///< [rad/s]
   static constexpr double kDrawnBack = 0.050;  ///< [m]
   static constexpr double kResetHeld = 1;      ///< [s] that the pedal is down until it counts
 

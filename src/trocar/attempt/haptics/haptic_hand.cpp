@@ -75,6 +75,8 @@ bool HapticHand::hear(devices::HandReport& report) noexcept {
   report.force = force.force;
   report.share = m_renderer->share();
   report.damping = m_renderer->passivity().damping();
+  report.turns = m_device->capabilities().turns;
+  report.grips = m_device->capabilities().grips;
   return true;
 }
 
@@ -129,11 +131,11 @@ void HapticHand::lead(const sim::State& state, sim::Input& input) noexcept {
   }
   m_placed = true;
   m_changes = state.tools[size_t(m_hand)].changes;
-  const double roll = can().turns ? m_roll - (turn_of(sample.rotation) - m_first_turn) : given.roll;
+  const double roll = m_report.turns != 0 ? m_roll - (turn_of(sample.rotation) - m_first_turn) : given.roll;
   const kinematics::FulcrumPose pose =
       kinematics::clamped(kinematics::inverse(held.port, m_frame.to_space(sample.position), roll), held.limits);
   m_wanted = m_frame.to_space(sample.position);
-  move_handle(sample.switches, can().grips);
+  move_handle(sample.switches, m_report.grips != 0);
   tool = sim::tool_input(pose, std::max(tool.handle, float(m_handle)), tool.instrument);
   if ((sample.switches & kCoagulates) != 0) input.pedals |= sim::kBlue;
 }

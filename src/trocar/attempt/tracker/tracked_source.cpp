@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
+#include <trocar/attempt/catch_up.hpp>
 #include <trocar/attempt/hand_names.hpp>
 #include <trocar/attempt/tracker/tracked_source.hpp>
 #include <trocar/core/error.hpp>
@@ -14,6 +16,7 @@ namespace trocar::attempt {
 namespace {
 
 constexpr std::int64_t kUnseen = 500'000'000;  // [ns] a tool that was not seen for so long is away
+constexpr std::size_t kNamesTold = 5;          // of tools that are seen instead
 
 std::int64_t steady_now() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
@@ -24,6 +27,15 @@ std::int64_t steady_now() {
 double unwrapped_roll(double roll, double before) {
   const double turns = (before - roll) / portable::two_pi;
   return roll + portable::two_pi * std::floor(turns + 0.5);
+}
+
+/// To where its tool is: at once, or, of a tool that was elsewhere in between, slowly.
+template <class Pose>
+void go_after(bool& catches, Pose& command, const Pose& to) {
+  Pose slow = command;
+  catches = catches && !approach(slow, to);
+  command = to;
+  if (catches) command.yaw = slow.yaw, command.pitch = slow.pitch, command.roll = slow.roll, command.depth = slow.depth;
 }
 
 }  // namespace
@@ -61,7 +73,7 @@ TrackedSource::TrackedSource(InputSource& own, const sim::Model& model, const Tr
       if (duty.overlaps(other.duty))
         throw core::BadInput(
             {{{m_plan.file, 0, 0}, tr("expected tools with different targets, got {} twice", tool.role)}});
-    m_led.push_back({&tool, duty, first_of(duty), TrackedTool(m_plan, tool)});
+    m_led.push_back({&tool, duty, first_of(duty), TrackedTool(m_plan, tool), true, 0});
   }
 }
 
@@ -70,12 +82,29 @@ std::string TrackedSource::missing() const {
   const std::string place = m_tracker.place();
   if (!m_tracker.status().connected) return tr("the tracker at {} has disconnected", place);
   const std::int64_t now = steady_now();
+  std::map<std::string, std::string> led_by;  // what is sent, and which tool of the file takes it
   for (const Led& led : m_led) {
-    const auto seen = m_tracker.pose(led.tool->transform);
-    if (!seen) return tr("the tracked tool {} has not been seen yet", led.tool->transform);
-    if (seen->at + kUnseen < now) return tr("the tracked tool {} is not visible", led.tool->transform);
+    const std::string& name = led.tool->transform;
+    const auto seen = m_tracker.pose(name);
+    if (!seen || seen->times == 0) return never_seen(name, seen ? seen->unseen : std::string());
+    if (const auto [other, is_new] = led_by.emplace(seen->what.name, name); !is_new && other->second != name)
+      return tr("the tools {} and {} cannot be distinguished: the tracker cuts both names to {}. Shorten one of them.",
+                other->second, name, seen->what.name);
+    if (seen->at + kUnseen >= now) continue;
+    return seen->unseen.empty() ? tr("the tracked tool {} is not visible", name)
+                                : tr("the tracked tool {} is not visible ({})", name, seen->unseen);
   }
   return {};
+}
+
+std::string TrackedSource::never_seen(const std::string& name, const std::string& why) const {
+  if (!why.empty()) return tr("the tracked tool {} has not been seen yet ({})", name, why);
+  std::string others;
+  std::size_t count = 0;
+  for (const auto& heard : m_tracker.poses())
+    if (count++ < kNamesTold) others += (others.empty() ? "" : ", ") + heard.what.name;
+  return others.empty() ? tr("the tracked tool {} has not been seen yet", name)
+                        : tr("the tracked tool {} has not been seen yet; the tracker sends {}", name, others);
 }
 
 std::string TrackedSource::waits_for() const {
@@ -83,20 +112,20 @@ std::string TrackedSource::waits_for() const {
   return own.empty() ? missing() : own;
 }
 
-void TrackedSource::follow(Led& led, const sim::State& state, const sim::Input& given) {
-  const auto seen = m_tracker.pose(led.tool->transform);
+void TrackedSource::follow(Led& led, const devices::TrackedPose& seen, const sim::State& state,
+                           const sim::Input& given) {
   if (led.hand < 0) {
-    const kinematics::FulcrumPose pose = led.pose.follow(seen->what, m_model.scope.port, sim::pose_of(given.scope));
-    sim::ScopeInput& scope = m_wanted.scope;
-    scope = given.scope;
+    const kinematics::FulcrumPose pose = led.pose.follow(seen, m_model.scope.port, sim::pose_of(given.scope));
+    sim::ScopeInput scope = given.scope;
     scope.yaw = float(pose.yaw), scope.pitch = float(pose.pitch), scope.roll = float(pose.roll);
     scope.depth = float(pose.depth);
-    return;
+    return go_after(led.catches, m_wanted.scope, scope);
   }
   sim::ToolInput& tool = m_wanted.tools[led.hand];
   const sim::ToolInput& theirs = given.tools[led.hand];
   const Vec3d port = m_model.tool(state, std::size_t(led.hand)).port;
-  tool = sim::tool_input(led.pose.follow(seen->what, port, sim::pose_of(theirs)), theirs.handle, theirs.instrument);
+  go_after(led.catches, tool,
+           sim::tool_input(led.pose.follow(seen, port, sim::pose_of(theirs)), theirs.handle, theirs.instrument));
   m_wanted.wrists[led.hand] = given.wrists[led.hand];
   if (!led.tool->grip) return;
   const TrackerPlan::Grip& grip = *led.tool->grip;
@@ -108,9 +137,15 @@ void TrackedSource::follow(Led& led, const sim::State& state, const sim::Input& 
 
 bool TrackedSource::next(const sim::State& state, sim::Input& input) {
   if (!m_own.next(state, input)) return false;
+  const std::int64_t now = steady_now();
+  const bool stood_still = m_last_next != 0 && now - m_last_next > kStoodStill;
+  m_last_next = now;
   for (Led& led : m_led) {
-    if (!m_tracker.pose(led.tool->transform)) continue;
-    follow(led, state, input);
+    const auto seen = m_tracker.pose(led.tool->transform);
+    if (!seen || seen->times == 0) continue;
+    led.catches = led.catches || stood_still || seen->at - led.seen_at > kStoodStill;
+    led.seen_at = seen->at;
+    follow(led, seen->what, state, input);
   }
   if (!m_smooth) m_smooth = std::make_unique<SmoothInput>(input);
   const sim::Input smooth = m_smooth->step(m_wanted);

@@ -1,4 +1,5 @@
-// Tools that a tracker sees control some of the hands, or the camera; the other inputs control the rest.
+// Tools that a tracker sees control some of the hands, or the camera; the other inputs control the rest. While a tool
+// is not seen, time stands still; where it is seen again elsewhere, its instrument goes there at kCatchSpeed.
 //
 //   TrackedSource source(hands, model, plan, tracker);        // all must outlive it
 #pragma once
@@ -52,9 +53,12 @@ class TrackedSource : public InputSource {
     Duty duty;
     int hand;  ///< or devices::kScope
     TrackedTool pose;
+    bool catches;          ///< the tool was elsewhere while time stood still, or nobody saw it
+    std::int64_t seen_at;  ///< [ns]
   };
   std::string missing() const;
-  void follow(Led& led, const sim::State& state, const sim::Input& given);
+  std::string never_seen(const std::string& name, const std::string& why) const;
+  void follow(Led& led, const devices::TrackedPose& seen, const sim::State& state, const sim::Input& given);
 
   InputSource& m_own;
   const sim::Model& m_model;
@@ -62,6 +66,7 @@ class TrackedSource : public InputSource {
   std::vector<Led> m_led;
   sim::Input m_wanted;
   std::unique_ptr<SmoothInput> m_smooth;  ///< made with the first tick
+  std::int64_t m_last_next = 0;           ///< when [ns]
   devices::TrackerThread m_tracker;
 };
 

@@ -6,6 +6,7 @@
 #include <trocar/attempt/tracker/tracker_file.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/devices/tracker/igtl_texts.hpp>
 #include <trocar/scene/json/schema.hpp>
 
 namespace trocar::attempt {
@@ -62,7 +63,7 @@ const Shape& tool_shape() {
 }
 
 TrackerPlan::Tool read_tool(const JsonObject& o) {
-  TrackerPlan::Tool tool{o.text("role"), o.text("transform"), 1e-3 * o.vec3("tip_mm"), {}};
+  TrackerPlan::Tool tool{o.text("role"), o.text("transform"), 1e-3 * o.vec3("tip_mm"), {}, o.at("transform")};
   for (const JsonObject& g : o.objects("grip")) {
     tool.grip = TrackerPlan::Grip{g.text("sensor"), g.integer("index", 0), g.number("open", 0), g.number("closed", 1)};
     if (tool.grip->open == tool.grip->closed)
@@ -111,6 +112,26 @@ const Shape& tracker_plan_shape() {
                   "its tool is first seen"),
        scene::needed(keys::objects("tools", tool_shape, 1, "tracked tools and their targets"))}};
   return shape;
+}
+
+std::vector<core::Fault> warnings_of(const TrackerPlan& plan) {
+  constexpr std::size_t kRoom = devices::kIgtlName;
+  std::vector<core::Fault> out;
+  for (std::size_t i = 0; i < plan.tools.size(); ++i) {
+    const TrackerPlan::Tool& tool = plan.tools[i];
+    if (tool.transform.size() > kRoom)
+      out.push_back(
+          {tool.at, tr("\"{}\" has {} letters: OpenIGTLink sends {} of a name. It is recognised as \"{}\", or "
+                       "as the whole where the server sends it as metadata. Shorten it at the server to be sure.",
+                       tool.transform, tool.transform.size(), kRoom, tool.transform.substr(0, kRoom))});
+    for (std::size_t k = 0; k < i; ++k)
+      if (tool.transform != plan.tools[k].transform && tool.transform.size() >= kRoom &&
+          tool.transform.substr(0, kRoom) == plan.tools[k].transform.substr(0, kRoom))
+        out.push_back({tool.at, tr("\"{}\" and \"{}\" begin with the same {} letters: servers that cut names send the "
+                                   "same one for both. Shorten one of them.",
+                                   plan.tools[k].transform, tool.transform, kRoom)});
+  }
+  return out;
 }
 
 TrackerPlan read_tracker_plan(const std::filesystem::path& file) {

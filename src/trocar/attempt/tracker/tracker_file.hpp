@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <trocar/core/error.hpp>
 #include <trocar/numerics/vec3.hpp>
 #include <trocar/scene/json/shape.hpp>
 
@@ -26,6 +27,7 @@ struct TrackerPlan {
     std::string transform;  ///< its name at the tracker
     Vec3d tip;              ///< of the instrument, in the tool's own frame [m]
     std::optional<Grip> grip;
+    core::Location at = {};  ///< of the name in the file
   };
   std::string file, address;
   int port = 0;
@@ -36,6 +38,9 @@ struct TrackerPlan {
   std::optional<Vec3d> origin;
   std::vector<Tool> tools;
 };
+
+/// What may go wrong with it: names that the protocol cuts, and names that are cut to the same.
+std::vector<core::Fault> warnings_of(const TrackerPlan& plan);
 
 /// @throws core::BadInput with all faults
 TrackerPlan read_tracker_plan(const std::filesystem::path& file);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
+#include <trocar/core/json/foreign_text.hpp>
 #include <trocar/core/json/json_grammar.hpp>
 #include <trocar/core/json/json_reader.hpp>
 #include <trocar/core/printable.hpp>
@@ -405,6 +406,11 @@ const JsonMember* JsonValue::find(std::string_view key) const {
 
 JsonDocument parse_json(std::string_view text, std::string file, std::vector<Fault>& faults) {
   JsonDocument document{std::move(file), {}};
+  if (std::string foreign = foreign_text(text); !foreign.empty()) {
+    document.root.kind = Kind::broken;
+    tell(faults, {{document.file, 1, 1}, std::move(foreign)});
+    return document;
+  }
   Parser parser(text, document.file, faults);
   document.root = parser.document();
   if (parser.is_lost()) document.root.kind = Kind::broken;  // its members still tell the file's kind

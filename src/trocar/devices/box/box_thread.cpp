@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <trocar/devices/box/box_thread.hpp>
+#include <trocar/devices/real_time.hpp>
 
 namespace trocar::devices {
 namespace {
@@ -31,6 +32,7 @@ BoxStatus BoxThread::status() const {
 }
 
 void BoxThread::loop() {
+  raise_priority();
   const BoxTime period = m_link.settings().period();
   BoxTime due = m_second_began = box_now();
   while (!m_stop.load(std::memory_order_relaxed)) {
@@ -51,18 +53,25 @@ void BoxThread::count(const BoxPacket& packet) {
   m_poses.put(m_reader.read(packet));
   ++m_second_blocks;
   m_longest = std::max(m_longest, packet.arrived - packet.acquired);
+  m_trips.add(box_seconds(packet.arrived - packet.acquired));
   m_now.last = packet.arrived;
 }
 
 void BoxThread::tell() {
   const BoxTime now = box_now(), took = now - m_second_began;
-  if (took >= kSecond) {
+  if (took >= kSecond || (m_first_second && took > 0)) {  // in the first one, what there is of it
     m_now.rate = double(m_second_blocks) / box_seconds(took);
     m_now.longest_trip = m_longest;
+  }
+  if (took >= kSecond) {
+    m_now.trip_p999 = m_trips.quantile(0.999);
+    m_first_second = false;
     m_second_blocks = 0;
     m_longest = 0;
     m_second_began = now;
   }
+  m_now.trip_most = m_trips.longest();
+  if (m_first_second) m_now.trip_p999 = m_now.trip_most;
   m_now.open = m_link.is_open();
   m_now.opened = m_link.opened();
   m_now.counts = m_link.counts();

@@ -12,6 +12,7 @@
 
 #include <trocar/devices/box/link.hpp>
 #include <trocar/devices/box/reading.hpp>
+#include <trocar/devices/durations.hpp>
 #include <trocar/devices/mailbox.hpp>
 
 namespace trocar::devices {
@@ -21,10 +22,11 @@ BoxDialogueSettings dialogue_settings(const BoxWiring& wiring);
 struct BoxStatus {
   bool open = false;
   BoxCounts counts;
-  std::uint64_t opened = 0;  ///< times
-  double rate = 0;           ///< blocks a second, over the last second
-  BoxTime longest_trip = 0;  ///< of a block, from asking to its last byte, in the last whole second
-  BoxTime last = 0;          ///< when the last block arrived; 0: none has
+  std::uint64_t opened = 0;             ///< times
+  double rate = 0;                      ///< blocks a second, over the last second
+  BoxTime longest_trip = 0;             ///< of a block, from asking to its last byte, in the last whole second
+  double trip_p999 = 0, trip_most = 0;  ///< of all blocks: 99.9 % took no longer; the longest [s]
+  BoxTime last = 0;                     ///< when the last block arrived; 0: none has
 };
 
 class BoxThread {
@@ -48,7 +50,9 @@ class BoxThread {
   BoxReader m_reader;
   Mailbox<BoxPose> m_poses;
   BoxStatus m_now;  ///< the thread's own
+  Durations m_trips{1e-5};
   BoxTime m_second_began = 0, m_longest = 0;
+  bool m_first_second = true;
   std::uint64_t m_second_blocks = 0;
   mutable std::mutex m_lock;
   BoxStatus m_status;

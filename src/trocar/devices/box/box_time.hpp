@@ -23,4 +23,11 @@ constexpr BoxTime time_on_line(std::size_t bytes, int baud) noexcept {
   return BoxTime(bytes) * kBitsPerByte * 1'000'000'000 / baud;
 }
 
+/// Between two blocks, for a box that turns to the next request: with less, blocks wait for each other on the line.
+inline constexpr BoxTime kBetweenBlocks = 150'000;
+/// Blocks a second that a line carries at most.
+constexpr double most_blocks(std::size_t bytes, int baud) noexcept {
+  return 1 / box_seconds(time_on_line(bytes, baud) + kBetweenBlocks);
+}
+
 }  // namespace trocar::devices

@@ -9,6 +9,7 @@ namespace {
 constexpr BoxTime kSilence = 25'000'000;
 constexpr BoxTime kTellAgain = 200'000'000;  // a CONFIG that had no effect
 constexpr int kLeap = 1024;                  // codes
+constexpr BoxTime kEarly = 1'000'000;        // a line may be so much faster than its name says
 
 }  // namespace
 
@@ -22,12 +23,13 @@ bool unlikely_after(const BoxBlock& before, const BoxBlock& now, ChannelMask mas
 BoxDialogue::BoxDialogue(const BoxDialogueSettings& settings)
     : m_settings(settings), m_silence(std::max(kSilence, 2 * time_on_line(kLongestData, settings.baud))) {
   if (!m_parser.expect(settings.mask)) m_settings.mask = kAllBoxChannels;
+  m_asked.fill(kNotAsked);
 }
 
 void BoxDialogue::begin() noexcept {
   m_parser.clear();
   m_raw.clear();
-  m_asked = {};
+  m_asked.fill(kNotAsked);
   m_number = m_answered = 0;
   m_heard_any = false;
   m_needs_config = true;
@@ -70,18 +72,22 @@ void BoxDialogue::number(std::uint64_t number, BoxPacket& packet) noexcept {
   m_counts.round_trip = packet.arrived - packet.acquired;
 }
 
-BoxPacket BoxDialogue::packet(const DataFrame& frame, BoxTime now) noexcept {
+/// Nothing: an answer to what is not asked for now, as of another program before.
+std::optional<BoxPacket> BoxDialogue::packet(const DataFrame& frame, BoxTime now) noexcept {
   BoxPacket packet{frame.block, frame.mask, 0, frame.flags, true, 0, now};
   m_needs_config = frame.mask != m_settings.mask || (frame.flags & kBoxFresh) != 0;
   packet.acquired = now - time_on_line(data_size(frame.mask), m_settings.baud);
   BoxTime& asked = m_asked[frame.seq];
   const bool answer = (frame.flags & kBoxStreams) == 0;
-  if (answer && asked != 0) packet.acquired = std::min(now, asked + time_on_line(kPollBytes, m_settings.baud));
-  asked = 0;
+  if (answer && asked == kNotAsked) {
+    ++m_unasked;
+    return {};
+  }
+  if (answer) packet.acquired = std::min(now, asked + time_on_line(kPollBytes, m_settings.baud));
+  asked = kNotAsked;
   // The newest poll with this seq; of a box that sends by itself, the block that follows the last one by as much.
   const std::uint64_t from = answer ? m_number : m_answered;
   const std::uint64_t number = answer ? from - ((from - frame.seq) & 15) : from + ((frame.seq - from) & 15);
-  if (answer && number > m_number) return packet;  // a seq that was never asked for: of no use for counting
   this->number(number, packet);
   return packet;
 }
@@ -99,9 +105,19 @@ bool BoxDialogue::believed(const BoxBlock& block) noexcept {
   return true;
 }
 
+/// When the request was over that a raw block answers: the newest from which the line had time for it.
+BoxTime BoxDialogue::raw_asked(BoxTime now) const noexcept {
+  const BoxTime block = time_on_line(kRawBlockBytes, m_settings.baud), ask = time_on_line(1, m_settings.baud);
+  for (std::uint64_t n = m_number; n > 0 && n + m_asked.size() > m_number; --n) {
+    const BoxTime over = m_asked[n % m_asked.size()] + ask;
+    if (over + block <= now + kEarly) return std::min(now, over);
+  }
+  return now - block;
+}
+
 BoxPacket BoxDialogue::raw_packet(const BoxBlock& block, BoxTime now) noexcept {
   BoxPacket packet{block, kAllBoxChannels, 0, 0, false, 0, now};
-  packet.acquired = now - time_on_line(kRawBlockBytes, m_settings.baud);
+  packet.acquired = raw_asked(now);
   const BoxTime since = now - m_last_block;
   const auto blocks_ago = std::uint64_t(std::max<BoxTime>(1, (since + m_settings.period() / 2) / m_settings.period()));
   number(m_answered + (m_heard_any ? blocks_ago : 1), packet);
@@ -110,7 +126,7 @@ BoxPacket BoxDialogue::raw_packet(const BoxBlock& block, BoxTime now) noexcept {
 
 BoxCounts BoxDialogue::counts() const noexcept {
   BoxCounts counts = m_counts;
-  counts.bad = m_settings.raw ? m_raw.counts().torn + m_unlikely : m_parser.counts().bad;
+  counts.bad = m_settings.raw ? m_raw.counts().torn + m_unlikely : m_parser.counts().bad + m_unasked;
   counts.skipped = m_parser.counts().skipped;
   return counts;
 }

@@ -7,6 +7,8 @@
 //   dialogue.hear(bytes, now, [&](const BoxPacket& p) { ... });     // whatever came
 #pragma once
 
+#include <optional>
+
 #include <trocar/devices/box/box_time.hpp>
 #include <trocar/devices/box/frames.hpp>
 
@@ -34,7 +36,7 @@ struct BoxPacket {
 
 struct BoxCounts {
   std::uint64_t asked = 0, blocks = 0, missed = 0;
-  std::uint64_t bad = 0;      ///< frames with a wrong checksum; raw: torn or unlikely blocks
+  std::uint64_t bad = 0;      ///< frames with a wrong checksum, or that nobody asked for; raw: torn, unlikely blocks
   std::uint64_t skipped = 0;  ///< bytes of no frame
   std::uint64_t configs = 0;  ///< times that the box received its channels
   BoxTime round_trip = 0;     ///< of the last block, from asking to its last byte
@@ -63,8 +65,11 @@ class BoxDialogue {
       m_trusts = m_trusts || silent;
       m_raw.feed(bytes, silent, [&](const BoxBlock& block) { raw(block, now, each); });
     } else {
-      if (silent) m_parser.silence([&](const DataFrame& frame) { each(packet(frame, now)); });
-      m_parser.feed(bytes, [&](const DataFrame& frame) { each(packet(frame, now)); });
+      const auto take = [&](const DataFrame& frame) {
+        if (const std::optional<BoxPacket> one = packet(frame, now)) each(*one);
+      };
+      if (silent) m_parser.silence(take);
+      m_parser.feed(bytes, take);
     }
     if (!bytes.empty()) m_last_heard = now;
   }
@@ -73,8 +78,9 @@ class BoxDialogue {
   BoxCounts counts() const noexcept;
 
  private:
-  BoxPacket packet(const DataFrame& frame, BoxTime now) noexcept;
+  std::optional<BoxPacket> packet(const DataFrame& frame, BoxTime now) noexcept;
   BoxPacket raw_packet(const BoxBlock& block, BoxTime now) noexcept;
+  BoxTime raw_asked(BoxTime now) const noexcept;
   bool believed(const BoxBlock& block) noexcept;
   template <class F>
   void raw(const BoxBlock& block, BoxTime now, F&& each) {
@@ -88,7 +94,8 @@ class BoxDialogue {
   RawParser m_raw;
   BoxCounts m_counts;
   std::array<std::uint8_t, kConfigBytes + kPollBytes> m_out{};
-  std::array<BoxTime, 16> m_asked{};  ///< when each seq was asked last; 0: answered, or never
+  static constexpr BoxTime kNotAsked = -1;
+  std::array<BoxTime, 16> m_asked{};  ///< when each seq was asked last; kNotAsked: answered, or never
   std::uint64_t m_number = 0;         ///< of the last poll since begin()
   std::uint64_t m_answered = 0;       ///< number of the last block
   bool m_heard_any = false;           ///< since begin()
@@ -98,7 +105,7 @@ class BoxDialogue {
   BoxBlock m_before;             ///< raw: the last block
   bool m_wants_silence = false;  ///< raw: nothing is asked until the line has been silent
   bool m_trusts = true;          ///< raw: the next block begins after a silence
-  std::uint64_t m_unlikely = 0;
+  std::uint64_t m_unlikely = 0, m_unasked = 0;
 };
 
 }  // namespace trocar::devices

@@ -9,7 +9,11 @@
 
 namespace trocar::devices {
 
+enum class PortReader : unsigned char { none, asks, stopped };
+
 /// Until `stop` says so, which is asked some fifty times a second.
-void serve(SoftwareBox& box, PseudoTerminal& terminal, const std::function<bool()>& stop);
+/// @param changed  is told what whoever reads does now: the port was opened or closed, requests stopped or continue
+void serve(SoftwareBox& box, PseudoTerminal& terminal, const std::function<bool()>& stop,
+           const std::function<void(PortReader)>& changed = {});
 
 }  // namespace trocar::devices

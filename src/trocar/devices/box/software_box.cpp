@@ -6,8 +6,7 @@
 namespace trocar::devices {
 namespace {
 
-constexpr std::size_t kMostWaiting = 15;       // blocks: seq distinguishes no more
-constexpr BoxTime kForgotten = 3'000'000'000;  // without a request: somebody else may ask next
+constexpr std::size_t kMostWaiting = 15;  // blocks: seq distinguishes no more
 
 /// The sum of twelve even numbers has variance 1.
 double normal(core::Random& random) {
@@ -32,7 +31,7 @@ void SoftwareBox::hang_up() {
 
 void SoftwareBox::hear(std::span<const std::uint8_t> bytes, BoxTime now) {
   if (bytes.empty()) return;
-  if (m_began != kNever && now - m_last_request > kForgotten && m_settings.stream_rate == 0) hang_up();
+  if (waits(now)) m_began += now - m_last_request;
   m_last_request = now;
   if (m_settings.raw) {
     for (std::size_t i = 0; i < bytes.size(); ++i) asked(std::uint8_t(m_last_seq + 1), now);
@@ -46,6 +45,10 @@ void SoftwareBox::hear(std::span<const std::uint8_t> bytes, BoxTime now) {
       asked(request.seq, now);
     }
   });
+}
+
+bool SoftwareBox::waits(BoxTime now) const {
+  return m_began != kNever && now - m_last_request > kStopped && !(m_settings.stream_rate > 0);
 }
 
 void SoftwareBox::asked(std::uint8_t seq, BoxTime now) {

@@ -21,14 +21,14 @@ struct SoftwareBoxSettings {
   bool raw = false;  ///< blocks without frames
   int baud = 38'400;
   double stream_rate = 0;    ///< blocks a second that it sends without being asked; 0: on request [1/s]
-  double turnaround = 2e-4;  ///< from a request to the first start bit, when the line is free [s]
+  double turnaround = 5e-5;  ///< from a request to the first start bit, when the line is free [s]
   double latency = 0;        ///< added to every byte, as adapters do [s]
   double noise = 0;          ///< of every channel, standard deviation [codes]
   double drop = 0;           ///< share of blocks that are not sent
   double corrupt = 0;        ///< share of bytes that arrive as others
   std::uint64_t seed = 1;
-  /// 0: its motion goes by the clock from the first request on. Else every request is so much later than the one before
-  /// [s]: who simulates slower than real time still sees all of it.
+  /// 0: its motion goes by the clock from the first request on, and waits while nobody asks. Else every request is so
+  /// much later than the one before [s]: who simulates slower than real time still sees all of it.
   double per_request = 0;
 };
 
@@ -44,12 +44,15 @@ class SoftwareBox {
   BoxTime next_due() const;
   /// Nobody is at the other end: what is not sent is forgotten, and the motion restarts with the next request.
   void hang_up();
+  /// Who reads has stopped: the motion waits where it is until the next request. Not of a box that sends by itself.
+  bool waits(BoxTime now) const;
 
   std::uint64_t sent() const { return m_sent; }        ///< blocks
   std::uint64_t dropped() const { return m_dropped; }  ///< blocks
   double seconds() const { return m_seconds; }         ///< of the motion, at the last block
 
   static constexpr BoxTime kNever = INT64_MAX;
+  static constexpr BoxTime kStopped = 500'000'000;  ///< without a request: who reads has stopped
 
  private:
   struct Sending {

@@ -58,7 +58,13 @@ class HapticDevice {
   virtual void close() noexcept = 0;
   /// The place where it is now counts as the middle from here on, for devices that have no zero of their own.
   virtual void calibrate() {}
+  /// As known when it was opened; the same from then on.
   virtual const HapticCapabilities& capabilities() const noexcept = 0;
+  /// What it says of itself since: the newest, once each time that it has said other things; else null. Valid until the
+  /// next read().
+  virtual const HapticCapabilities* new_capabilities() noexcept { return nullptr; }
+  /// False: what it can do is not known yet, so that nothing is to be rendered.
+  virtual bool may_push() const noexcept { return true; }
 
   /// The newest sample; false, and `sample` as it was, where there is none since the last call.
   virtual bool read(HapticSample& sample) noexcept = 0;

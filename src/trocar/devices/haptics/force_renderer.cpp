@@ -16,11 +16,27 @@ constexpr double kNearPort = 1e-3;      // [m] within which a shaft has no direc
 
 ForceRenderer::ForceRenderer(const HapticCapabilities& device, const Settings& settings)
     : m_settings(settings),
-      m_stiffest(settings.limit_stiffness ? kMargin * stiffest_passive(device, settings.period, 0) : kUnlimited),
-      m_passivity(
-          {.damping_max = device.damping_max > 0 ? device.damping_max : PassivityControl::Limits{}.damping_max}),
-      m_guard({.force_max = device.force_max > 0 ? device.force_max : ForceGuard::Limits{}.force_max,
-               .rate_max = settings.rate_max}) {}
+      m_wanted(bounds_of(device)),
+      m_now(m_wanted),
+      m_passivity({.damping_max = m_now.damping}),
+      m_guard({.force_max = m_now.force, .rate_max = settings.rate_max}) {}
+
+ForceRenderer::Bounds ForceRenderer::bounds_of(const HapticCapabilities& device) const noexcept {
+  return {m_settings.limit_stiffness ? kMargin * stiffest_passive(device, m_settings.period, 0) : kUnlimited,
+          device.damping_max > 0 ? device.damping_max : PassivityControl::Limits{}.damping_max,
+          device.force_max > 0 ? device.force_max : ForceGuard::Limits{}.force_max};
+}
+
+/// Down at once, up slowly.
+void ForceRenderer::follow_bounds() noexcept {
+  const double share = m_settings.period / kGrowth;
+  const auto follow = [share](double& now, double wanted) { now = std::min(wanted, now + share * wanted); };
+  follow(m_now.stiffness, m_wanted.stiffness);
+  follow(m_now.damping, m_wanted.damping);
+  follow(m_now.force, m_wanted.force);
+  m_passivity.bound_damping(m_now.damping);
+  m_guard.bound_force(m_now.force);
+}
 
 /// From the instrument's point to the god object, which sticks to the planes within the cone of friction.
 Vec3d ForceRenderer::push(Vec3d p, const LocalModel& model, double stiffness) noexcept {
@@ -57,7 +73,8 @@ Vec3d ForceRenderer::seal(Vec3d p, const LocalModel& model, double stiffness) no
 }
 
 HapticForce ForceRenderer::force(const HapticSample& sample, const LocalModel& model, double silence) noexcept {
-  const double scale = model.frame.scale, stiffest = m_stiffest / (scale * scale);
+  follow_bounds();
+  const double scale = model.frame.scale, stiffest = m_now.stiffness / (scale * scale);
   const Vec3d p = model.frame.to_space(sample.position);
   const double seal_stiffness = std::min(kSealStiffness, kSealShare * stiffest);
   const double left = model.seal_friction > 0 ? stiffest - seal_stiffness : stiffest;

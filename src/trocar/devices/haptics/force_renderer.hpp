@@ -21,20 +21,33 @@ class ForceRenderer {
   };
   ForceRenderer(const HapticCapabilities& device, const Settings& settings);
 
+  /// The device has said that it can do other things: less counts from the next force on, more fades in within
+  /// kGrowth.
+  void adapt(const HapticCapabilities& device) noexcept { m_wanted = bounds_of(device); }
+
   /// @param silence  since either side was last heard [s]
   HapticForce force(const HapticSample& sample, const LocalModel& model, double silence) noexcept;
 
   const Settings& settings() const noexcept { return m_settings; }
   const PassivityControl& passivity() const noexcept { return m_passivity; }
   double share() const noexcept { return m_guard.share(); }
-  double stiffness_limit() const noexcept { return m_stiffest; }  ///< at the device [N/m]
+  double stiffness_limit() const noexcept { return m_now.stiffness; }  ///< at the device [N/m]
+  double force_limit() const noexcept { return m_now.force; }          ///< [N]
+
+  static constexpr double kGrowth = 1;  ///< [s] from nothing to all
 
  private:
+  /// What a device bears.
+  struct Bounds {
+    double stiffness = 0, damping = 0, force = 0;
+  };
+  Bounds bounds_of(const HapticCapabilities& device) const noexcept;
+  void follow_bounds() noexcept;
   Vec3d push(Vec3d p, const LocalModel& model, double stiffness) noexcept;
   Vec3d seal(Vec3d p, const LocalModel& model, double stiffness) noexcept;
 
   Settings m_settings;
-  double m_stiffest = 0;
+  Bounds m_wanted, m_now;
   PassivityControl m_passivity;
   ForceGuard m_guard;
   Vec3d m_proxy, m_last;

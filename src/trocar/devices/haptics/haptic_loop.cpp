@@ -1,19 +1,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pthread.h>
-#include <sys/prctl.h>
 #include <time.h>
 
 #include <trocar/devices/haptics/haptic_loop.hpp>
+#include <trocar/devices/real_time.hpp>
 
 namespace trocar::devices {
 namespace {
 
-constexpr int kPriority = 40;           // of 1..99: below what the system itself needs
-constexpr double kGone = 1e9;           // [s] of a side that was never heard
-constexpr double kLost = 0.25;          // [s]
-constexpr unsigned long kSlack = 1000;  // [ns] by which sleeping threads may be woken late; the usual 50 us is too much
+constexpr double kGone = 1e9;   // [s] of a side that was never heard
+constexpr double kLost = 0.25;  // [s]
 
 double clock_seconds() {
   timespec t{};
@@ -28,37 +25,16 @@ void sleep_until(double seconds) {
   }
 }
 
-bool raise_priority() {
-  prctl(PR_SET_TIMERSLACK, kSlack, 0, 0, 0);
-  sched_param wanted{};
-  wanted.sched_priority = kPriority;
-  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted) == 0;
-}
-
 double since(double at, double now) { return at < 0 ? kGone : now - at; }
 
 }  // namespace
 
-void Durations::add(double seconds) noexcept {
-  const double us = std::clamp(1e6 * seconds, 0.0, double(kBins - 1));
-  std::atomic<std::uint32_t>& bin = m_bin[std::size_t(us)];
-  bin.store(bin.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-  m_count.store(m_count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-  if (seconds > longest()) m_longest.store(seconds, std::memory_order_relaxed);
-}
-
-double Durations::quantile(double share) const noexcept {
-  const double wanted = share * double(count());
-  double sum = 0;
-  for (std::size_t i = 0; i < kBins; ++i) {
-    sum += double(m_bin[i].load(std::memory_order_relaxed));
-    if (sum >= wanted) return 1e-6 * double(i + 1);
-  }
-  return 1e-6 * double(kBins);
-}
-
 HapticLoop::HapticLoop(std::unique_ptr<HapticDevice> device, const ForceRenderer::Settings& settings)
-    : m_device(std::move(device)), m_renderer(m_device->capabilities(), settings), m_thread([this] { run(); }) {}
+    : m_device(std::move(device)), m_renderer(m_device->capabilities(), settings) {
+  m_report.turns = m_device->capabilities().turns;
+  m_report.grips = m_device->capabilities().grips;
+  m_thread = std::thread([this] { run(); });
+}
 
 void HapticLoop::stop() noexcept {
   m_stop.store(true);
@@ -95,7 +71,12 @@ void HapticLoop::once(double now) noexcept {
     m_report.sample = sample;
     m_sample_at = now;
   }
-  const double silence = std::max(since(m_model_at, now), since(m_sample_at, now));
+  if (const HapticCapabilities* can = m_device->new_capabilities()) {
+    m_renderer.adapt(*can);
+    m_report.turns = can->turns;
+    m_report.grips = can->grips;
+  }
+  const double silence = m_device->may_push() ? std::max(since(m_model_at, now), since(m_sample_at, now)) : kGone;
   const HapticForce force = m_renderer.force(m_report.sample, m_model, silence);
   m_device->write(force);
   m_report.force = force.force;

@@ -10,40 +10,24 @@
 // are counted and left out. Where the system allows it the thread has a real-time priority.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <memory>
 #include <thread>
 
+#include <trocar/devices/durations.hpp>
 #include <trocar/devices/haptics/force_renderer.hpp>
 #include <trocar/devices/mailbox.hpp>
 
 namespace trocar::devices {
 
-/// How long something took, by the microsecond. One thread adds; others may read meanwhile.
-class Durations {
- public:
-  void add(double seconds) noexcept;
-  std::uint64_t count() const noexcept { return m_count.load(std::memory_order_relaxed); }
-  /// The smallest time that so large a share took no longer than, to the microsecond above; at least the range where
-  /// it lies beyond. @param share 0..1 [s]
-  double quantile(double share) const noexcept;
-  double longest() const noexcept { return m_longest.load(std::memory_order_relaxed); }  ///< [s]
-
- private:
-  static constexpr std::size_t kBins = 10'000;  ///< of a microsecond; the last has all that is longer
-  std::array<std::atomic<std::uint32_t>, kBins> m_bin{};
-  std::atomic<std::uint64_t> m_count{0};
-  std::atomic<double> m_longest{0};
-};
-
 /// Where the hand is, and what it feels.
 struct HandReport {
   HapticSample sample;
-  Vec3d force;            ///< on the device [N]
-  double share = 0;       ///< of the force that is let through
-  double damping = 0;     ///< that passivity asks for just now [N s/m]
-  std::int32_t lost = 0;  ///< 1: the device has not spoken for a while
+  Vec3d force;                        ///< on the device [N]
+  double share = 0;                   ///< of the force that is let through
+  double damping = 0;                 ///< that passivity asks for just now [N s/m]
+  std::int32_t lost = 0;              ///< 1: the device has not spoken for a while
+  std::int32_t turns = 0, grips = 0;  ///< 1: the device measures that, as far as it has said
 };
 
 class HapticLoop {

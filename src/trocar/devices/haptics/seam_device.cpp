@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <thread>
+#include <utility>
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -19,6 +20,11 @@ namespace {
 
 constexpr int kMostDatagrams = 64;  // datagrams looked at in one read()
 constexpr auto kListenAgain = std::chrono::milliseconds(1);
+
+std::int64_t steady_nanoseconds() noexcept {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
 
 /// For devices that do not state their abilities: soft and weak.
 HapticCapabilities modest() {
@@ -90,17 +96,30 @@ bool SeamDevice::take_datagram(HapticSample& sample, bool& any) noexcept {
   if (n > ssize_t(bytes.size()) || size != sizeof from) return true;
   if (m_has_peer && (from.sin_port != m_peer.sin_port || from.sin_addr.s_addr != m_peer.sin_addr.s_addr)) return true;
   const std::span<const std::uint8_t> datagram(bytes.data(), std::size_t(n));
-  if (!m_has_peer) {  // what it can do is taken before anything is rendered, and not changed afterwards
-    if (std::optional<HapticCapabilities> can = read_abilities(datagram)) m_capabilities = std::move(*can);
+  if (const std::optional<HapticCapabilities> can = read_abilities(datagram)) {
+    m_stated = *can;
+    m_has_stated = true;
+    m_has_news = m_has_peer;
+    if (!m_has_peer) m_capabilities = *can;
+    return true;
   }
   const std::optional<HapticSample> said = read_sample(datagram);
   if (!said) return true;
+  if (!m_has_peer) m_first_sample = steady_nanoseconds();
   m_peer = from;
   m_has_peer = true;
   m_number = said->number;
   sample = *said;
   any = true;
   return true;
+}
+
+const HapticCapabilities* SeamDevice::new_capabilities() noexcept {
+  return std::exchange(m_has_news, false) ? &m_stated : nullptr;
+}
+
+bool SeamDevice::may_push() const noexcept {
+  return m_has_stated || steady_nanoseconds() - m_first_sample >= std::int64_t(1e9 * kPatience);
 }
 
 bool SeamDevice::read(HapticSample& sample) noexcept {

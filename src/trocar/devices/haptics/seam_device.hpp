@@ -1,4 +1,5 @@
-// A device that a program of somebody's own brings over the loopback: samples in, forces out, a datagram each.
+// A device that a program of somebody's own brings over the loopback: samples in, forces out, a datagram each. It may
+// state its abilities at any time.
 #pragma once
 
 #include <netinet/in.h>
@@ -19,7 +20,12 @@ class SeamDevice : public HapticDevice {
   void open() override;
   void close() noexcept override;
   const HapticCapabilities& capabilities() const noexcept override { return m_capabilities; }
+  const HapticCapabilities* new_capabilities() noexcept override;
+  /// When it has stated its abilities, or has not for kPatience since its first sample.
+  bool may_push() const noexcept override;
   bool read(HapticSample& sample) noexcept override;
+
+  static constexpr double kPatience = 0.5;  ///< [s]
   void write(const HapticForce& force) noexcept override;
 
   int port() const noexcept { return m_port; }
@@ -32,7 +38,10 @@ class SeamDevice : public HapticDevice {
   int m_port;
   double m_patience;
   int m_socket = -1;
-  HapticCapabilities m_capabilities;
+  HapticCapabilities m_capabilities;  ///< as of open()
+  HapticCapabilities m_stated;        ///< what it said last
+  bool m_has_stated = false, m_has_news = false;
+  std::int64_t m_first_sample = 0;  ///< when, on the steady clock [ns]
   sockaddr_in m_peer{};
   bool m_has_peer = false;
   std::uint32_t m_number = 0;

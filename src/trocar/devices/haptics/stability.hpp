@@ -35,6 +35,7 @@ class PassivityControl {
   double energy() const noexcept { return m_energy; }    ///< observed, bounded [J]
   double damping() const noexcept { return m_damping; }  ///< that was added in the last period [N s/m]
   void forget() noexcept { *this = PassivityControl(m_limits); }
+  void bound_damping(double most) noexcept { m_limits.damping_max = most; }
 
  private:
   Limits m_limits;
@@ -58,6 +59,7 @@ class ForceGuard {
   /// @param silence  the longer of: since the simulation's last model, since the device's last sample [s]
   Vec3d guard(Vec3d force, double silence, double period) noexcept;
   double share() const noexcept { return m_share; }  ///< of the force that is let through, 0 at the beginning
+  void bound_force(double most) noexcept { m_limits.force_max = most; }
 
  private:
   Limits m_limits;

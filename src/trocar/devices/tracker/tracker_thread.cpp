@@ -15,29 +15,52 @@
 namespace trocar::devices {
 namespace {
 
-constexpr int kLookEvery = 50;  // whether it is over [ms]
-constexpr auto kTryAgain = std::chrono::milliseconds(300);
+constexpr int kLookEvery = 50;                              // whether it is over [ms]
+constexpr auto kTryAgain = std::chrono::milliseconds(300);  // after every end and every refusal of a connection
 
 std::int64_t steady_now() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
 }
 
-/// The newest of each name; who sends ever new names is heard with the first ones only.
+/// The place of a name; null: the list is full. Who sends ever new names is heard with the first ones only.
 template <class T>
-void note(std::map<std::string, TrackerThread::Heard<T>>& all, const T& what) {
-  const auto found = all.find(what.name);
-  if (found == all.end() && all.size() >= IgtlReader::kMostTools) return;
-  TrackerThread::Heard<T>& heard = found == all.end() ? all[what.name] : found->second;
-  heard = {what, steady_now(), heard.times + 1};
+TrackerThread::Heard<T>* place_of(std::map<std::string, TrackerThread::Heard<T>>& all, const std::string& name) {
+  const auto found = all.find(name);
+  if (found != all.end()) return &found->second;
+  return all.size() >= IgtlReader::kMostTools ? nullptr : &all[name];
 }
 
+/// The newest of each name.
+template <class T>
+void note(std::map<std::string, TrackerThread::Heard<T>>& all, const T& what) {
+  if (TrackerThread::Heard<T>* heard = place_of(all, what.name)) *heard = {what, steady_now(), heard->times + 1, {}};
+}
+
+/// What is known of a tool that is not seen stays.
+void note_unseen(std::map<std::string, TrackerThread::Heard<TrackedPose>>& all, const UnseenTool& tool) {
+  bool known = false;
+  for (auto& [name, heard] : all) {
+    if (!same_tool_name(name, tool.name)) continue;
+    heard.unseen = tool.why;
+    known = true;
+  }
+  TrackerThread::Heard<TrackedPose>* heard = known ? nullptr : place_of(all, tool.name);
+  if (heard) heard->what.name = tool.name, heard->unseen = tool.why;
+}
+
+/// Of that name, else of one that is the same but for the letters that the protocol cuts, if there is only one.
 template <class T>
 std::optional<TrackerThread::Heard<T>> newest(const std::map<std::string, TrackerThread::Heard<T>>& all,
                                               const std::string& name) {
-  const auto found = all.find(name);
-  if (found == all.end()) return std::nullopt;
-  return found->second;
+  if (const auto found = all.find(name); found != all.end()) return found->second;
+  const TrackerThread::Heard<T>* only = nullptr;
+  for (const auto& [sent, heard] : all) {
+    if (!same_tool_name(name, sent)) continue;
+    if (only) return std::nullopt;
+    only = &heard;
+  }
+  return only ? std::optional(*only) : std::nullopt;
 }
 
 }  // namespace
@@ -66,12 +89,10 @@ void TrackerThread::loop() {
       listen();
       continue;
     }
+    std::this_thread::sleep_for(kTryAgain);
     std::string ignored;
     m_socket = connect_tcp(m_address, m_port, ignored);
-    if (m_socket < 0) {
-      std::this_thread::sleep_for(kTryAgain);
-      continue;
-    }
+    if (m_socket < 0) continue;
     const std::lock_guard lock(m_lock);
     m_status.connected = true;
     ++m_status.connections;
@@ -88,9 +109,10 @@ void TrackerThread::listen() {
   bool sound = true;
   {
     const std::lock_guard lock(m_lock);
-    sound = m_reader.hear(
-        std::span(bytes).first(std::size_t(got)), [this](const TrackedPose& pose) { note(m_poses, pose); },
-        [this](const SensorValues& values) { note(m_values, values); });
+    sound = m_reader.hear(std::span(bytes).first(std::size_t(got)),
+                          {[this](const TrackedPose& pose) { note(m_poses, pose); },
+                           [this](const UnseenTool& tool) { note_unseen(m_poses, tool); },
+                           [this](const SensorValues& values) { note(m_values, values); }});
     m_status.messages = m_messages_before + m_reader.messages();
     m_status.damaged = m_damaged_before + m_reader.damaged();
   }

@@ -1,4 +1,5 @@
-// The thread that listens to a tracker's server (OpenIGTLink over TCP), and connects again when it was gone.
+// The thread that listens to a tracker's server (OpenIGTLink over TCP), and connects again when it was gone: three
+// times a second at most, also where the server accepts and hangs up.
 //
 //   TrackerThread tracker("127.0.0.1", 18944);        // throws core::EnvironmentLacks
 //   if (const auto seen = tracker.pose("Grasper")) ...  // any thread
@@ -24,15 +25,17 @@ class TrackerThread {
   template <class T>
   struct Heard {
     T what;
-    std::int64_t at = 0;  ///< when it came, on the steady clock [ns]
-    std::uint64_t times = 0;
+    std::int64_t at = 0;      ///< when it came, on the steady clock [ns]
+    std::uint64_t times = 0;  ///< 0: its server has only said that it does not see it
+    std::string unseen;       ///< why its server does not see it since; empty: it does
   };
   struct Status {
     bool connected = false;
     std::uint64_t messages = 0, damaged = 0, connections = 0;
   };
 
-  /// Of that name, the newest; nothing: none has come.
+  /// Of that name, whole or as the protocol cuts it, the newest; nothing: none has come, or several are cut to the
+  /// same.
   std::optional<Heard<TrackedPose>> pose(const std::string& name) const;
   std::optional<Heard<SensorValues>> values(const std::string& name) const;
   std::vector<Heard<TrackedPose>> poses() const;

@@ -11,6 +11,7 @@
 #include <trocar/scene/files/scene_folders.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
 #include <trocar/scene/json/like.hpp>
+#include <trocar/scene/mechanisms/instrument_mechanism.hpp>
 
 namespace trocar::scene {
 
@@ -224,6 +225,19 @@ std::vector<Tissue> read_tissues(const fs::path& path) {
   return std::move(reading.description.tissues);
 }
 
+namespace {
+
+/// What compiling would find: a linkage that does not close its jaws, hinges that no instrument bends at.
+void check_mechanisms(const Description& description, std::vector<core::Fault>& faults) {
+  for (const Instrument& i : description.instruments) {
+    interactions::ToolModel tool;
+    take_linkage(i, tool, faults);
+    take_wrist(i, tool, faults);
+  }
+}
+
+}  // namespace
+
 std::vector<core::Fault> check_file(const fs::path& path, const MemoryFiles* memory) {
   std::vector<core::Fault> faults;
   Reading reading(faults, memory);
@@ -242,6 +256,7 @@ std::vector<core::Fault> check_file(const fs::path& path, const MemoryFiles* mem
       break;
     case FileKind::instrument:
       reading.instrument_file(path);
+      if (faults.empty()) check_mechanisms(reading.description, faults);
       break;
     case FileKind::tissue:
       reading.tissue_file(path);

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <trocar/core/files.hpp>
+#include <trocar/core/json/foreign_text.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/kinematics/chains/joints.hpp>
 #include <trocar/numerics/portable.hpp>
@@ -445,11 +447,24 @@ MechanismDescription parse_mechanism(std::string_view text, const std::string& f
   return MechanismReading(JsonObject(document.root, mechanism_shape(), document.file, faults), faults).read();
 }
 
+bool is_robot_file(const std::filesystem::path& path) {
+  if (path.extension() == ".urdf" || path.extension() == ".xacro") return true;
+  std::error_code error;
+  if (path.extension() == ".json" || !std::filesystem::is_regular_file(path, error)) return false;
+  std::string begin(64u << 10, '\0');  // the first element is there
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin.data(), std::streamsize(begin.size()));
+  begin.resize(std::size_t(std::max<std::streamsize>(0, file.gcount())));
+  const std::string root = core::xml_root(begin);
+  return root == "robot" || root == "sdf" || root == "mujoco" || root == "mujocoinclude";
+}
+
 MechanismDescription read_mechanism(const std::filesystem::path& path, std::vector<core::Fault>& faults,
                                     const MemoryFiles* memory) {
-  if (path.extension() == ".urdf") {
-    const std::string name = path.generic_string();
-    if (const std::string* text = memory ? memory->text_of(path) : nullptr) return read_urdf(*text, name, faults);
+  const std::string name = path.generic_string();
+  const std::string* text = memory ? memory->text_of(path) : nullptr;
+  if (text || !MemoryFiles::disk_too(memory) ? path.extension() == ".urdf" : is_robot_file(path)) {
+    if (text) return read_urdf(*text, name, faults);
     try {
       return read_urdf(core::read_file(path, kMaxUrdfBytes), name, faults);
     } catch (const core::BadInput& bad) {

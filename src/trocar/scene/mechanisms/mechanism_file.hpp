@@ -15,7 +15,10 @@
 
 namespace trocar::scene {
 
-/// A file, by its ending JSON or URDF. What is wrong is appended to `faults`; without faults the description can be
+/// Is it a robot's file, which is no JSON: by its ending (.urdf, .xacro), or XML of a robot, SDFormat or MuJoCo?
+bool is_robot_file(const std::filesystem::path& path);
+
+/// A file, JSON or URDF. What is wrong is appended to `faults`; without faults the description can be
 /// built. With `memory` files are looked up there instead of on the disk.
 kinematics::MechanismDescription read_mechanism(const std::filesystem::path& path, std::vector<core::Fault>& faults,
                                                 const MemoryFiles* memory = nullptr);

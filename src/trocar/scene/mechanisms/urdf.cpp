@@ -1,13 +1,16 @@
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
+#include <trocar/core/json/foreign_text.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/kinematics/chains/frame.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/scene/mechanisms/urdf.hpp>
+#include <trocar/scene/mechanisms/xacro.hpp>
 
 namespace trocar::scene {
 namespace urdf_reading {
@@ -26,15 +29,17 @@ class Reading {
   MechanismDescription read(const XmlElement& root) {
     const std::size_t before = m_faults.size();
     if (root.name != "robot") {
-      fault(root, tr("expected <robot>, got <{}>", root.name));
+      fault(root, tr("expected a robot (URDF, <robot>), got {}", core::xml_kind(root.name)));
       return {};
     }
+    if (tell_of_xacro(root, m_file, m_faults)) return {};  // what else is wrong may follow from that
     if (const XmlAttribute* a = root.attribute("name")) d.name = a->value;
     for (const XmlElement& e : root.children)
       if (e.name == "link") link(e);
     if (d.links.empty()) fault(root, "expected at least one <link>, got none");
     for (const XmlElement& e : root.children)
       if (e.name == "joint") joint(e);
+    if (m_faults.size() == before) roots();
     actuators();
     if (m_faults.size() == before)
       for (const MechanismFault& f : check(d)) fault(place_of(f, root), f.message);
@@ -221,6 +226,21 @@ class Reading {
       d.couplings.push_back(std::move(c));
       m_mimic_at.push_back(mimic);
     }
+  }
+
+  /// A robot is one tree; a second root means that a joint is missing, or that a link was misspelt.
+  void roots() {
+    const auto has_children = [this](const Link& l) {
+      return std::any_of(d.links.begin(), d.links.end(), [&l](const Link& other) { return other.parent == l.name; });
+    };
+    int root = -1;
+    for (std::size_t i = 0; i < d.links.size(); ++i)
+      if (!m_joint_of[i] && (root < 0 || (has_children(d.links[i]) && !has_children(d.links[std::size_t(root)]))))
+        root = int(i);
+    for (std::size_t i = 0; i < d.links.size(); ++i)
+      if (!m_joint_of[i] && int(i) != root)
+        fault(*m_link_at[i], tr("expected a joint to every link but the root \"{}\", got none to \"{}\"",
+                                d.links[std::size_t(root)].name, d.links[i].name));
   }
 
   void actuators() {

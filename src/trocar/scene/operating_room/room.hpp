@@ -24,6 +24,7 @@ struct RoomTable {
   RoomTilt tilt;         ///< at the start
   double head_down_most = 0.5236, head_up_most = 0.5236, side_most = 0.3491;  ///< [rad]
   double drop = 0.25;                                                         ///< of the tilt's axes below its top [m]
+  double fastest = 0.0524;                                                    ///< of its tilt [rad/s]
 };
 
 struct RoomPort {

@@ -80,6 +80,7 @@ class RoomReading {
     t.head_up_most = kDeg * o.number("head_up_most_deg", 30);
     t.side_most = kDeg * o.number("side_most_deg", 20);
     t.drop = kMm * o.number("axes_below_mm", 250);
+    t.fastest = kDeg * o.number("fastest_deg_s", 3);
     t.tilt = {kDeg * o.number("head_down_deg"), kDeg * o.number("left_down_deg")};
     within(o, "head_down_deg", t.tilt.head_down, -t.head_up_most, t.head_down_most);
     within(o, "left_down_deg", t.tilt.left_down, -t.side_most, t.side_most);

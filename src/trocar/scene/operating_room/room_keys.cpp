@@ -40,7 +40,8 @@ const Shape& room_table_keys() {
        keys::number("left_down_deg", -45, 45, "at the start; below 0: right side down; default 0"),
        keys::number("head_down_most_deg", 0, 60, "default 30"), keys::number("head_up_most_deg", 0, 60, "default 30"),
        keys::number("side_most_deg", 0, 45, "either way, default 20"),
-       keys::number("axes_below_mm", 0, 800, "how far below its top the axes of tilt are, default 250")}};
+       keys::number("axes_below_mm", 0, 800, "how far below its top the axes of tilt are, default 250"),
+       keys::number("fastest_deg_s", 0.1, 90, "greatest speed of its tilt, default 3 (our estimate)")}};
   return shape;
 }
 

@@ -14,7 +14,9 @@ using scene::RoomTilt;
 
 namespace {
 
-constexpr double kSame = 0.3;  // a fault that comes back within this time is the same one [s]
+constexpr double kSame = 0.3;    // a fault that comes back within this time is the same one [s]
+constexpr int kParts = 16;       // of a move that is shorter than so many steps: 1 % of its greatest speed is missed
+constexpr double kClose = 0.25;  // of a step: nearer to each other, times are not told apart
 
 Vec3d mixed(Vec3d a, Vec3d b, double t) { return a + t * (b - a); }
 
@@ -52,10 +54,64 @@ ArmGoal goal_of(const std::vector<Programme::Pose>& poses, Vec3d port, double at
   return g;
 }
 
+/// A time that is looked at.
+struct Moment {
+  double at = 0;
+  int regular = -1;  ///< number of the step, of those that are a fixed time apart
+};
+
+/// Poses, the middle of each move, and parts of short ones.
+void add_moments(std::vector<Moment>& out, const std::vector<double>& poses_at, double step) {
+  for (std::size_t k = 0; k < poses_at.size(); ++k) {
+    out.push_back({poses_at[k]});
+    if (k + 1 == poses_at.size()) break;
+    const double way = poses_at[k + 1] - poses_at[k];
+    const int parts = way < kParts * step ? kParts : 2;
+    for (int i = 1; i < parts; ++i) out.push_back({poses_at[k] + way * i / parts});
+  }
+}
+
+/// All times that are looked at, in order. What is close to a pose or a middle is not looked at twice.
+std::vector<Moment> moments_of(const RoomMotion& motion, double step) {
+  std::vector<Moment> own;
+  for (const std::vector<double>& poses_at : motion.poses_at) add_moments(own, poses_at, step);
+  add_moments(own, motion.tilts_at, step);
+  const auto earlier = [](const Moment& a, const Moment& b) { return a.at < b.at; };
+  std::stable_sort(own.begin(), own.end(), earlier);
+  std::vector<Moment> all = own;
+  const int last = std::max(0, int(std::ceil(motion.length / step - 1e-9)));
+  for (int k = 0; k <= last; ++k) {
+    const double at = std::min(motion.length, k * step);
+    const auto next = std::lower_bound(own.begin(), own.end(), Moment{at - kClose * step}, earlier);
+    const bool is_there = next != own.end() && next->at <= at + kClose * step;
+    if (is_there) all[std::size_t(next - own.begin())].regular = k;
+    if (k == 0 || k == last || !is_there) all.push_back({at, k});
+  }
+  std::stable_sort(all.begin(), all.end(), earlier);
+  std::vector<Moment> out;
+  for (const Moment& m : all) {
+    if (m.at > motion.length) break;
+    if (out.empty() || m.at > out.back().at) out.push_back(m);
+    out.back().regular = std::max(out.back().regular, m.regular);
+  }
+  return out;
+}
+
+/// The move that a time is in, or ends; none: length 0.
+struct MoveTime {
+  double from = 0, to = 0;
+  double length() const { return to - from; }
+};
+MoveTime move_at(const std::vector<double>& poses_at, double at) {
+  const auto end = std::lower_bound(poses_at.begin(), poses_at.end(), at);
+  if (end == poses_at.begin() || end == poses_at.end()) return {};
+  return {*(end - 1), *end};
+}
+
 class Going {
  public:
   Going(const RoomModel& model, const RoomMotion& motion, const MotionOptions& options)
-      : m(model), m_motion(motion), o(options) {}
+      : m(model), m_motion(motion), o(options), m_measured(model.arms().size()) {}
 
   MotionReport go() {
     r.length = m_motion.length;
@@ -63,11 +119,11 @@ class Going {
     RoomPose pose = m.start();
     pose.tilt = m_motion.tilt(0);
     if (m_motion.tips) pose.tips = m_motion.tips(0);
-    const int last = std::max(0, int(std::ceil(m_motion.length / o.step - 1e-9)));
-    for (int k = 0; k <= last; ++k) {
-      const double at = std::min(m_motion.length, k * o.step);
-      const bool keep = k % std::max(1, o.kept_every) == 0 || k == last;
-      step(pose, at, k == 0, keep);
+    const std::vector<Moment> moments = moments_of(m_motion, o.step);
+    for (std::size_t k = 0; k < moments.size(); ++k) {
+      const int regular = moments[k].regular;
+      const bool keep = (regular >= 0 && regular % std::max(1, o.kept_every) == 0) || k + 1 == moments.size();
+      step(pose, moments[k].at, k == 0, keep);
       if (o.stops && !r.faults.empty()) break;
     }
     std::stable_sort(r.faults.begin(), r.faults.end(),
@@ -76,13 +132,19 @@ class Going {
   }
 
  private:
+  /// Where something stood when its speed was measured last.
+  struct Measured {
+    double at = 0;
+    std::vector<double> u;
+  };
+
   void step(RoomPose& pose, double at, bool first, bool keep) {
     ++r.count;
     m_at = at;
+    const std::size_t faults_before = r.faults.size();
     MotionStep s;
     s.at = at;
     s.arms.resize(m.arms().size());
-    const RoomPose before = pose;
     pose.tilt = m_motion.tilt(at);
     if (m_motion.tips) pose.tips = m_motion.tips(at);
     if (!m.can_tilt(pose.tilt)) fault(MotionFaultKind::tilt, -1, "table", 0, {}, "the table cannot tilt so far");
@@ -93,10 +155,11 @@ class Going {
       if (gap > o.keep_port)
         fault(MotionFaultKind::port, int(a), m.arms()[a].described->port, gap, m.arms()[a].port,
               tr("its shaft misses its port by {:.2f} mm", 1e3 * gap));
-      if (!first) speeds(before, pose, int(a), at, s);
+      speeds(pose, int(a), first, s);
     }
+    table_speed(pose.tilt, first);
     collisions(pose, s);
-    if (keep) {
+    if (keep || r.faults.size() > faults_before) {
       s.pose = pose;
       r.steps.push_back(std::move(s));
     }
@@ -117,24 +180,55 @@ class Going {
     if (first && reached.reached && o.clear_from > 0 && goal.aims) m.clear(pose, a, goal);
   }
 
-  void speeds(const RoomPose& before, const RoomPose& pose, int a, double at, MotionStep& s) {
-    const Mechanism& mech = m.arms()[std::size_t(a)].mechanism;
-    const scene::RoomArm& arm = *m.arms()[std::size_t(a)].described;
-    const double time = std::min(o.step, at);
-    if (!(time > 0)) return;
+  /// How long after the last measurement the next may be: over less, a solver's last digits would count.
+  bool can_measure(const Measured& last, const MoveTime& move) const {
+    const double part = move.length() > 0 ? 0.999 * move.length() / kParts : o.step;
+    return m_at - last.at >= std::min(kClose * o.step, part);
+  }
+
+  /// " the move from 1 to 1.01 s needs 0.2 s at least", of a programme's.
+  std::string too_fast(const std::string& what, double share, const MoveTime& move) const {
+    if (!(move.length() > 0)) return tr("{} would move at {:.2f} times its greatest speed", what, share);
+    return tr("{} would move at {:.4g} times its greatest speed: the move from {:.6g} to {:.6g} s needs {:.2g} s", what,
+              share, move.from, move.to, share * move.length());
+  }
+
+  void speeds(const RoomPose& pose, int a, bool first, MotionStep& s) {
+    const auto i = std::size_t(a);
+    const Mechanism& mech = m.arms()[i].mechanism;
+    const scene::RoomArm& arm = *m.arms()[i].described;
+    const MoveTime move = i < m_motion.poses_at.size() ? move_at(m_motion.poses_at[i], m_at) : MoveTime{};
+    Measured& last = m_measured[i];
+    const double time = m_at - last.at;
+    if (first) last = {m_at, pose.u[i]};
+    if (first || !can_measure(last, move)) return;
     int fastest = -1;
     double most = 0;
-    for (std::size_t i = 0; i < mech.independent.size(); ++i) {
-      const auto q = std::size_t(mech.independent[i]);
+    for (std::size_t k = 0; k < mech.independent.size(); ++k) {
+      const auto q = std::size_t(mech.independent[k]);
       const double allowed = mech.measures[q] == Measure::length ? arm.fastest_slide : arm.fastest_turn;
-      const double share = std::fabs(pose.u[std::size_t(a)][i] - before.u[std::size_t(a)][i]) / time / allowed;
+      const double share = std::fabs(pose.u[i][k] - last.u[k]) / time / allowed;
       if (share > most) most = share, fastest = int(q);
     }
-    s.arms[std::size_t(a)].speed = most;
+    last = {m_at, pose.u[i]};
+    s.arms[i].speed = most;
     r.most_speed = std::max(r.most_speed, most);
-    if (most > 1 + 1e-9)
-      fault(MotionFaultKind::speed, a, mech.coordinates[std::size_t(fastest)], most, m.tip(pose, a).p,
-            tr("\"{}\" would move at {:.2f} times its greatest speed", mech.coordinates[std::size_t(fastest)], most));
+    if (most > 1 + 1e-9) {
+      const std::string& name = mech.coordinates[std::size_t(fastest)];
+      fault(MotionFaultKind::speed, a, name, most, m.tip(pose, a).p, too_fast("\"" + name + "\"", most, move));
+    }
+  }
+
+  void table_speed(const scene::RoomTilt& tilt, bool first) {
+    const MoveTime move = move_at(m_motion.tilts_at, m_at);
+    const double time = m_at - m_table.at;
+    if (first) m_table = {m_at, {tilt.head_down, tilt.left_down}};
+    if (first || !can_measure(m_table, move)) return;
+    const double way = std::max(std::fabs(tilt.head_down - m_table.u[0]), std::fabs(tilt.left_down - m_table.u[1]));
+    m_table = {m_at, {tilt.head_down, tilt.left_down}};
+    const double share = way / time / m.room().table.fastest;
+    r.most_speed = std::max(r.most_speed, share);
+    if (share > 1 + 1e-9) fault(MotionFaultKind::speed, -1, "table", share, {}, too_fast(tr("the table"), share, move));
   }
 
   void collisions(const RoomPose& pose, MotionStep& s) {
@@ -182,6 +276,8 @@ class Going {
   const RoomMotion& m_motion;
   const MotionOptions& o;
   double m_at = 0;
+  std::vector<Measured> m_measured;  ///< (arms)
+  Measured m_table;
   MotionReport r;
 };
 
@@ -200,6 +296,11 @@ RoomMotion motion_of(const RoomModel& model, const Programme& programme) {
       motion.moves.push_back(arm);
       poses[std::size_t(arm)] = m.poses;
     }
+  for (const std::vector<Programme::Pose>& of : poses) {
+    std::vector<double>& at = motion.poses_at.emplace_back();
+    for (const Programme::Pose& p : of) at.push_back(p.at);
+  }
+  for (const Programme::Tilt& t : programme.tilts) motion.tilts_at.push_back(t.at);
   motion.goal = [poses, ports](int arm, double at) {
     return goal_of(poses[std::size_t(arm)], ports[std::size_t(arm)], at);
   };
@@ -216,6 +317,14 @@ RoomMotion motion_of(const RoomModel& model, const Programme& programme) {
 const char* word_of(MotionFaultKind kind) {
   constexpr const char* kWords[] = {"reach", "limit", "speed", "port", "collision", "tilt"};
   return kWords[std::size_t(kind)];
+}
+
+const MotionStep& step_at(const MotionReport& report, double at) noexcept {
+  const auto later = std::lower_bound(report.steps.begin(), report.steps.end(), at,
+                                      [](const MotionStep& s, double time) { return s.at < time; });
+  if (later == report.steps.begin()) return *later;
+  const auto earlier = later - 1;
+  return later == report.steps.end() || at - earlier->at < later->at - at ? *earlier : *later;
 }
 
 MotionReport go_through(const RoomModel& model, const RoomMotion& motion, const MotionOptions& options) {

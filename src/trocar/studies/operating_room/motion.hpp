@@ -1,6 +1,7 @@
 // A motion of a room's arms and table, gone through step by step: whatever leads it, a programme written before or the
 // hands of an attempt. Every step is asked whether arms reach, within limits and speeds, keep their ports, and stand
-// clear of each other, the patient, the table and people.
+// clear of each other, the patient, the table and people. Steps are a fixed time apart, and also at every pose of a
+// programme, in the middle of each move, where least jerk is fastest, and at sixteenths of a move that is short.
 //
 //   const MotionReport r = go_through(model, motion_of(model, programme), {});
 //   for (const MotionFault& f : r.faults) say(f.from, f.to, f.words);
@@ -20,6 +21,8 @@ struct RoomMotion {
   std::function<ArmGoal(int arm, double at)> goal;
   std::function<scene::RoomTilt(double at)> tilt;
   std::function<std::vector<Vec3d>(double at)> tips;  ///< RoomPose::tips; empty: what hands hold stays
+  std::vector<std::vector<double>> poses_at;          ///< (arms, or none) when a programme's poses are [s]
+  std::vector<double> tilts_at;                       ///< and its tilts of the table
 };
 /// From pose to pose with least jerk, at rest in each [Flash & Hogan 1985].
 RoomMotion motion_of(const RoomModel& model, const scene::Programme& programme);
@@ -56,7 +59,7 @@ struct MotionOptions {
   double step = 0.02;        ///< [s]
   double keep_port = 1e-4;   ///< [m] a shaft may be beside its port
   double clear_from = 0.02;  ///< nearer than this, an arm that can goes aside [m]; 0: never
-  int kept_every = 5;        ///< steps, of those that the report keeps
+  int kept_every = 5;        ///< steps, of those that the report keeps; those with a new fault are kept, too
   bool stops = false;        ///< at the first fault
 };
 
@@ -72,5 +75,8 @@ struct MotionReport {
 };
 
 MotionReport go_through(const RoomModel& model, const RoomMotion& motion, const MotionOptions& options);
+
+/// The kept step that is nearest to a time; there is at least one.
+const MotionStep& step_at(const MotionReport& report, double at) noexcept;
 
 }  // namespace trocar::studies

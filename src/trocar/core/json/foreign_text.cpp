@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include <trocar/core/printable.hpp>
+#include <trocar/core/text.hpp>
+#include <trocar/core/json/foreign_text.hpp>
+
+namespace trocar::core {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r\n";
+constexpr std::size_t kLongestRoot = 40;  // letters of a name that is shown
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+char lower(char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; }
+
+bool begins_with(std::string_view text, std::string_view word) {
+  return text.size() >= word.size() &&
+         std::equal(word.begin(), word.end(), text.begin(), [](char a, char b) { return a == lower(b); });
+}
+
+std::string_view without_mark(std::string_view text) {
+  return text.substr(0, 3) == "\xef\xbb\xbf" ? text.substr(3) : text;
+}
+std::string_view without_blank(std::string_view text) {
+  const std::size_t at = text.find_first_not_of(kBlank);
+  return at == text.npos ? std::string_view() : text.substr(at);
+}
+
+/// Past what stands before the first element; empty where that is nothing.
+std::string_view from_first_element(std::string_view text) {
+  for (text = without_blank(without_mark(text)); !text.empty() && text[0] == '<'; text = without_blank(text)) {
+    const char* end = begins_with(text, "<?")     ? "?>"
+                      : begins_with(text, "<!--") ? "-->"
+                      : begins_with(text, "<!")   ? ">"
+                                                  : nullptr;
+    if (!end) return text;
+    const std::size_t at = text.find(end);
+    if (at == text.npos) return {};
+    text.remove_prefix(at + std::string_view(end).size());
+  }
+  return {};
+}
+
+bool is_page(std::string_view text) {
+  text = without_blank(without_mark(text));
+  return begins_with(text, "<!doctype html") || begins_with(text, "<html");
+}
+
+/// The first line that is neither empty nor a comment has a key, or begins a document or a list.
+bool is_yaml(std::string_view text) {
+  for (text = without_mark(text); !text.empty();) {
+    const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
+    text.remove_prefix(std::min(text.size(), line.size() + 1));
+    if (line.find_first_not_of(kBlank) == line.npos || line[0] == '#') continue;
+    if (begins_with(line, "%yaml") || line == "---" || begins_with(line, "--- ") || begins_with(line, "- "))
+      return true;
+    const std::size_t colon = line.find(':');
+    if (colon == line.npos || !is_letter(line[0])) return false;
+    const bool plain = line.substr(0, colon).find_first_of("{}[]\",/<>") == line.npos;
+    return plain && (colon + 1 == line.size() || line[colon + 1] == ' ');
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string xml_root(std::string_view text) {
+  text = from_first_element(text);
+  if (text.size() < 2 || !is_letter(text[1])) return {};
+  const std::size_t end = text.find_first_of(" \t\r\n/>", 1);
+  return std::string(text.substr(1, std::min(end == text.npos ? text.size() : end, kLongestRoot + 1) - 1));
+}
+
+std::string xml_kind(std::string_view root) {
+  if (root == "robot") return tr("a robot (URDF): it is read as a mechanism, by `trocar mechanism` and `trocar check`");
+  if (root == "sdf") return tr("SDFormat (<sdf>): mechanisms are read as URDF or JSON. Export the robot as URDF.");
+  if (root == "mujoco" || root == "mujocoinclude")
+    return tr("a model of MuJoCo (<{}>): mechanisms are read as URDF or JSON. Export the robot as URDF.",
+              std::string(root));
+  if (root == "COLLADA") return tr("Collada: surfaces are read as OBJ, STL, PLY, glTF or legacy VTK");
+  if (root == "VTKFile") return tr("VTK in XML: save it as legacy VTK (.vtk)");
+  return tr("XML (<{}>): of XML, robots are read only (URDF, <robot>)", printable(root));
+}
+
+std::string foreign_text(std::string_view text) {
+  if (is_page(text))
+    return tr("expected JSON, got a web page (HTML): download the file itself, not the page that shows it");
+  if (const std::string root = xml_root(text); !root.empty()) return tr("expected JSON, got {}", xml_kind(root));
+  if (is_yaml(text))
+    return tr(
+        "expected JSON, got YAML, which is not read. Write vessel networks, scenes, exercises and devices as JSON with "
+        "comments: examples are in the folder scenes, all keys in scenes/schema.");
+  return {};
+}
+
+}  // namespace trocar::core

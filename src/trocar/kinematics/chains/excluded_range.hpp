@@ -1,0 +1,25 @@
+// Coordinates that follow others (couplings, mimicked joints) and cannot go where those lead them: their own limits
+// exclude a part of the way, or all of it, and with it a part of the leader's range.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <trocar/kinematics/chains/mechanism.hpp>
+
+namespace trocar::kinematics {
+
+struct ExcludedRange {
+  int coordinate = 0;        ///< into q
+  double low = 0, high = 0;  ///< where it is led [rad, m]
+  std::vector<int> leaders;  ///< into q
+};
+
+/// Of all coordinates that follow. Leaders go as far as their drives, else as their limits; one without either says
+/// nothing, and neither does one that loops move.
+std::vector<ExcludedRange> excluded_ranges(const Mechanism& m);
+
+/// What is excluded, and what to do.
+std::string words(const Mechanism& m, const ExcludedRange& range);
+
+}  // namespace trocar::kinematics
