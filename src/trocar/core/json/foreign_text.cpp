@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/json/foreign_text.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
-#include <trocar/core/json/foreign_text.hpp>
 
 namespace trocar::core {
 namespace {
