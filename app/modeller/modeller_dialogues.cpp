@@ -288,7 +288,7 @@ void Modeller::do_adding(const modeller::Operation& operation) {
   scene::JsonValue s = scene::json_object();
   scene::put(s, "do", scene::json_text(m_adding));
   for (const scene::Key& key : operation.parameters.keys)
-    if (const std::string& value = m_asked[key.name]; !value.empty()) put(s, key.name, typed_value(key, value));
+    if (const std::string& value = m_asked[key.name]; !value.empty()) scene::put(s, key.name, typed_value(key, value));
   tell("");
   if (!step(std::move(s))) return;
   const std::string name = m_asked["name"];

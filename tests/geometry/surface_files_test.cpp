@@ -320,7 +320,7 @@ TEST(UnitGuess, TheExtentOfAnOrganSuggestsItsUnit) {
   EXPECT_EQ(guess(20, 30).metres, 0.01) << "30 cubic millimetres are no organ's volume";
   EXPECT_EQ(
       guess(20, 30).words,
-      "longest side 20: 20 mm and 0.03 mL in millimetres, 20 cm and 30 mL in centimetres, 20 m and 30 m3 in metres");
+      "longest side 20: 2 cm and 0.03 mL in millimetres, 20 cm and 30 mL in centimetres, 20 m and 30 m3 in metres");
 }
 
 TEST(UnitGuess, WhatIsTakenIsToldAndASizeThatIsNoOrgansIsAQuestion) {

@@ -28,9 +28,10 @@ geometry::TriMesh mended(const fs::path& path, const geometry::TriMesh& mesh, st
   }
   std::string left;
   for (const std::string& words : out.left) left += (left.empty() ? "" : "; ") + words;
-  throw core::BadInput({{{path.generic_string(), 0, 0},
-                         tr("expected a surface that can be closed, got: {}",
-                            left.empty() ? std::string(tr("one that encloses nothing")) : left)}});
+  throw core::BadInput(
+      {{{path.generic_string(), 0, 0},
+        tr("expected a surface that can be closed, got: {}; close or thicken it in the program that made it",
+           left.empty() ? std::string(tr("one that encloses nothing")) : left)}});
 }
 
 geometry::TriMesh chosen_parts(const JsonObject& o, const geometry::SurfaceFile& file) {
