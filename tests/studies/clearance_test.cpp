@@ -175,7 +175,9 @@ TEST(Halton, ItsAxesDifferAndFillTheirRange) {
     for (int k = 1; k <= 2000; ++k) {
       const double value = halton(std::int64_t(1009) * k, axis);
       low = std::min(low, value), high = std::max(high, value), sum += value;
-      if (axis > 0 && k < 4) EXPECT_NE(value, halton(std::int64_t(1009) * k, axis - 1));
+      if (axis > 0 && k < 4) {
+        EXPECT_NE(value, halton(std::int64_t(1009) * k, axis - 1)) << axis;
+      }
     }
     EXPECT_LT(low, 0.01) << axis;
     EXPECT_GT(high, 0.99) << axis;

@@ -124,14 +124,20 @@ scene::Programme leaping(const std::vector<scene::Programme::Pose>& put_in, doub
 TEST(OperatingRoom, ALeapBetweenTwoStepsIsSeen) {
   const Vec3d there{-0.062, 0.108, -0.098}, away{-0.5, -0.5, -0.5};
   const MotionReport far = go_through(
-      shipped(), motion_of(shipped(), leaping({{1.005, there, true}, {1.01, away, true}, {1.015, there, true}})), {});
+      shipped(),
+      motion_of(shipped(),
+                leaping({{1.005, there, true, {}, 0}, {1.01, away, true, {}, 0}, {1.015, there, true, {}, 0}})),
+      {});
   EXPECT_FALSE(far.good());
   EXPECT_TRUE(has(far, MotionFaultKind::reach) || has(far, MotionFaultKind::limit)) << told(far);
   EXPECT_TRUE(has(far, MotionFaultKind::speed)) << told(far);
   // Within reach, there and back between two steps.
   const Vec3d near = there + Vec3d{0.004, 0, 0};
   const MotionReport twitch = go_through(
-      shipped(), motion_of(shipped(), leaping({{1.005, there, true}, {1.006, near, true}, {1.007, there, true}})), {});
+      shipped(),
+      motion_of(shipped(),
+                leaping({{1.005, there, true, {}, 0}, {1.006, near, true, {}, 0}, {1.007, there, true, {}, 0}})),
+      {});
   ASSERT_TRUE(has(twitch, MotionFaultKind::speed)) << told(twitch);
   EXPECT_NE(told(twitch).find("1.006"), std::string::npos) << told(twitch);
   EXPECT_NE(told(twitch).find(" s needs "), std::string::npos) << told(twitch);

@@ -25,7 +25,7 @@ constexpr double kMostSteps = 1e6;
 /// The course of a motion, a line a step.
 class Table {
  public:
-  explicit Table(const Mechanism& m) : m(m) {
+  explicit Table(const Mechanism& mechanism) : m(mechanism) {
     m_text = "t_s";
     for (int q = 0; q < m.q_count(); ++q) m_text += fmt::format(",{}_{}", m.coordinates[std::size_t(q)], unit_of(m, q));
     m_text += ",kinetic_J,potential_J\n";

@@ -37,8 +37,10 @@ std::vector<std::uint8_t> with_texts(const std::vector<std::uint8_t>& content, c
   put(body, table.size(), 2);
   put(body, all.size(), 4);
   put(body, 0, 4);
-  for (const std::vector<std::uint8_t>* part : {&content, &table, &all})
-    body.insert(body.end(), part->begin(), part->end());
+  const auto add = [&body](const std::vector<std::uint8_t>& part) {
+    body.insert(body.end(), part.begin(), part.end());
+  };
+  add(content), add(table), add(all);
   return body;
 }
 

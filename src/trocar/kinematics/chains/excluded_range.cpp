@@ -44,7 +44,8 @@ std::vector<ExcludedRange> excluded_ranges(const Mechanism& m) {
       led.high += e.ratio * (e.ratio > 0 ? leader.high : leader.low);
     }
     const double slack = kRounding * (led.high - led.low) + 1e-9;
-    if (known && std::isfinite(led.high - led.low) && (led.low < m.low[q] - slack || led.high > m.high[q] + slack))
+    if (led.leaders.size() == 1 && known && std::isfinite(led.high - led.low) &&
+        (led.low < m.low[q] - slack || led.high > m.high[q] + slack))
       out.push_back(std::move(led));
   }
   return out;
