@@ -74,7 +74,7 @@ TEST(BoxFile, MoreBlocksThanTheLineCarriesAreAFault) {
   devices::BoxWiring wiring = devices::default_wiring();
   wiring.rate = 81;
   const std::string told = faults_of(box_file_text(wiring));
-  EXPECT_NE(told.find("expected at most 80.0"), std::string::npos) << told;
+  EXPECT_NE(told.find("expected at most 79.1"), std::string::npos) << told;
   EXPECT_NE(told.find("48 bytes"), std::string::npos) << told;
 }
 
