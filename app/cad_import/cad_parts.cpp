@@ -4,10 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <BRepBndLib.hxx>
 #include <BRepGProp.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <GeomConvert.hxx>
 #include <Geom_BSplineSurface.hxx>
@@ -115,6 +117,14 @@ int faces_of(const TopoDS_Shape& part) {
   int count = 0;
   for (TopExp_Explorer e(part, TopAbs_FACE); e.More(); e.Next()) ++count;
   return count;
+}
+
+double within_of_size(const TopoDS_Shape& part, double within) {
+  constexpr double kTooLarge = 3, kShare = 1e-3;  // [m]; of its diagonal
+  Bnd_Box box;
+  BRepBndLib::Add(part, box);
+  const double size = box.IsVoid() ? 0 : std::sqrt(box.SquareExtent()) * kMetre;
+  return size > kTooLarge ? std::max(within, kShare * size) : within;
 }
 
 geometry::TriMesh triangles_of(const TopoDS_Shape& part, double within) {

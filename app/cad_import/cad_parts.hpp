@@ -12,6 +12,10 @@ namespace trocar::cad {
 
 int faces_of(const TopoDS_Shape& part);
 
+/// How far triangles may be from a part that nobody has said the unit of: more where it is far too large for an organ,
+/// as its size is all that somebody is asked about then [m].
+double within_of_size(const TopoDS_Shape& part, double within);
+
 /// Its faces as triangles [m], of each face its own vertices, outwards as the file has it.
 /// @param within  how far triangles may be from the surface [m]
 geometry::TriMesh triangles_of(const TopoDS_Shape& part, double within);

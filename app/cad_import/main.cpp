@@ -55,13 +55,15 @@ Json as_json(const trocar::scene::NurbsShape& shape) {
   return out;
 }
 
-int import(const fs::path& file, const fs::path& into, double within_mm) {
+int import(const fs::path& file, const fs::path& into, double within_mm, double unit_mm) {
   Json parts = Json::array();
   int number = 0;
   const trocar::cad::CadFile read = trocar::cad::read_cad(file);
+  const double within = 1e-3 * within_mm * (unit_mm > 0 ? read.unit_mm / unit_mm : 1);  // in the size that it says
   for (const TopoDS_Shape& part : read.parts) {
     const std::string name = "part_" + std::to_string(++number) + ".stl";
-    const std::string bytes = trocar::geometry::to_stl(trocar::cad::triangles_of(part, within_mm * 1e-3), 1e-3);
+    const std::string bytes = trocar::geometry::to_stl(
+        trocar::cad::triangles_of(part, unit_mm > 0 ? within : trocar::cad::within_of_size(part, within)), 1e-3);
     if (const std::string said = trocar::core::write_file(into / name, bytes.data(), bytes.size()); !said.empty()) {
       std::fprintf(stderr, "%s: %s\n", (into / name).c_str(), said.c_str());
       return 2;
@@ -79,14 +81,15 @@ int import(const fs::path& file, const fs::path& into, double within_mm) {
 int main(int argc, char** argv) {
   CLI::App program("Parts of a STEP or IGES file, as meshes and NURBS");
   std::string file, into;
-  double within = 0.05;
+  double within = 0.05, unit = 0;
   program.add_option("file", file)->required();
   program.add_option("--into", into, "folder")->required();
   program.add_option("--within-mm", within, "how far a mesh may be from its part")->check(CLI::Range(0.001, 10.0));
+  program.add_option("--unit-mm", unit, "the unit that its numbers really are in; default: what it says");
   CLI11_PARSE(program, argc, argv);
   bound();
   try {
-    return import(file, into, within);
+    return import(file, into, within, unit);
   } catch (const trocar::core::BadInput& bad) {
     std::fprintf(stderr, "%s\n", trocar::core::to_string(bad.faults().front()).c_str());
   } catch (const Standard_Failure& failed) {

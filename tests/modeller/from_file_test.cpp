@@ -124,7 +124,7 @@ TEST(FromFile, TheNamesOfAFilesPartsAreToldWhereNoneIsOfThatName) {
       std::vector<geometry::SurfacePart>{{"left lobe", block()}, {"right lobe", block()}}, 1e-3);
   EXPECT_NE(
       fault_of(document, "from_file", R"({"file": "two.obj", "name": "a", "tissue": "uterus", "part": "left_lobe"})")
-          .find("expected a known part of the file (left lobe, right lobe), got \"left_lobe\""),
+          .find("got \"left_lobe\" (did you mean \"left lobe\"?); known: left lobe, right lobe"),
       std::string::npos);
 }
 

@@ -63,7 +63,7 @@ bool is_cad_file(const fs::path& file) {
   return ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs";
 }
 
-std::vector<CadPart> read_cad_file(const fs::path& file, double within) {
+std::vector<CadPart> read_cad_file(const fs::path& file, double within, std::optional<double> unit) {
   const fs::path program = cad_program();
   std::error_code error;
   if (!fs::exists(program, error))
@@ -75,10 +75,10 @@ std::vector<CadPart> read_cad_file(const fs::path& file, double within) {
   };
   if (!fs::is_regular_file(file, error)) refuse("expected a file, got none of this name");
   const PassingFolder folder;
-  const core::ProgramEnd end = core::run_program(
-      program,
-      {fs::absolute(file).string(), "--into", folder.path().string(), "--within-mm", fmt::format("{}", within * 1e3)},
-      kMostSaid);
+  std::vector<std::string> words{fs::absolute(file).string(), "--into", folder.path().string(), "--within-mm",
+                                 fmt::format("{}", within * 1e3)};
+  if (unit) words.insert(words.end(), {"--unit-mm", fmt::format("{}", *unit * 1e3)});
+  const core::ProgramEnd end = core::run_program(program, words, kMostSaid);
   if (!end.started) throw core::EnvironmentLacks(tr("{} could not be started", program.string()));
   if (end.status != 0)
     refuse(tr("expected a STEP or IGES file that can be read, got: {}",

@@ -23,8 +23,10 @@ bool is_tet_file(const fs::path& file);
 /// By its name's ending.
 bool is_cad_file(const fs::path& file);
 
+/// Parts are as large as the file says.
 /// @param within  how far meshes may be from their parts [m]
+/// @param unit    that the file's numbers really are in, where it says another [m]: `within` holds for that
 /// @throws core::BadInput for a file that cannot be read, core::EnvironmentLacks where the program is missing
-std::vector<CadPart> read_cad_file(const fs::path& file, double within);
+std::vector<CadPart> read_cad_file(const fs::path& file, double within, std::optional<double> unit = {});
 
 }  // namespace trocar::modeller

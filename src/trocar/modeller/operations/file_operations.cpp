@@ -120,7 +120,8 @@ void from_file(const JsonObject& o, Draft& draft) {
   }
   geometry::TriMesh mesh;
   if (is_cad_file(path)) {
-    const std::vector<CadPart> parts = read_cad_file(path, o.number("within_mm", 0.05) * 1e-3);
+    const std::optional<double> unit = o.has("unit_mm") ? std::optional(o.number("unit_mm") * 1e-3) : std::nullopt;
+    const std::vector<CadPart> parts = read_cad_file(path, o.number("within_mm", 0.05) * 1e-3, unit);
     const CadPart* part = chosen_part(o, parts);
     if (!part) return;
     std::optional<DrawnPart> there = drawn_part(o, path, *part);
