@@ -99,7 +99,8 @@ DicomFolder read_dicom_folder(const fs::path& folder, const Progress& progress) 
     DicomHeader header = header_of(files[i], beginning);
     if (!header.fault.empty()) {
       out.left_out.push_back(
-          {header.path, header.fault, header.uid, header.broken, true, is_dicom_directory(header.sop_class)});
+          {header.path, header.fault, header.uid, header.broken, true,
+           is_dicom_directory(header.sop_class) || geometry::lowered(files[i].filename().string()) == "dicomdir"});
       continue;
     }
     images += header.frames.size();
@@ -112,8 +113,7 @@ DicomFolder read_dicom_folder(const fs::path& folder, const Progress& progress) 
 
 std::string few_of(const std::vector<std::string>& names) {
   std::string out;
-  for (std::size_t i = 0; i < names.size() && i < kFew; ++i)
-    out += (i > 0 ? ", " : "") + core::printable(names[i]);
+  for (std::size_t i = 0; i < names.size() && i < kFew; ++i) out += (i > 0 ? ", " : "") + core::printable(names[i]);
   return names.size() > kFew ? tr("{} and {} more", out, names.size() - kFew) : out;
 }
 

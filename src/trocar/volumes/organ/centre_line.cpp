@@ -310,8 +310,9 @@ class TreeBuilder {
     double way = double(m_lumen.depth(middle));
     for (std::size_t i = 1; i < voxels.size(); ++i)
       way += length(m_lumen.patient(voxels[i]) - m_lumen.patient(voxels[i - 1]));
-    const bool is_branch =
-        !m_covered[middle] && way >= m_options.least_branch_mm + double(m_lumen.depth(voxels.back()));
+    // What the root covers may hold the other end of a short vessel.
+    const bool is_new = !m_covered[middle] || m_tree.points.size() == 1;
+    const bool is_branch = is_new && way >= m_options.least_branch_mm + double(m_lumen.depth(voxels.back()));
     if (is_branch) grow(voxels);
     for (const std::size_t v : way_back(m_central, end, in_tree)) cover(v);
     for (const std::size_t v : voxels) cover(v);
