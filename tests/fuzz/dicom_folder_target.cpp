@@ -70,7 +70,10 @@ void check(const DicomStack& stack, const std::vector<DicomHeader>& files) {
 
 void dicom_folder(Bytes bytes) {
   const std::vector<DicomHeader> files = headers_of(split(text_of(bytes)));
-  const PixelsDigest digest = [&](ImageAt image) { return fmt::format("{}", files[std::size_t(image.file)].rows); };
+  const PixelsDigest digest = [&](ImageAt image) {
+    const DicomHeader& file = files[std::size_t(image.file)];
+    return file.allocated == 8 ? std::string() : fmt::format("{}", file.rows);  // as if those of 8 bits were damaged
+  };
   std::size_t images = 0, frames = 0;
   for (const DicomHeader& file : files) frames += file.frames.size();
   try {

@@ -221,7 +221,7 @@ TEST(Nrrd, ColoursAndVectorsAreNoLayers) {
 TEST(Nrrd, OnlyNamesInTheSameFolderAreBeside) {
   EXPECT_EQ(name_beside("a.raw.gz"), "a.raw.gz");
   EXPECT_EQ(name_beside("././a.raw"), "a.raw");
-  for (const char* name : {"", "./", "..", "../a.raw", "./../a", "/etc/passwd", "below/a.raw", "a%03d.raw", "c:a"})
+  for (const char* name : {"", "./", "..", "../a.raw", "./../a", "/etc/passwd", "below/a.raw", "a%03d.raw", "c:a", "LIST 2"})
     EXPECT_FALSE(name_beside(name)) << name;
 }
 

@@ -80,6 +80,18 @@ TEST_F(MadeDicom, CopiesAreLeftOutAndNamed) {
   EXPECT_EQ(read_volume(m_folder / "below" / "IM3.dcm").volume.grid.size[2], 5);
 }
 
+TEST_F(MadeDicom, ADamagedCopyIsLeftOutWhereverItEnds) {
+  for (int k = 0; k < 5; ++k) write(fmt::format("IM{}.dcm", k), slice(k, 10 * k));
+  const std::string whole = slice(2, 20).bytes();
+  for (const std::size_t size : {whole.size() - 3, std::size_t(420)}) {  // in its pixels, in its header
+    write("IM2 (1).dcm", whole.substr(0, size));
+    const VolumeFile read = read_volume(m_folder);
+    EXPECT_EQ(read.volume.grid.size[2], 5);
+    EXPECT_EQ(read.volume.value(0, 0, 2), 20);
+    expect_words(notes_of(read), "IM2 (1).dcm");
+  }
+}
+
 TEST_F(MadeDicom, TheSameObjectWithOtherPixelsIsNoCopy) {
   for (int k = 0; k < 3; ++k) write(fmt::format("a{}.dcm", k), slice(k, 0));
   write("b.dcm", slice(1, 7));

@@ -161,7 +161,7 @@ bool looks_like_nrrd(std::string_view bytes) { return bytes.substr(0, 4) == "NRR
 
 std::optional<std::string> name_beside(std::string_view name) {
   while (name.substr(0, 2) == "./") name.remove_prefix(2);
-  const bool plain = !name.empty() && name.size() < 256 && name[0] != '.' &&
+  const bool plain = !name.empty() && name.size() < 256 && name[0] != '.' && name.substr(0, 4) != "LIST" &&
                      name.find_first_of("/\\:%") == std::string_view::npos && name.find('\0') == std::string_view::npos;
   return plain ? std::optional<std::string>(name) : std::nullopt;
 }
@@ -188,7 +188,8 @@ NrrdVolume read_nrrd(std::string_view bytes, const std::string& file, const Nrrd
     refuse(file, "expected an empty line and the data, got the end of the file");
   }
   const std::string_view behind = bytes.substr(std::min(fields.end, bytes.size()));
-  NrrdNumbers(header, file, options).read(header.data_file ? std::string_view(other) : behind, header.data_file != nullptr);
+  NrrdNumbers(header, file, options)
+      .read(header.data_file ? std::string_view(other) : behind, header.data_file != nullptr);
   return std::move(header.volume);
 }
 

@@ -73,7 +73,7 @@ NrrdVolume read_nrrd(std::string_view bytes, const std::string& file, const Nrrd
 /// @throws core::BadInput  for numbers that float does not hold: not finite, or whole ones beyond 2^24
 Voxels voxels_of(const NrrdVolume& volume, const std::string& file);
 
-/// The name of a file in the same folder without "./" before it; none: it lies elsewhere, or is a pattern.
+/// The name of a file in the same folder without "./" before it; none: it lies elsewhere, or stands for several.
 std::optional<std::string> name_beside(std::string_view name);
 
 bool looks_like_nrrd(std::string_view bytes);

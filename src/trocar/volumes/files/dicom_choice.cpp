@@ -54,11 +54,19 @@ std::size_t default_stack(const std::vector<DicomStack>& stacks, int file, const
                      series);
 }
 
+/// A damaged file of the series is a slice that is missing, if it is no copy of one that is there.
 void require_whole(const DicomFolder& folder, const DicomStack& stack, const std::string& name) {
   if (!stack.fault.empty()) refuse(name, stack.fault);
-  const std::string& uid = folder.files[std::size_t(stack.images[0].file)].uid;
-  for (const LeftOut& left : folder.left_out)
-    if (left.broken && !uid.empty() && left.series_uid == uid) refuse(left.path, left.why);
+  const auto file_of = [&](const ImageAt& image) -> const DicomHeader& {
+    return folder.files[std::size_t(image.file)];
+  };
+  const std::string& uid = file_of(stack.images[0]).uid;
+  for (const LeftOut& left : folder.left_out) {
+    if (!left.broken || uid.empty() || left.series_uid != uid) continue;
+    const bool is_there = std::any_of(stack.images.begin(), stack.images.end(),
+                                      [&](const ImageAt& i) { return file_of(i).instance == left.instance; });
+    if (left.instance.empty() || !is_there) refuse(left.path, left.why);
+  }
 }
 
 }  // namespace

@@ -93,13 +93,13 @@ DicomFolder read_dicom_folder(const fs::path& folder, const Progress& progress) 
     tell(progress, double(i) / double(files.size()));
     const std::string beginning = beginning_of(files[i]);
     if (!looks_like_dicom(beginning)) {
-      out.left_out.push_back({files[i].generic_string(), kind_of(beginning), "", false, false, false});
+      out.left_out.push_back({files[i].generic_string(), kind_of(beginning), "", "", false, false, false});
       continue;
     }
     DicomHeader header = header_of(files[i], beginning);
     if (!header.fault.empty()) {
       out.left_out.push_back(
-          {header.path, header.fault, header.uid, header.broken, true,
+          {header.path, header.fault, header.uid, header.instance, header.broken, true,
            is_dicom_directory(header.sop_class) || geometry::lowered(files[i].filename().string()) == "dicomdir"});
       continue;
     }

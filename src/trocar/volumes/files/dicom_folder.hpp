@@ -12,8 +12,8 @@ namespace trocar::volumes {
 
 /// A file that gives no slices.
 struct LeftOut {
-  std::string path, why, series_uid;  ///< why: as a message
-  bool broken = false;                ///< whole, it may have been a slice of its series
+  std::string path, why, series_uid, instance;  ///< why: as a message
+  bool broken = false;                          ///< whole, it may have been a slice of its series
   bool dicom = true;
   bool is_directory = false;  ///< the list of a disc's files
 };

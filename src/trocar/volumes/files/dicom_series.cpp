@@ -51,8 +51,8 @@ PixelsDigest digest_of(const std::vector<DicomHeader>& files, LastPixels& pixels
       const std::size_t bytes = all.size() / header.frames.size();
       return fmt::format("{} {} {}", core::hex(core::hash_bytes(all.data() + bytes * std::size_t(image.frame), bytes)),
                          r.slope, r.intercept);
-    } catch (const core::BadInput&) {  // damaged: like no other
-      return fmt::format("{}:{}", header.path, image.frame);
+    } catch (const core::BadInput&) {
+      return std::string();
     }
   };
 }

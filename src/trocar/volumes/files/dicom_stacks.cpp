@@ -138,15 +138,23 @@ class Stacks {
   void drop_copies_of(DicomStack& stack, const std::vector<int>& images, std::set<int>& dropped) {
     if (images.size() < 2) return;
     std::map<std::string, int> first;  // with these pixels
+    std::vector<int> damaged;
     for (const int i : images) {
-      const ImageAt own = stack.images[std::size_t(i)];
-      const auto [kept, is_new] = first.emplace(m_pixels(own), i);
-      const ImageAt other = stack.images[std::size_t(kept->second)];
-      if (is_new || own.file == other.file) continue;
-      dropped.insert(i);
-      const std::pair<int, int> pair{own.file, other.file};
-      if (stack.copies.empty() || stack.copies.back() != pair) stack.copies.push_back(pair);
+      const std::string pixels = m_pixels(stack.images[std::size_t(i)]);
+      if (pixels.empty()) {
+        damaged.push_back(i);
+      } else if (const auto [kept, is_new] = first.emplace(pixels, i); !is_new) {
+        drop(stack, i, kept->second, dropped);
+      }
     }
+    if (first.size() == 1)
+      for (const int i : damaged) drop(stack, i, first.begin()->second, dropped);
+  }
+  static void drop(DicomStack& stack, int copy, int original, std::set<int>& dropped) {
+    const std::pair<int, int> files{stack.images[std::size_t(copy)].file, stack.images[std::size_t(original)].file};
+    if (files.first == files.second) return;
+    dropped.insert(copy);
+    if (stack.copies.empty() || stack.copies.back() != files) stack.copies.push_back(files);
   }
   /// All that a copy has in common with its original, besides its pixels.
   std::string identity(const DicomStack& stack, int image) const {

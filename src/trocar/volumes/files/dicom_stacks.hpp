@@ -29,7 +29,8 @@ struct DicomStack {
   std::size_t slices() const { return groups[0].images.size(); }
 };
 
-/// Something that two images have in common where they have the same pixels, and otherwise not.
+/// Something that two images have in common where they have the same pixels, and otherwise not. Empty: they are
+/// damaged.
 using PixelsDigest = std::function<std::string(ImageAt)>;
 
 /// Most slices first, then by the series' names.
