@@ -304,6 +304,7 @@ void Modeller::draw_dialogues() {
   }
   if (m_trainer_status) draw_trainer_report();
   if (m_help) draw_help();
+  m_scan.draw_choice();
   draw_questions();
   fs::path chosen;
   if (!m_files.is_open()) return;

@@ -15,13 +15,15 @@ namespace trocar::app {
 
 /// Is a dialogue open? Then keys and clicks belong to it.
 bool Modeller::asks() const {
-  return m_files.is_open() || m_question != Question::none || m_help || m_faults || m_import.is_open() || m_checks ||
-         !m_adding.empty() || m_trainer_status.has_value();
+  return m_scan.asks() || m_files.is_open() || m_question != Question::none || m_help || m_faults ||
+         m_import.is_open() || m_checks || !m_adding.empty() || m_trainer_status.has_value();
 }
 
 /// Esc closes the dialogue on top. False: none is open.
 bool Modeller::close_top() {
-  if (m_files.is_open())
+  if (m_scan.asks())
+    m_scan.end_choice();
+  else if (m_files.is_open())
     m_files.close(), m_file_for = FileFor::none, m_after = After::none;
   else if (m_question != Question::none)
     m_question = Question::none, m_after = After::none;

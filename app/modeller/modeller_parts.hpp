@@ -193,7 +193,7 @@ class Modeller {
   void drive_on();
 
   // modeller_scan.cpp
-  bool scan_shown() const { return m_scan_shown && (m_scan.shows() || m_scan.reads()); }
+  bool scan_shown() const { return m_scan_shown && (m_scan.shows() || m_scan.reads() || m_scan.asks()); }
   void draw_scan();
   void draw_scan_menu();
   void make_organ(const std::string& segment);

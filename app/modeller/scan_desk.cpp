@@ -68,12 +68,17 @@ ScanDesk::~ScanDesk() {
   if (m_keeping.valid()) m_keeping.wait();
 }
 
-void ScanDesk::open(const std::filesystem::path& path, const std::filesystem::path& labels) {
+void ScanDesk::open(const std::filesystem::path& path, const std::filesystem::path& labels, const ScanWish& wish) {
   if (m_reading.valid()) return;
   m_share = 0;
   m_stop = false;
-  m_reading = std::async(std::launch::async, [this, path, labels] {
+  m_reads = path;
+  m_reads_labels = labels;
+  m_keeps_labels = false;
+  m_reading = std::async(std::launch::async, [this, path, labels, wish] {
     volumes::ReadOptions options;
+    options.series = wish.series;
+    options.frame = wish.frame;
     options.progress = [this](double share) {
       m_share = share;
       return !m_stop;
@@ -130,8 +135,12 @@ void ScanDesk::take_what_was_read() {
   if (!m_reading.valid() || m_reading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   try {
     std::unique_ptr<modeller::Scan> read = m_reading.get();
+    if (m_keeps_labels && m_scan) read->take_labels(m_scan->labels());
     m_caster.reset();
     m_scan = std::move(read);
+  } catch (const volumes::SeriesChoice& choice) {
+    m_asked = Asked{m_reads, m_reads_labels, choice.series()};
+    return;
   } catch (const core::BadInput& bad) {
     refuse(bad.faults().front().message);
     return;
@@ -173,6 +182,16 @@ void ScanDesk::take_what_was_read() {
   say(tr("{} x {} x {} voxels of {:.2f} x {:.2f} x {:.2f} mm", v.grid.size[0], v.grid.size[1], v.grid.size[2],
          v.grid.spacing.x, v.grid.spacing.y, v.grid.spacing.z));
   for (const std::string& note : m_scan->report().notes) m_message.text += "; " + note;
+}
+
+void ScanDesk::draw_choice() {
+  if (!m_asked) return;
+  bool stays = true;
+  const Asked asked = *m_asked;
+  const std::optional<ScanWish> wish = draw_series_dialogue(asked.path.filename().string(), asked.series, stays);
+  if (!wish && stays) return;
+  m_asked.reset();
+  if (wish) open(asked.path, asked.labels, *wish);
 }
 
 void ScanDesk::take_labels(const std::filesystem::path& path) {
@@ -579,6 +598,10 @@ void ScanDesk::draw_panel(const Area& panel) {
   ImGui::BeginChild("steps", {0, ImGui::GetContentRegionAvail().y - last}, false, ImGuiWindowFlags_NavFlattened);
   ui::title(tr("Scan"));
   ui::text(m_scan->path().filename().string(), ui::kGrey);
+  if (const auto wish = draw_volume_lists(m_scan->report()); wish && !m_reading.valid()) {
+    open(std::filesystem::path(m_scan->path()), {}, *wish);
+    m_keeps_labels = true;
+  }
   ui::text(m_under ? tr("Under the pointer: {:.0f} {}", *m_under, v.unit) : std::string(tr("Under the pointer: -")));
   draw_view_settings();
   draw_segments();

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <trocar/core/parallel.hpp>
 #include <trocar/modeller/scan/scan.hpp>
@@ -20,6 +21,7 @@
 #include <trocar/volumes/show/caster.hpp>
 #include <trocar/volumes/show/slice_image.hpp>
 
+#include "modeller/scan_choice.hpp"
 #include "shell/area.hpp"
 
 namespace trocar::app {
@@ -49,7 +51,11 @@ class ScanDesk {
 
   /// Begins to read; what was there stays until it is there.
   /// @param labels  a label map that is taken in with it; empty: none
-  void open(const std::filesystem::path& path, const std::filesystem::path& labels = {});
+  void open(const std::filesystem::path& path, const std::filesystem::path& labels = {}, const ScanWish& wish = {});
+  /// Must the user choose one of several series? Then the dialogue is on top of everything.
+  bool asks() const { return m_asked.has_value(); }
+  void draw_choice();
+  void end_choice() { m_asked.reset(); }
   /// Writes the segments where a crash leaves them, beside the window, some seconds after they changed.
   void keep(const std::filesystem::path& folder);
   /// Nothing is to be offered after the next start.
@@ -76,6 +82,10 @@ class ScanDesk {
 
  private:
   struct Pane;
+  struct Asked {
+    std::filesystem::path path, labels;
+    std::vector<volumes::SeriesFacts> series;
+  };
   void take_what_was_read();
   void draw_slice(Pane& pane, const Area& area, int which);
   void draw_block(const Area& area);
@@ -101,6 +111,9 @@ class ScanDesk {
 
   std::unique_ptr<modeller::Scan> m_scan;
   std::future<std::unique_ptr<modeller::Scan>> m_reading;
+  std::filesystem::path m_reads, m_reads_labels;  ///< what is being read
+  bool m_keeps_labels = false;                    ///< another volume of what is shown is being read
+  std::optional<Asked> m_asked;
   std::atomic<double> m_share{0};
   std::atomic<bool> m_stop{false};
   ScanMessage m_message;

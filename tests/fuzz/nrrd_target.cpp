@@ -4,9 +4,8 @@
 #include <stdexcept>
 
 #include <trocar/core/error.hpp>
-#include <trocar/geometry/formats/mesh_source.hpp>
-#include <trocar/geometry/formats/nrrd.hpp>
 #include <trocar/geometry/tets/stuffing.hpp>
+#include <trocar/geometry/voxel_files/nrrd.hpp>
 
 #include "../geometry/nrrd_bytes.hpp"
 #include "targets.hpp"
@@ -52,9 +51,11 @@ void check_body(const Voxels& voxels) {
 void nrrd_file(Bytes bytes) {
   Voxels voxels;
   try {
-    voxels = read_nrrd(text_of(bytes), "memory.nrrd", kMostVoxelsOfOne);
+    NrrdOptions options;
+    options.most_voxels = kMostVoxelsOfOne;
+    voxels = voxels_of(read_nrrd(text_of(bytes), "memory.nrrd", options), "memory.nrrd");
   } catch (const core::BadInput& bad) {
-    require(!bad.faults().empty() && bad.faults().size() <= kMaxMeshFaults + 1, "faults are bounded");
+    require(!bad.faults().empty() && bad.faults().size() <= 51, "faults are bounded");
     for (const core::Fault& f : bad.faults()) require(!f.message.empty(), "a fault says what was expected");
     return;
   }

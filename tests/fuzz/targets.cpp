@@ -30,6 +30,7 @@ std::span<const Target> targets() {
       {"volume_nrrd", volume_file, 2'000, volume_nrrd_seeds, volume_words},
       {"volume_meta", volume_file, 2'000, volume_meta_seeds, volume_words},
       {"volume_dicom", volume_file, 3'000, volume_dicom_seeds, volume_words},
+      {"dicom_folder", dicom_folder, 12'000, dicom_folder_seeds, volume_words},
       {"team", team_message, 4'000, team_seeds},
       {"tracker", tracker_stream, 4'000, tracker_seeds},
       {"tracker_file", tracker_file, 4'000, tracker_file_seeds, json_words, mutate_json, cross_json},

@@ -53,6 +53,8 @@ std::vector<Seed> volume_nrrd_seeds();
 std::vector<Seed> volume_meta_seeds();
 std::vector<Seed> volume_dicom_seeds();
 std::vector<std::string> volume_words();
+void dicom_folder(Bytes bytes);
+std::vector<Seed> dicom_folder_seeds();
 void team_message(Bytes bytes);
 std::vector<Seed> team_seeds();
 void tracker_stream(Bytes bytes);

@@ -138,12 +138,23 @@ std::vector<Seed> volume_dicom_seeds() {
   small_numbers.allocated = small_numbers.stored = 8, small_numbers.is_signed = 1;
   small_numbers.pixel = [](int i) { return i; };
   colours.photometric = "RGB", colours.samples = 3, colours.allocated = colours.stored = 8;
+  DicomFile blank, one_place;
+  std::string without_vr = blank.bytes();
+  without_vr.insert(without_vr.find(std::string("\xe0\x7f\x10\0", 4)), std::string(")\0\x10\x10  \4\0abcd", 12));
+  one_place.frames = 3, one_place.frame_places = false;
+  one_place.more = {{0x00180088, "DS", "0.3"}, {0x00200032, "DS", "1\\2\\100"}};
   DicomFile picture;
   picture.columns = 16, picture.rows = 12;
   picture.pixel = [](int i) { return 1000 + (i % 16) * (i / 16); };
-  std::vector<Seed> out{{"plain", bytes_of(plain.bytes())},     {"big", bytes_of(big.bytes())},
-                        {"frames", bytes_of(frames.bytes())},   {"bytes", bytes_of(small_numbers.bytes())},
-                        {"colours", bytes_of(colours.bytes())}, {"unmarked", bytes_of(plain.bytes().substr(132))}};
+  std::vector<Seed> out{{"plain", bytes_of(plain.bytes())},
+                        {"big", bytes_of(big.bytes())},
+                        {"frames", bytes_of(frames.bytes())},
+                        {"bytes", bytes_of(small_numbers.bytes())},
+                        {"colours", bytes_of(colours.bytes())},
+                        {"unmarked", bytes_of(plain.bytes().substr(132))},
+                        {"blank", bytes_of(without_vr)},
+                        {"one_place", bytes_of(one_place.bytes())},
+                        {"zeros", bytes_of(plain.bytes() + std::string(40, '\0'))}};
   for (const PackedDicom& packed : packed_dicom(picture.bytes()))
     out.push_back({packed.syntax, bytes_of(packed.bytes)});
   return out;
@@ -181,6 +192,7 @@ std::vector<std::string> volume_words() {
           "TransformMatrix = ",
           "Offset = ",
           "DICM",
+          "|next file|",
           "1.2.840.10008.1.2.1",
           "1.2.840.10008.1.2.5",
           "1.2.840.10008.1.2.4.70",

@@ -1,5 +1,6 @@
 // A patient's scan: read, measured, segmented, and organs made of it that can be grasped and cut.
 #include <cmath>
+#include <fstream>
 
 #include <trocar/modeller/document/home.hpp>
 #include <trocar/modeller/drive/built.hpp>
@@ -9,6 +10,7 @@
 #include <trocar/volumes/segment/threshold.hpp>
 
 #include "../full_disk.hpp"
+#include "../volumes/dicom_bytes.hpp"
 #include "workplace.hpp"
 
 namespace trocar::modeller {
@@ -43,6 +45,32 @@ TEST(Scan, ChangesOfSegmentsAreUndoneAtTheCostOfWhatWasChanged) {
   EXPECT_EQ(volumes::millilitres(scan.labels(), ball), 0);
   EXPECT_TRUE(scan.redo());
   EXPECT_EQ(volumes::millilitres(scan.labels(), ball), ml);
+}
+
+/// Two phases in one folder: the script says which, and segments stay where another phase is opened.
+TEST(Scan, AStepChoosesAPhaseAndSegmentsStayWithAnotherOne) {
+  const Workplace place;
+  for (int i = 0; i < 6; ++i) {
+    volumes::DicomFile file;
+    file.position = "0\\0\\" + std::to_string(2 * (i % 3));
+    file.object = "1.2." + std::to_string(i);
+    file.more = {{0x00200012, "IS", std::to_string(1 + i / 3)}};
+    file.pixel = [i](int) { return i < 3 ? 1064 : 1184; };
+    std::ofstream(place / (std::to_string(i) + ".dcm"), std::ios::binary) << file.bytes();
+  }
+  Session session;
+  const auto step = [&](const std::string& text) { run_step(json(text), "script", session); };
+  const std::string scan = "{\"do\": \"scan\", \"file\": \"" + (place / "").generic_string() + "\"";
+  step(scan + "}");
+  EXPECT_EQ(session.said().back()["greatest"].get<double>(), 40);
+  step(R"({"do": "threshold", "segment": "a", "from": 0, "to": 100})");
+  const volumes::Labels drawn = session.scan().labels();
+  step(scan + ", \"frame\": 1}");
+  EXPECT_EQ(session.said().back()["least"].get<double>(), 160);
+  EXPECT_TRUE(session.scan().take_labels(drawn).empty());
+  EXPECT_EQ(session.scan().labels().at, drawn.at);
+  EXPECT_THROW(step(scan + ", \"frame\": 2}"), core::BadInput);
+  EXPECT_THROW(step(scan + ", \"series\": 2}"), core::BadInput);
 }
 
 TEST(Scan, AnOrganOfASegmentHasItsVolumeIsGraspedAndIsCut) {

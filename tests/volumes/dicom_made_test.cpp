@@ -1,49 +1,13 @@
 // DICOM files that were made for what scanners do and the scan of the data folder does not.
 #include <cmath>
-#include <fstream>
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include <trocar/core/error.hpp>
-#include <trocar/volumes/files/volume_file.hpp>
-
-#include "dicom_bytes.hpp"
 #include "dicom_packed.hpp"
+#include "made_dicom.hpp"
 
 namespace trocar::volumes {
-namespace {
-
 namespace fs = std::filesystem;
-
-class MadeDicom : public testing::Test {
- protected:
-  fs::path m_folder = fs::path(TROCAR_BINARY_DIR) / "test-dicom-made";
-
-  void SetUp() override {
-    fs::remove_all(m_folder);
-    fs::create_directories(m_folder);
-  }
-  void TearDown() override { fs::remove_all(m_folder); }
-
-  void write(const std::string& name, const DicomFile& file) const {
-    std::ofstream(m_folder / name, std::ios::binary) << file.bytes();
-  }
-  static std::string fault_of(const std::string& bytes) {
-    try {
-      read_volume_bytes(bytes, "a");
-    } catch (const core::BadInput& bad) {
-      return bad.what();
-    }
-    return "";
-  }
-  static void expect_fault(const DicomFile& file, const std::string& words) {
-    const std::string fault = fault_of(file.bytes());
-    EXPECT_NE(fault.find(words), std::string::npos) << "wanted: " << words << "\ngot: " << fault;
-  }
-};
-
-}  // namespace
 
 TEST_F(MadeDicom, ASliceIsInHounsfieldUnitsAtItsPlaceInEitherByteOrder) {
   for (const bool big : {false, true}) {
@@ -138,19 +102,12 @@ TEST_F(MadeDicom, AFolderOfMixedSeriesIsToldApartAndWhatIsLostOrDamagedIsNamed) 
   const VolumeFile most = read_volume(m_folder), other = read_volume(m_folder / name_of(0, 2));
   EXPECT_EQ(most.volume.grid.size, (Index3{3, 2 + 6, 7})) << "straightened";
   EXPECT_EQ(most.report.series.size(), 2u);
-  EXPECT_NE(most.report.notes.front().find("of 2 is read; others: "), std::string::npos) << most.report.notes.front();
+  EXPECT_NE(most.report.notes.front().find("of 2 is read; others, to be chosen with \"series\": "), std::string::npos)
+      << most.report.notes.front();
   EXPECT_NE(most.report.notes.back().find("the grid is sheared by 20.6 degrees"), std::string::npos)
       << most.report.notes.back();
   EXPECT_EQ(other.volume.grid.size, (Index3{3, 2, 5}));
   EXPECT_EQ(other.volume.value(1, 1, 4), 4);
-  const auto fault = [&] {
-    try {
-      read_volume(m_folder);
-    } catch (const core::BadInput& bad) {
-      return std::string(bad.what());
-    }
-    return std::string();
-  };
   fs::resize_file(m_folder / name_of(1, 4), fs::file_size(m_folder / name_of(1, 4)) - 3);
   EXPECT_NE(fault().find(name_of(1, 4)), std::string::npos) << fault();
   fs::remove(m_folder / name_of(1, 4));

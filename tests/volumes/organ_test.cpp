@@ -127,6 +127,12 @@ TEST(LabelSurface, OrgansOfAPatientAreBodiesOfTheirVolume) {
   }
 }
 
+TEST(CentreLine, TheAortaThatAScanCutsIsOneVessel) {
+  if (!fs::exists(kSegments)) GTEST_SKIP() << "the data folder " << kSegments << " is absent";
+  const CentreTree tree = centre_tree(read_labels(kSegments).labels, 52);
+  EXPECT_EQ(tree.ends.size(), 1u);
+}
+
 TEST(CentreLine, RunsInTheMiddleOfATubeWithItsRadius) {
   Labels labels = empty_labels({70, 40, 40}, {1, 1, 1.5});
   const auto middle = [](double x) { return Vec3d{x, 8 * std::sin(x / 12), 5 * std::cos(x / 15)}; };
@@ -177,6 +183,30 @@ TEST(CentreLine, AForkHasTwoEndsThreeWaysAndItsRadii) {
       EXPECT_NEAR(p.radius, 3e-3, 0.8e-3);
     }
   }
+}
+
+/// A scan cuts vessels off flat: the rims of such ends are no branches.
+TEST(CentreLine, AShortWideTubeWithFlatEndsIsOneVesselOfItsRadius) {
+  for (const bool at_border : {false, true})
+    for (const double half : {19.0, 30.0}) {
+      Labels labels = empty_labels({50, 50, at_border ? int(half) : 40}, {0.8, 0.8, 2});
+      put_label(labels, 1, [&](Vec3d p) {
+        return std::hypot(p.x - 0.05 * p.z, p.y) < 13.3 && std::fabs(p.z) < (at_border ? 1e9 : half);
+      });
+      const CentreTree tree = centre_tree(labels, 1);
+      ASSERT_EQ(tree.ends.size(), 1u) << at_border << half;
+      std::vector<int> children(tree.points.size());
+      for (std::size_t p = 1; p < tree.points.size(); ++p) ++children[std::size_t(tree.parent[p])];
+      EXPECT_EQ(std::count(children.begin(), children.end(), 2), 0);
+      const double length_mm = 1e3 * length(tree.points[std::size_t(tree.ends[0])].at - tree.points[0].at);
+      const double whole = at_border ? 2 * (half - 1) : 2 * half;
+      EXPECT_NEAR(length_mm, whole, 6) << "from one end to the other";
+      for (const CentrePoint& p : tree.points) {
+        EXPECT_NEAR(p.radius, 13.3e-3, 1.6e-3);
+        const Vec3d at = patient_from_scene(p.at);
+        EXPECT_LT(std::hypot(at.x - 0.05 * at.z, at.y), 2.5);
+      }
+    }
 }
 
 TEST(CentreLine, TheRootMayBeChosenAndABallIsATreeOfOnePoint) {

@@ -10,7 +10,7 @@ const Vec3d kRow{1, 0, 0}, kColumn{0, 1, 0};
 
 std::vector<SlicePlace> slices_at(const std::vector<double>& along) {
   std::vector<SlicePlace> out;
-  for (const double z : along) out.push_back({{3, 4, z}, 0, 3});
+  for (const double z : along) out.push_back({{3, 4, z}, 3});
   return out;
 }
 std::string fault_of(const std::vector<SlicePlace>& places) {
@@ -41,20 +41,16 @@ TEST(SliceStack, MissingSlicesAreNamedByTheirPlace) {
   EXPECT_EQ(fault_of(slices_at({0, 0.6, 1.3, 1.9, 2.5})), "");  // 0.625 mm, rounded to tenths
 }
 
-TEST(SliceStack, ImagesAtOnePositionAreTimePointsIfAllPositionsHaveThem) {
-  std::vector<std::string> notes;
-  auto places = slices_at({0, 0, 2, 2});
-  places[0].number = 9;
-  const SliceStack stack = stack_slices(places, kRow, kColumn, "series", notes);
-  EXPECT_EQ(stack.frames, 2);
-  EXPECT_EQ(stack.order, (std::vector<int>{1, 0, 2, 3}));
-  EXPECT_NE(fault_of(slices_at({0, 0, 2})).find("expected equally many images"), std::string::npos);
+TEST(SliceStack, ImagesAtOnePositionAreALevelAndNoStack) {
+  const auto places = slices_at({2, 0, 2.005, 0});
+  EXPECT_EQ(levels_of(places, {0, 0, 1}), (std::vector<std::vector<int>>{{1, 3}, {0, 2}}));
+  EXPECT_NE(fault_of(places).find("expected one image at each position, got 2 at 0.00 mm"), std::string::npos);
 }
 
 TEST(SliceStack, ATiltedGantryGivesAStepThatIsNotAlongTheNormal) {
   std::vector<std::string> notes;
   std::vector<SlicePlace> places;
-  for (int k = 0; k < 5; ++k) places.push_back({{0, 0.5 * k, 2.0 * k}, k, 2});
+  for (int k = 0; k < 5; ++k) places.push_back({{0, 0.5 * k, 2.0 * k}, 2});
   EXPECT_EQ(stack_slices(places, kRow, kColumn, "series", notes).step, (Vec3d{0, 0.5, 2}));
   places[2].position.y += 1;
   EXPECT_NE(fault_of(places).find("in a straight line"), std::string::npos);

@@ -10,6 +10,7 @@
 #include <trocar/volumes/files/volume_writer.hpp>
 
 #include "../full_disk.hpp"
+#include "dicom_bytes.hpp"
 #include "volume_bytes.hpp"
 
 namespace trocar::volumes {
@@ -80,6 +81,92 @@ TEST(VolumeFiles, EveryFormatGivesTheSameVolumeAtTheSamePlace) {
   expect_the_volume(read_volume_bytes(nrrd_fields("short", "ascii") + "\n" + kTwelveText, "a").volume);
   expect_the_volume(read_volume_bytes(nrrd_fields("double", "raw") + "\n" + twelve_numbers<double>(), "a").volume);
   expect_the_volume(read_volume_bytes(meta_fields("MET_FLOAT", false) + twelve_numbers<float>(), "a").volume);
+}
+
+/// A body with nothing alike on any two sides, in each format with its own convention of axes, lands at the same place.
+TEST(VolumeFiles, AnAsymmetricBodyLandsAtTheSamePlaceInEveryFormatAndSpace) {
+  const std::string numbers = twelve_numbers<std::int16_t>();
+  const auto in_space = [&](const std::string& space, const std::string& directions, const std::string& origin) {
+    std::string header = replaced(nrrd_fields("short", "raw"), "left-posterior-superior", space);
+    header = replaced(header, "(0.5,0,0) (0,-0.75,0) (0,0,2)", directions);
+    return replaced(header, "(-10,-20,30)", origin) + "\n" + numbers;
+  };
+  expect_the_volume(read_volume_bytes(in_space("LPS", "(0.5,0,0) (0,-0.75,0) (0,0,2)", "(-10,-20,30)"), "a").volume);
+  expect_the_volume(
+      read_volume_bytes(in_space("right-anterior-superior", "(-0.5,0,0) (0,0.75,0) (0,0,2)", "(10,20,30)"), "a")
+          .volume);
+  expect_the_volume(read_volume_bytes(in_space("LAS", "(0.5,0,0) (0,0.75,0) (0,0,2)", "(-10,20,30)"), "a").volume);
+  expect_the_volume(read_volume_bytes(kNifti, "a").volume);                                     // R A S
+  expect_the_volume(read_volume_bytes(meta_fields("MET_SHORT", false) + numbers, "a").volume);  // L P S
+  const TemporaryFolder folder;
+  for (int k = 0; k < 2; ++k) {  // L P S; rows run to the front
+    DicomFile slice;
+    slice.columns = 2, slice.rows = 3, slice.is_signed = 1, slice.stored = 16, slice.intercept = "0";
+    slice.orientation = "1\\0\\0\\0\\-1\\0", slice.spacing = "0.75\\0.5";
+    slice.position = k == 0 ? "-10\\-20\\30" : "-10\\-20\\32";
+    slice.pixel = [k](int i) { return 6 * k + i - 3; };
+    folder.write(k == 0 ? "b.dcm" : "a.dcm", slice.bytes());
+  }
+  const Volume dicom = read_volume(folder.path).volume;
+  // Its normal points to the feet, so that its slices come from the head: the places count, not the order.
+  for (int i = 0; i < 12; ++i) {
+    const Index3 at{i % 2, i / 2 % 3, i / 6};
+    EXPECT_EQ(dicom.at(dicom.grid.to_index(Vec3d{-10 + 0.5 * at[0], -20 - 0.75 * at[1], 30 + 2.0 * at[2]})), i - 3);
+  }
+}
+
+TEST(VolumeFiles, DataLongerThanTheHeaderSaysAreTold) {
+  const std::string numbers = twelve_numbers<std::int16_t>();
+  for (const std::string& bytes :
+       {kNifti + "x", deflated(kNifti + "x"), meta_fields("MET_SHORT", false) + numbers + "x",
+        meta_fields("MET_SHORT", true) + deflated(numbers + "x", false),
+        nrrd_fields("short", "raw") + "\n" + numbers + "x"}) {
+    const VolumeFile file = read_volume_bytes(bytes, "a");
+    expect_the_volume(file.volume);
+    ASSERT_FALSE(file.report.notes.empty());
+    EXPECT_NE(file.report.notes.back().find("what follows was passed over"), std::string::npos);
+  }
+  const TemporaryFolder folder;
+  folder.write("voxels.raw", "a header" + numbers);
+  try {
+    read_volume(folder.write("a.mhd", meta_fields("MET_SHORT", false, "voxels.raw")));
+    FAIL() << "which bytes are the voxels is not known";
+  } catch (const core::BadInput& bad) {
+    EXPECT_NE(std::string(bad.what()).find("got 32: write \"HeaderSize\" into the header"), std::string::npos);
+  }
+  for (const std::string size : {"8", "-1"})
+    expect_the_volume(read_volume(folder.write("a.mhd", replaced(meta_fields("MET_SHORT", false, "./voxels.raw"),
+                                                                 "NDims", "HeaderSize = " + size + "\nNDims")))
+                          .volume);
+}
+
+TEST(VolumeFiles, DimensionsThatAreZeroAreOne) {
+  Nifti nifti;
+  nifti.dim = {4, 2, 3, 2, 0, 0, 0, 0};
+  const VolumeFile file = read_volume_bytes(nifti.header() + twelve_numbers<std::int16_t>(), "a");
+  expect_the_volume(file.volume);
+  EXPECT_EQ(file.report.notes.at(0), "dimension 4 is 0: taken as 1");
+  nifti.dim = {3, 0, 3, 2, 1, 1, 1, 1};
+  expect_fault(nifti.header() + twelve_numbers<std::int16_t>(), "expected sizes of at least 1, got 0 x 3 x 2");
+}
+
+TEST(VolumeFiles, ATimePointThatThereIsNotIsRefusedInEveryFormat) {
+  for (const std::string& bytes : {kNifti, nrrd_fields("short", "raw") + "\n" + twelve_numbers<std::int16_t>(),
+                                   meta_fields("MET_SHORT", false) + twelve_numbers<std::int16_t>()})
+    expect_fault(bytes, "expected one of 1 time points (0 to 0), got 1", {.frame = 1});
+  expect_fault(DicomFile().bytes(), "expected one of 1 images at each position (0 to 0), got 1", {.frame = 1});
+}
+
+TEST(VolumeFiles, FilesOfOtherKindsAreNamed) {
+  expect_fault(std::string("PK\x03\x04\x14\0\0\0", 8), "got a ZIP archive: unpack it and open the folder or file");
+  expect_fault(deflated("NRRD0004\n"), "got a gzip file that holds no NIfTI: unpack it first");
+  expect_fault("\x89PNG\r\n", "got a picture");
+  expect_fault("solid liver\n", "got a surface: import it as one");
+  expect_fault("\x89HDF\r\n", "got an HDF5 file (MINC 2)");
+  expect_fault("---\nmesh: a\n", "got a YAML text");
+  std::string tar(512, '\0');
+  tar.replace(257, 5, "ustar");
+  expect_fault(tar, "got an archive");
 }
 
 TEST(VolumeFiles, DataBesideAreReadFromTheSameFolderAndNoOther) {
@@ -238,7 +325,7 @@ TEST(VolumeFiles, FaultsOfHeadersNameLineAndColumn) {
                "expected the field 'type', got none");
   expect_fault(replaced(meta_fields("MET_SHORT", false), "0.5 0.75 2", "0.5 0.75"), "a:9:18: expected 3 numbers");
   expect_fault("ObjectType = Image\nNDims = 3\n", "expected the field 'elementdatafile', got the end of the file");
-  expect_fault("hello", "expected DICOM, NIfTI, NRRD or MetaImage, got 'hello'");
+  expect_fault("hello", "expected DICOM, NIfTI, NRRD or MetaImage, got a text that begins with 'hello'");
   Nifti colours;
   colours.datatype = 128, colours.bits = 24;
   expect_fault(colours.header() + kNifti, "got datatype 128 (colours)");

@@ -1,5 +1,5 @@
 // A volume of voxels, as a scanner or a segmentation gives it: values on a regular grid that may be turned and
-// stretched. Read from files by nrrd.hpp, made into shapes by field.hpp.
+// stretched. Read from files by voxel_files/nrrd.hpp, made into shapes by field.hpp.
 //
 //   const double value = volume.at(i, j, k);
 //   const Vec3d there = volume.centre({i, j, k});

@@ -22,18 +22,24 @@ Scan Scan::open(const std::filesystem::path& path, const volumes::ReadOptions& o
 std::vector<std::string> Scan::take_labels(const std::filesystem::path& path, const volumes::ReadOptions& options) {
   volumes::LabelFile file = volumes::read_labels(path, options);
   std::vector<std::string> notes = file.report.notes;
-  if (!(file.labels.grid == m_volume.grid)) {
-    const std::vector<std::size_t> before = volumes::voxels_per_label(file.labels);
-    file.labels = volumes::resampled(file.labels, m_volume.grid);
-    const std::vector<std::size_t> after = volumes::voxels_per_label(file.labels);
+  for (std::string& note : take_labels(std::move(file.labels))) notes.push_back(std::move(note));
+  return notes;
+}
+
+std::vector<std::string> Scan::take_labels(volumes::Labels labels) {
+  std::vector<std::string> notes;
+  if (!(labels.grid == m_volume.grid)) {
+    const std::vector<std::size_t> before = volumes::voxels_per_label(labels);
+    labels = volumes::resampled(labels, m_volume.grid);
+    const std::vector<std::size_t> after = volumes::voxels_per_label(labels);
     std::size_t lost = 0;
     for (std::size_t i = 1; i < before.size(); ++i) lost += before[i] > 0 && after[i] == 0;
     notes.push_back(
         "the labels are on another grid than the scan and were laid on its grid by their place in the patient");
     if (lost > 0) notes.push_back(tr("{} labels lie outside of the scan and are gone", lost));
   }
-  volumes::name_all(file.labels);
-  m_labels = std::move(file.labels);
+  volumes::name_all(labels);
+  m_labels = std::move(labels);
   m_history.clear();
   m_done = 0;
   ++m_version;

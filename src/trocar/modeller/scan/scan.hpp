@@ -24,6 +24,9 @@ class Scan {
   /// history anew. Returns what is worth saying. @throws as open()
   std::vector<std::string> take_labels(const std::filesystem::path& path, const volumes::ReadOptions& options = {});
 
+  /// The same from labels that are there.
+  std::vector<std::string> take_labels(volumes::Labels labels);
+
   const volumes::Volume& volume() const { return m_volume; }
   const volumes::Labels& labels() const { return m_labels; }
   const volumes::ReadReport& report() const { return m_report; }

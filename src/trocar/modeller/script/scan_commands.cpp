@@ -59,17 +59,28 @@ volumes::Index3 voxel_at(const Scan& scan, Vec3d scene_mm) {
   return scan.volume().grid.nearest(volumes::patient_from_scene(scene_mm * 1e-3));
 }
 
+/// Which of several volumes of a file or folder.
+std::vector<scene::Key> file_keys(const char* file) {
+  return {
+      scene::needed(keys::text("file", file)),
+      keys::integer("series", 1, 10000,
+                    "of several in a DICOM folder, as notes and faults list them; default: the file's own, or the one "
+                    "with most slices"),
+      keys::integer("frame", 0, 100000,
+                    "of several time points, phases or layers, from 0; default: the file's own, or 0, the earliest")};
+}
+volumes::ReadOptions options_of(const JsonObject& o) {
+  volumes::ReadOptions options;
+  options.series = o.integer("series");
+  if (o.has("frame")) options.frame = o.integer("frame");
+  return options;
+}
+
 Command read_scan() {
-  return {{"scan",
-           "Reads a patient's scan: a folder of DICOM files or any file of a series, NIfTI, NRRD, MetaImage.",
-           {scene::needed(keys::text("file", "its file or folder")),
-            keys::integer("series", 1, 10000, "of several in a folder, as listed; default: the one with most slices"),
-            keys::integer("frame", 0, 100000, "of several time points, default 0")}},
+  return {{"scan", "Reads a patient's scan: a folder of DICOM files or any file of a series, NIfTI, NRRD, MetaImage.",
+           file_keys("its file or folder")},
           [](const JsonObject& o, Session& session) {
-            volumes::ReadOptions options;
-            options.series = o.integer("series");
-            options.frame = o.integer("frame");
-            session.put(Scan::open(o.text("file"), options));
+            session.put(Scan::open(o.text("file"), options_of(o)));
             const volumes::Volume& v = session.scan().volume();
             const volumes::Statistics all = volumes::statistics(v);
             session.said().push_back({{"scan", o.text("file")},
@@ -84,9 +95,9 @@ Command read_scan() {
 }
 
 Command read_label_map() {
-  return {{"labels", "Reads a label map onto the scan's grid.", {scene::needed(keys::text("file", "its file"))}},
+  return {{"labels", "Reads a label map onto the scan's grid.", file_keys("its file")},
           [](const JsonObject& o, Session& session) {
-            const std::vector<std::string> notes = session.scan().take_labels(o.text("file"));
+            const std::vector<std::string> notes = session.scan().take_labels(o.text("file"), options_of(o));
             session.said().push_back({{"labels", session.scan().labels().segments.size()}, {"notes", notes}});
           }};
 }

@@ -3,9 +3,9 @@
 
 #include <trocar/core/files.hpp>
 #include <trocar/core/text.hpp>
-#include <trocar/geometry/formats/nrrd.hpp>
 #include <trocar/geometry/formats/tet_files.hpp>
 #include <trocar/geometry/tets/stuffing.hpp>
+#include <trocar/geometry/voxel_files/nrrd.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
 
 namespace trocar::scene {
@@ -104,7 +104,9 @@ void Reading::voxels_of(const JsonObject& o, TetSource source, const fs::path& f
   if (!bytes) return;
   try {
     const std::string shown = place_of(folder, source.file).generic_string();
-    const geometry::Voxels voxels = geometry::read_nrrd(*bytes, shown);
+    const geometry::NrrdVolume volume = geometry::read_nrrd(*bytes, shown);
+    source.warnings = volume.notes;
+    const geometry::Voxels voxels = geometry::voxels_of(volume, shown);
     source.mesh = geometry::stuffed(geometry::field_of_label(voxels, source.label, source.smoothing), s.cell,
                                     {.most_cells = kMaxSolidCells, .largest_part = true});
   } catch (const core::BadInput& e) {

@@ -5,8 +5,8 @@
 
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/geometry/voxel_files/inflate.hpp>
 #include <trocar/volumes/files/dicom_elements.hpp>
-#include <trocar/volumes/files/inflate.hpp>
 #include <trocar/volumes/files/raster.hpp>
 
 namespace trocar::volumes {
@@ -19,8 +19,9 @@ constexpr std::size_t kMostElements = 2'000'000, kPreamble = 132;
 constexpr std::size_t kMostInflated = std::size_t(1) << 30;
 
 /// Sequences that the reader looks into; all others of known length are passed over.
-constexpr std::uint32_t kWanted[] = {0x52009229, 0x52009230, 0x00209113, 0x00209116,
-                                     0x00289110, 0x00289145, 0x00283000};
+constexpr std::uint32_t kWanted[] = {0x52009229, 0x52009230, 0x00209111, 0x00209113, 0x00209116, 0x00289110,
+                                     0x00289145, 0x00283000, 0x00540022, 0x00189114, 0x00189117, 0x00189076,
+                                     0x00189118, 0x00189226, 0x00189329, 0x00189314, 0x00189325};
 bool is_wanted(std::uint32_t tag) {
   return std::find(std::begin(kWanted), std::end(kWanted), tag) != std::end(kWanted);
 }
@@ -49,6 +50,15 @@ constexpr Syntax kPacked[] = {
 
 /// The bytes given are a file's beginning, and it continues.
 struct EndsEarly {};
+/// Why no element can follow.
+struct Damaged {
+  std::string what;
+};
+
+/// As bytes that stand for no representation are written.
+bool is_blank_vr(std::string_view two) {
+  return two == "  " || two == "??" || two == "--" || two == std::string_view("\0\0", 2);
+}
 
 struct ElementHead {
   std::uint32_t tag = 0, length = 0;
@@ -57,30 +67,45 @@ struct ElementHead {
 
 class Parser {
  public:
-  Parser(std::string_view bytes, const std::string& file, bool beginning_only)
-      : m_bytes(bytes), m_file(file), m_beginning(beginning_only) {}
+  Parser(std::string_view bytes, bool beginning_only) : m_bytes(bytes), m_beginning(beginning_only) {}
 
   bool implicit = false, big = false;
+  std::vector<std::string> corrected;  ///< what was wrong and does no harm, each once
 
   std::size_t at() const { return m_at; }
   void go_to(std::size_t at) { m_at = at; }
   std::size_t left(std::size_t end) const { return end - m_at; }
 
-  /// Elements up to `end`, or to the mark that ends an item of undefined length.
-  DicomItem data_set(std::size_t end, bool to_mark, int depth) {
-    DicomItem out;
+  /// Elements up to `end`, or to the mark that ends an item of undefined length. What was read before damage stays in
+  /// `out`.
+  void data_set(std::size_t end, bool to_mark, int depth, DicomItem& out) {
     while (m_at < end) {
       const std::size_t from = m_at;
       const ElementHead e = element(end);
-      if (e.tag == kItemEnd && to_mark) return out;
+      if (e.tag == kItemEnd && to_mark) return;
       if (depth == 0 && e.tag >> 16 == 0xfffe) damaged(from, "an item outside of sequences");
-      if (depth == 0 && m_beginning && e.tag == kDicomPixels) return out;
+      if (depth == 0 && m_beginning && e.tag == kDicomPixels) return;
       if (!out.elements.empty() && depth == 0 && e.tag < out.elements.back().tag)
-        damaged(from, "elements out of order");
+        correct(tr("elements are out of order"));
       out.elements.push_back(value_of(e, end, depth));
     }
-    if (to_mark) damaged(m_at, "an item without its end");
-    return out;
+    if (to_mark) missing_end(end, "an item without its end");
+  }
+
+  /// Are the bytes behind `m_at` elements with their representation? They say so themselves, whatever the file's
+  /// transfer syntax is.
+  void sniff() {
+    if (left(m_bytes.size()) < 8 || big) return;
+    const std::string_view vr = m_bytes.substr(m_at + 4, 2);
+    const bool lettered = is_vr(vr);
+    const std::size_t from = m_at;
+    m_at += 4;
+    const std::uint32_t length = number(4, m_bytes.size());
+    m_at = from;
+    const bool other = implicit ? lettered : !lettered && !is_blank_vr(vr) && length <= kMostFirstValue;
+    if (!other) return;
+    implicit = !implicit;
+    correct(tr("the file is written in another way than its transfer syntax says"));
   }
 
   /// One element of the group that says how the others are written; false where another group begins.
@@ -94,20 +119,28 @@ class Parser {
     return true;
   }
 
+  void correct(const std::string& what) {
+    if (std::find(corrected.begin(), corrected.end(), what) == corrected.end()) corrected.push_back(what);
+  }
   [[noreturn]] void damaged(std::size_t at, const std::string& what) const {
-    refuse(m_file, tr("expected a whole DICOM file, got a damaged one: at byte {}: {}", at, what));
+    throw Damaged{tr("at byte {}: {}", at, what)};
   }
 
  private:
+  static constexpr std::uint32_t kMostFirstValue = 1024;  // values of group 8 that come first are short
+
   std::string_view m_bytes;
-  const std::string& m_file;
   bool m_beginning;
   std::size_t m_at = 0, m_count = 0;
 
   void need(std::size_t count, std::size_t end) const {
     if (left(end) >= count) return;
+    missing_end(end, tr("{} bytes, where {} are left", count, left(end)));
+  }
+  /// More was to come up to `end`: it is in the file, behind the beginning, or nowhere.
+  [[noreturn]] void missing_end(std::size_t end, const std::string& what) const {
     if (m_beginning && end == m_bytes.size()) throw EndsEarly{};
-    damaged(m_at, tr("{} bytes, where {} are left", count, left(end)));
+    damaged(m_at, what);
   }
   std::uint32_t number(int width, std::size_t end) {
     need(std::size_t(width), end);
@@ -131,7 +164,7 @@ class Parser {
     }
     need(2, end);
     e.vr = m_bytes.substr(m_at, 2);
-    if (!is_vr(e.vr)) damaged(m_at, "no value representation");
+    if (!is_vr(e.vr)) return without_representation(e, end);
     m_at += 2;
     if (!has_long_length(e.vr)) {
       e.length = number(2, end);
@@ -140,6 +173,39 @@ class Parser {
     number(2, end);  // reserved
     e.length = number(4, end);
     return e;
+  }
+
+  /// Some writers leave the representation of elements that they do not know blank, or leave it out. Where the value
+  /// is follows from what must come behind it: an element or the end.
+  ElementHead without_representation(ElementHead e, std::size_t end) {
+    struct Way {
+      std::size_t length_at;
+      int width;
+    };
+    const std::size_t from = m_at;
+    for (const Way way : {Way{2, 2}, Way{0, 4}, Way{4, 4}}) {
+      if (way.width == 2 && !is_blank_vr(e.vr)) continue;
+      if (end - from < way.length_at + std::size_t(way.width)) continue;
+      m_at = from + way.length_at;
+      e.length = number(way.width, end);
+      if (e.length == kUndefined || e.length > left(end) || !element_at(m_at + e.length, end, e.tag)) continue;
+      e.vr = "UN";
+      correct(tr("elements lack their value representation"));
+      return e;
+    }
+    m_at = from;
+    missing_end(m_beginning ? m_bytes.size() : end, "no value representation");
+  }
+  bool element_at(std::size_t at, std::size_t end, std::uint32_t behind) {
+    if (at == end && m_beginning && end == m_bytes.size()) throw EndsEarly{};
+    if (at == end) return true;
+    if (end - at < 8) return false;
+    const std::size_t was = m_at;
+    m_at = at;
+    const std::uint32_t group = number(2, end), tag = group << 16 | number(2, end);
+    m_at = was;
+    const std::string_view vr = m_bytes.substr(at + 4, 2);
+    return tag == kItemEnd || (tag > behind && (is_vr(vr) || is_blank_vr(vr)));
   }
 
   DicomElement value_of(const ElementHead& e, std::size_t end, int depth) {
@@ -178,15 +244,18 @@ class Parser {
       const bool open = e.length == kUndefined;
       if (!open) need(e.length, end);
       const std::size_t to = open ? end : m_at + e.length;
-      out.items.push_back(data_set(to, open, depth + 1));
+      out.items.emplace_back();
+      data_set(to, open, depth + 1, out.items.back());
       if (!open) m_at = to;
     }
-    if (to_mark) damaged(m_at, "a sequence without its end");
+    if (to_mark) missing_end(end, "a sequence without its end");
   }
 
   void fragments(std::size_t end, DicomElement& out) {
     while (true) {
       const std::size_t from = m_at;
+      if (m_at == end && out.fragments.size() > 1)  // the frames are counted where they are unpacked
+        return correct(tr("the mark behind the packed pixels is missing"));
       const ElementHead e = element(end);
       if (e.tag == kSequenceEnd) return;
       if (e.tag != kItem) damaged(from, "no fragment among packed pixels");
@@ -228,39 +297,69 @@ bool looks_like_dicom(std::string_view bytes) {
   return is_vr(bytes.substr(4, 2)) || (bytes[6] == '\0' && bytes[7] == '\0');
 }
 
+std::string damaged_dicom(const std::string& what) {
+  return tr("expected a whole DICOM file, got a damaged one: {}", what);
+}
+
+namespace {
+
+std::string text_without_padding(std::string_view value) {
+  std::string out(value.substr(0, 64));
+  while (!out.empty() && (out.back() == '\0' || out.back() == ' ')) out.pop_back();
+  return out;
+}
+
+/// The group that says how the others are written; without it they are sniffed.
+void read_meta(std::string_view bytes, bool marked, Parser& parser, DicomDocument& out) {
+  parser.go_to(marked ? kPreamble : 0);
+  DicomElement e;
+  if (marked || bytes[0] == '\2')
+    while (parser.left(bytes.size()) > 0 && parser.meta_element(e)) {
+      if (e.tag == 0x00020002) out.media_class = text_without_padding(e.value);
+      if (e.tag == 0x00020010) out.syntax = text_without_padding(e.value);
+    }
+  if (!out.syntax.empty()) return;
+  if (parser.left(bytes.size()) < 8) parser.damaged(parser.at(), "nothing but its first group");
+  out.syntax = is_vr(bytes.substr(parser.at() + 4, 2)) ? "1.2.840.10008.1.2.1" : "1.2.840.10008.1.2";
+  if (marked || bytes[0] == '\2')
+    out.corrected.emplace_back(tr("the file does not name its transfer syntax: it was taken from the bytes"));
+}
+
+/// Elements up to the end. Damage behind the pixels does no harm.
+void read_root(Parser& parser, std::size_t end, DicomDocument& out) {
+  parser.sniff();
+  try {
+    parser.data_set(end, false, 0, out.root);
+  } catch (const Damaged&) {
+    if (!out.root.find(kDicomPixels)) throw;
+    parser.correct(tr("bytes behind the pixels are no elements: they were passed over"));
+  }
+  out.corrected.insert(out.corrected.end(), parser.corrected.begin(), parser.corrected.end());
+}
+
+}  // namespace
+
 DicomDocument parse_dicom(std::string_view bytes, const std::string& file, bool beginning_only) {
   if (!looks_like_dicom(bytes)) refuse(file, "expected a DICOM file, got another one");
   DicomDocument out;
-  Parser parser(bytes, file, beginning_only);
+  Parser parser(bytes, beginning_only);
   try {
-    const bool marked = bytes.size() >= kPreamble && bytes.substr(128, 4) == "DICM";
-    parser.go_to(marked ? kPreamble : 0);
-    if (marked || bytes[0] == '\2') {
-      DicomElement e;
-      while (parser.left(bytes.size()) > 0 && parser.meta_element(e))
-        if (e.tag == 0x00020010) {
-          out.syntax = std::string(e.value.substr(0, 64));
-          while (!out.syntax.empty() && (out.syntax.back() == '\0' || out.syntax.back() == ' ')) out.syntax.pop_back();
-        }
-      if (out.syntax.empty()) {
-        if (beginning_only && parser.left(bytes.size()) == 0) throw EndsEarly{};
-        refuse(file, "expected the transfer syntax of a DICOM file, got none");
-      }
-    } else {
-      out.syntax = is_vr(bytes.substr(4, 2)) ? "1.2.840.10008.1.2.1" : "1.2.840.10008.1.2";
-    }
+    read_meta(bytes, bytes.size() >= kPreamble && bytes.substr(128, 4) == "DICM", parser, out);
     use_syntax(out, parser, file);
     if (out.syntax == "1.2.840.10008.1.2.1.99") {
       if (beginning_only) throw EndsEarly{};
-      out.inflated = inflated(bytes.substr(parser.at()), Wrapping::none, 0, kMostInflated, file, true);
-      Parser inside({out.inflated.data(), out.inflated.size()}, file, false);
-      out.root = inside.data_set(out.inflated.size(), false, 0);
+      out.inflated =
+          geometry::inflated(bytes.substr(parser.at()), geometry::Wrapping::none, 0, kMostInflated, file, true);
+      Parser inside({out.inflated.data(), out.inflated.size()}, false);
+      read_root(inside, out.inflated.size(), out);
     } else {
-      out.root = parser.data_set(bytes.size(), false, 0);
+      read_root(parser, bytes.size(), out);
       if (beginning_only && parser.at() == bytes.size()) out.ends_early = true;
     }
   } catch (const EndsEarly&) {
     out.ends_early = true;
+  } catch (const Damaged& d) {
+    out.damage = d.what;
   }
   return out;
 }

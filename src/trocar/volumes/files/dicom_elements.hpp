@@ -31,18 +31,26 @@ enum class DicomPacking : unsigned char { none, rle, jpeg, jpeg_ls, jpeg_2000, o
 
 struct DicomDocument {
   DicomItem root;
-  std::string syntax;  ///< the transfer syntax's identifier
+  std::string syntax;       ///< the transfer syntax's identifier
+  std::string media_class;  ///< what the object is, by the group that says how the others are written
   DicomPacking packing = DicomPacking::none;
   bool big_endian = false;
-  bool ends_early = false;     ///< of a beginning: more bytes are needed
-  std::vector<char> inflated;  ///< of deflated files; the elements lie in it
+  bool ends_early = false;             ///< of a beginning: more bytes are needed
+  std::string damage;                  ///< where and why the elements end early, or empty
+  std::vector<std::string> corrected;  ///< what was wrong and does no harm
+  std::vector<char> inflated;          ///< of deflated files; the elements lie in it
 };
 
 inline constexpr std::uint32_t kDicomPixels = 0x7fe00010;
 
-/// @param beginning_only  the bytes are the beginning of a file: stop at the pixels, or tell that it ends early
-/// @throws core::BadInput  where it is no DICOM file, or a damaged one
+/// The elements of a file, as far as it is sound: see DicomDocument::damage. Bytes behind the pixels that are no
+/// elements do no harm.
+/// @param beginning_only  the bytes are the beginning of a file: stop at the pixels, or say that it ends early
+/// @throws core::BadInput  where it is no DICOM file
 DicomDocument parse_dicom(std::string_view bytes, const std::string& file, bool beginning_only = false);
+
+/// The message about a damaged file.
+std::string damaged_dicom(const std::string& what);
 
 /// With DICOM's mark, or as files without it begin.
 bool looks_like_dicom(std::string_view bytes);

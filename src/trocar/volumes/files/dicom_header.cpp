@@ -1,28 +1,18 @@
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
-#include <trocar/core/printable.hpp>
+#include <trocar/core/error.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/volumes/files/dicom_header.hpp>
-#include <trocar/volumes/files/header_fields.hpp>
+#include <trocar/volumes/files/dicom_kinds.hpp>
 
 namespace trocar::volumes {
 namespace {
 
 constexpr int kMostFrames = 65536;
-
-/// An attribute's text without its padding; empty where it is not there.
-std::string text_of(const DicomItem& data, std::uint32_t tag) {
-  const DicomElement* element = data.find(tag);
-  if (!element) return "";
-  std::string text(element->value.substr(0, 4096));
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
-  return text;
-}
 
 /// Numbers apart by backslashes; none where the attribute is not there or empty.
 std::vector<double> decimals_of(const DicomItem& data, std::uint32_t tag, std::size_t count, const std::string& path,
@@ -45,49 +35,51 @@ std::vector<double> decimals_of(const DicomItem& data, std::uint32_t tag, std::s
   return out;
 }
 
-/// The item of a sequence in a data set, or null.
-const DicomItem* item_of(const DicomItem* data, std::uint32_t sequence, std::size_t number = 0) {
-  const DicomElement* element = data ? data->find(sequence) : nullptr;
-  return element && number < element->items.size() ? &element->items[number] : nullptr;
-}
-
-constexpr std::uint32_t kSharedGroups = 0x52009229, kFrameGroups = 0x52009230;
+constexpr std::uint32_t kSharedGroups = 0x52009229, kFrameGroups = 0x52009230, kDetector = 0x00540022,
+                        kPlanePosition = 0x00209113, kPlaneOrientation = 0x00209116, kPixelMeasures = 0x00289110,
+                        kValueTransformation = 0x00289145;
 
 /// Reads what stands in the data set itself, in what all frames share, or in what is each frame's own.
 class HeaderOfImage {
  public:
   HeaderOfImage(const DicomDocument& file, DicomHeader& out)
-      : m_data(file.root), m_big(file.big_endian), m_out(out), m_shared(item_of(&m_data, kSharedGroups)) {}
+      : m_data(file.root),
+        m_damage(file.damage),
+        m_big(file.big_endian),
+        m_out(out),
+        m_shared(item_of(&m_data, kSharedGroups)) {}
 
   void read() {
-    m_out.uid = core::printable(text_of(m_data, 0x0020000e));
-    m_out.description = core::printable(text_of(m_data, 0x0008103e));
-    m_out.modality = core::printable(text_of(m_data, 0x00080060));
+    m_out.uid = text_of(m_data, 0x0020000e);
+    m_out.instance = text_of(m_data, 0x00080018);
+    m_out.description = text_of(m_data, 0x0008103e);
+    m_out.modality = text_of(m_data, 0x00080060);
     m_out.photometric = text_of(m_data, 0x00280004);
+    if (const std::string own = text_of(m_data, 0x00080016); !own.empty()) m_out.sop_class = own;
+    const DicomItem* first = item_of(&m_data, kFrameGroups);
+    const bool has_places = !text_of(m_data, 0x00200032).empty() || item_of(first, kPlanePosition);
+    m_marks = marks_of(m_data, first, m_shared, m_big);
+    const std::string kind =
+        other_than_slices({m_out.sop_class, m_out.modality, m_marks[Mark::image_type], has_places});
+    if (!kind.empty()) return void(m_out.fault = tr("expected slices of a patient, got {}", kind));
+    if (!m_damage.empty()) refuse(m_out.path, damaged_dicom(m_damage));
     m_out.rows = unsigned_short(0x00280010);
     m_out.columns = unsigned_short(0x00280011);
     const auto tilt = decimals(m_data, 0x00181120, 1, "Gantry/Detector Tilt");
     if (!tilt.empty()) m_out.tilt_deg = tilt[0];
-    const auto frames = decimals(m_data, 0x00280008, 1, "Number of Frames");
-    if (!frames.empty() && !(frames[0] >= 1 && frames[0] <= kMostFrames))
-      refuse(m_out.path, tr("expected 1 to {} frames, got {}", kMostFrames, frames[0]));
-    if (!frames.empty()) m_out.frames = int(frames[0]);
     pixels();
-    const auto number = decimals(m_data, 0x00200013, 1, "Instance Number");
-    for (int f = 0; f < m_out.frames; ++f) {
-      const DicomItem* own = item_of(&m_data, kFrameGroups, std::size_t(f));
-      place(own, number.empty() ? 0 : int(std::clamp(number[0], -1e9, 1e9)) + f);
-      rescale(own);
-      if (f == 0) plane(own);
-    }
-    if (m_out.places.size() < std::size_t(m_out.frames)) m_out.places.clear();
+    if (m_out.fault.empty()) frames();
+    if (!m_out.fault.empty()) m_out.frames.clear();
   }
 
  private:
   const DicomItem& m_data;
+  const std::string& m_damage;
   bool m_big;
   DicomHeader& m_out;
   const DicomItem* m_shared;
+  Marks m_marks;  // of the first frame
+  int m_count = 1;
 
   int unsigned_short(std::uint32_t tag) const {
     const DicomElement* element = m_data.find(tag);
@@ -101,7 +93,7 @@ class HeaderOfImage {
   }
   std::vector<double> decimals(const DicomItem* own, std::uint32_t group, std::uint32_t tag, std::size_t count,
                                const char* name) {
-    for (const DicomItem* item : {item_of(own, group), item_of(m_shared, group)})
+    for (const DicomItem* item : {item_of(own, group), item_of(m_shared, group), item_of(&m_data, kDetector)})
       if (item && item->find(tag)) return decimals(*item, tag, count, name);
     return decimals(m_data, tag, count, name);
   }
@@ -125,34 +117,102 @@ class HeaderOfImage {
                        m_out.stored, m_out.allocated, high);
   }
 
-  void place(const DicomItem* own, int number) {
-    const auto at = decimals(own, 0x00209113, 0x00200032, 3, "Image Position (Patient)");
-    if (at.empty()) return;
-    const auto thickness = decimals(own, 0x00289110, 0x00180050, 1, "Slice Thickness");
-    m_out.places.push_back({{at[0], at[1], at[2]}, number, thickness.empty() ? 0 : thickness[0]});
+  int frame_count() {
+    const auto said = decimals(m_data, 0x00280008, 1, "Number of Frames");
+    if (said.empty()) return 1;
+    if (said[0] == 0) m_out.corrected.emplace_back(tr("Number of Frames is 0: taken as 1"));
+    if (!(said[0] >= 0 && said[0] <= kMostFrames))
+      refuse(m_out.path, tr("expected 1 to {} frames, got {}", kMostFrames, said[0]));
+    return std::max(1, int(said[0]));
   }
 
-  void rescale(const DicomItem* own) {
-    const auto intercept = decimals(own, 0x00289145, 0x00281052, 1, "Rescale Intercept");
-    const auto slope = decimals(own, 0x00289145, 0x00281053, 1, "Rescale Slope");
-    Rescale r;
-    if (!intercept.empty()) r.intercept = intercept[0];
-    if (!slope.empty() && slope[0] != 0) r.slope = slope[0];
-    m_out.rescale.push_back(r);
+  void frames() {
+    m_count = frame_count();
+    const std::string instance = m_marks[Mark::instance];
+    int own_places = 0;
+    for (int f = 0; f < m_count; ++f) {
+      const DicomItem* own = item_of(&m_data, kFrameGroups, std::size_t(f));
+      DicomFrame frame;
+      if (!place(own, frame)) return;
+      own_places += item_of(own, kPlanePosition) != nullptr;
+      frame.rescale = rescale(own);
+      frame.marks = own && f > 0 ? marks_of(m_data, own, m_shared, m_big) : m_marks;
+      if (core::is_decimal(instance))
+        frame.marks[Mark::instance] = fmt::format("{:.0f}", core::to_double(instance) + f);
+      m_out.frames.push_back(std::move(frame));
+    }
+    if (m_count > 1 && own_places < m_count) place_along_the_normal(own_places);
   }
 
-  void plane(const DicomItem* own) {
-    const auto axes = decimals(own, 0x00209116, 0x00200037, 6, "Image Orientation (Patient)");
-    const auto apart = decimals(own, 0x00289110, 0x00280030, 2, "Pixel Spacing");
-    if (apart.size() == 2) m_out.between_rows = apart[0], m_out.between_columns = apart[1];
-    if (axes.empty()) return;
+  /// False where the frame does not say where it is.
+  bool place(const DicomItem* own, DicomFrame& frame) {
+    const auto at = decimals(own, kPlanePosition, 0x00200032, 3, "Image Position (Patient)");
+    const auto axes = decimals(own, kPlaneOrientation, 0x00200037, 6, "Image Orientation (Patient)");
+    const auto apart = decimals(own, kPixelMeasures, 0x00280030, 2, "Pixel Spacing");
+    const auto thickness = decimals(own, kPixelMeasures, 0x00180050, 1, "Slice Thickness");
+    if (at.empty())
+      m_out.fault = m_count > 1 ? "expected a place for each frame (Plane Position Sequence), got none"
+                                : "expected Image Position (Patient), got none";
+    else if (axes.empty())
+      m_out.fault = "expected Image Orientation (Patient), got none";
+    else if (apart.empty() || !(apart[0] > 0 && apart[1] > 0))
+      m_out.fault = "expected Pixel Spacing, got none";
+    if (!m_out.fault.empty()) return false;
+    frame.position = {at[0], at[1], at[2]};
+    frame.between_rows = apart[0], frame.between_columns = apart[1];
+    if (!thickness.empty()) frame.thickness = thickness[0];
     const Vec3d row{axes[0], axes[1], axes[2]}, column{axes[3], axes[4], axes[5]};
     if (!(length(row) > 0.9 && length(row) < 1.1 && length(column) > 0.9 && length(column) < 1.1 &&
           std::fabs(dot(row, column)) < 1e-2))
       refuse(m_out.path,
              "expected two perpendicular directions of unit length in Image Orientation (Patient), got others");
-    m_out.row = normalised(row);
-    m_out.column = normalised(column - dot(column, m_out.row) * m_out.row);
+    frame.row = normalised(row);
+    frame.column = normalised(column - dot(column, frame.row) * frame.row);
+    return true;
+  }
+
+  Rescale rescale(const DicomItem* own) {
+    const auto intercept = decimals(own, kValueTransformation, 0x00281052, 1, "Rescale Intercept");
+    const auto slope = decimals(own, kValueTransformation, 0x00281053, 1, "Rescale Slope");
+    Rescale r;
+    if (!intercept.empty()) r.intercept = intercept[0];
+    if (!slope.empty() && slope[0] != 0) r.slope = slope[0];
+    return r;
+  }
+
+  /// Are the frames slices? They may be a film, too. [PS3.3, C.7.6.6: Frame Increment Pointer]
+  bool are_slices() const {
+    const DicomElement* pointer = m_data.find(0x00280009);
+    if (!pointer || pointer->value.empty()) return true;
+    const auto number = [&](std::size_t at) {
+      const auto byte = [&](std::size_t i) {
+        return std::uint32_t(static_cast<unsigned char>(pointer->value[at + i]));
+      };
+      return byte(m_big ? 1 : 0) | byte(m_big ? 0 : 1) << 8;
+    };
+    constexpr std::uint32_t kSliceVector = 0x00540080;
+    return pointer->value.size() == 4 && (number(0) << 16 | number(2)) == kSliceVector;
+  }
+
+  /// Frames without places of their own are slices as far apart as the file says. They are never points in time.
+  void place_along_the_normal(int own_places) {
+    const auto apart = decimals(nullptr, kPixelMeasures, 0x00180088, 1, "Spacing Between Slices");
+    const bool shared = item_of(m_shared, kPlanePosition) != nullptr;
+    if (own_places > 0 || shared || !are_slices() || apart.empty() || apart[0] == 0) {
+      m_out.fault =
+          tr("expected a place for each frame (Plane Position Sequence), or one place and Spacing Between "
+             "Slices, got {} frames with neither",
+             m_out.frames.size());
+      return;
+    }
+    // Only nuclear medicine gives this distance a sign. [PS3.3, C.8.4.15]
+    const double step = m_out.modality == "NM" ? apart[0] : std::fabs(apart[0]);
+    const Vec3d normal = cross(m_out.frames[0].row, m_out.frames[0].column);
+    for (std::size_t f = 0; f < m_out.frames.size(); ++f) m_out.frames[f].position += double(f) * step * normal;
+    m_out.corrected.push_back(
+        tr("only the first of {} frames has a place: the others were taken as slices {:.4g} mm "
+           "apart along the normal (Spacing Between Slices)",
+           m_out.frames.size(), step));
   }
 };
 
@@ -167,15 +227,24 @@ Element DicomHeader::element() const {
 DicomHeader dicom_header(const DicomDocument& file, const std::string& path) {
   DicomHeader out;
   out.path = path;
-  HeaderOfImage(file, out).read();
+  out.sop_class = file.media_class;
+  out.corrected = file.corrected;
+  try {
+    HeaderOfImage(file, out).read();
+  } catch (const core::BadInput& bad) {
+    out.fault = bad.faults().front().message;
+    out.broken = true;
+    out.frames.clear();
+  }
   return out;
 }
 
-bool same_stack(const DicomHeader& a, const DicomHeader& b) {
+bool same_stack(const DicomHeader& a, const DicomFrame& in_a, const DicomHeader& b, const DicomFrame& in_b) {
   if (a.uid.empty() && (a.description != b.description || a.modality != b.modality)) return false;  // taken out
-  return a.uid == b.uid && a.rows == b.rows && a.columns == b.columns && length(a.row - b.row) < 1e-3 &&
-         length(a.column - b.column) < 1e-3 && std::fabs(a.between_rows - b.between_rows) < 1e-4 &&
-         std::fabs(a.between_columns - b.between_columns) < 1e-4 && (a.frames > 1) == (b.frames > 1);
+  return a.uid == b.uid && a.sop_class == b.sop_class && a.rows == b.rows && a.columns == b.columns &&
+         length(in_a.row - in_b.row) < 1e-3 && length(in_a.column - in_b.column) < 1e-3 &&
+         std::fabs(in_a.between_rows - in_b.between_rows) < 1e-4 &&
+         std::fabs(in_a.between_columns - in_b.between_columns) < 1e-4;
 }
 
 }  // namespace trocar::volumes

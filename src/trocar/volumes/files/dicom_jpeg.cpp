@@ -27,9 +27,9 @@ struct CodestreamSize {
   std::uint32_t columns = 0, rows = 0, components = 0, bits = 0;
 };
 
-class Marks {
+class CodestreamMarks {
  public:
-  Marks(std::string_view bytes, const DicomHeader& header) : m_bytes(bytes), m_header(header) {}
+  CodestreamMarks(std::string_view bytes, const DicomHeader& header) : m_bytes(bytes), m_header(header) {}
 
   CodestreamSize size(DicomPacking packing) {
     require(m_bytes.size() >= 8, "a frame of a few bytes");
@@ -49,7 +49,7 @@ class Marks {
     return out;
   }
   void require(bool holds, const char* what) const {
-    if (!holds) refuse(m_header.path, tr("expected a whole DICOM file, got a damaged one: {}", what));
+    if (!holds) refuse(m_header.path, damaged_dicom(what));
   }
   /// The end's mark within the last bytes, which may be padding.
   void require_end() const {
@@ -87,6 +87,11 @@ class Marks {
   }
 };
 
+/// How GDCM is to see the pixels: with the bits that the frame itself says, so that it finds nothing to correct.
+struct PixelBits {
+  int allocated = 0, stored = 0;
+};
+
 #ifdef TROCAR_GDCM
 
 /// The last line with words of what GDCM has written.
@@ -98,13 +103,14 @@ std::string last_words(const std::string& written) {
   return core::printable(std::string_view(last).substr(0, 160));
 }
 
-gdcm::Image packed_image(const std::string& packed, const std::string& syntax, const DicomHeader& header) {
+gdcm::Image packed_image(const std::string& packed, const std::string& syntax, const DicomHeader& header,
+                         PixelBits bits) {
   gdcm::Image image;
   image.SetNumberOfDimensions(2);
   image.SetDimension(0, unsigned(header.columns));
   image.SetDimension(1, unsigned(header.rows));
-  image.SetPixelFormat(gdcm::PixelFormat(1, std::uint16_t(header.allocated), std::uint16_t(header.stored),
-                                         std::uint16_t(header.stored - 1), header.is_signed ? 1 : 0));
+  image.SetPixelFormat(gdcm::PixelFormat(1, std::uint16_t(bits.allocated), std::uint16_t(bits.stored),
+                                         std::uint16_t(bits.stored - 1), header.is_signed ? 1 : 0));
   image.SetPhotometricInterpretation(gdcm::PhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2));
   image.SetTransferSyntax(gdcm::TransferSyntax(gdcm::TransferSyntax::GetTSType(syntax.c_str())));
   gdcm::Fragment fragment;
@@ -120,19 +126,30 @@ gdcm::Image packed_image(const std::string& packed, const std::string& syntax, c
 
 constexpr int kMostSeconds = 60;
 
+/// Little-endian numbers with more bytes each; signs are spread later, over all bits that are not stored.
+std::vector<char> widened(std::vector<char> numbers, int from, int to) {
+  if (from == to) return numbers;
+  const std::size_t narrow = std::size_t(from), wide = std::size_t(to), count = numbers.size() / narrow;
+  std::vector<char> out(count * wide, '\0');
+  for (std::size_t i = 0; i < count; ++i)
+    std::copy_n(numbers.begin() + std::ptrdiff_t(narrow * i), narrow, out.begin() + std::ptrdiff_t(wide * i));
+  return out;
+}
+
 /// In the child: 'p' and the pixels, or 'f' and what is wrong. Its streams for warnings are its own.
-std::string unpack_all(const std::vector<std::string>& frames, const std::string& syntax, const DicomHeader& header) {
+std::string unpack_all(const std::vector<std::string>& frames, const std::string& syntax, const DicomHeader& header,
+                       PixelBits bits) {
   std::ostringstream written;
   gdcm::Trace::SetWarningStream(written);
   gdcm::Trace::SetErrorStream(written);
   gdcm::Trace::WarningOn();
   gdcm::Trace::ErrorOn();
   gdcm::Trace::DebugOff();
-  const std::size_t wanted = frame_bytes(header);
+  const std::size_t wanted = frame_pixels(header) * std::size_t(bits.allocated / 8);
   std::string out = "p";
   try {
     for (const std::string& frame : frames) {
-      const gdcm::Image image = packed_image(frame, syntax, header);
+      const gdcm::Image image = packed_image(frame, syntax, header, bits);
       if (image.GetBufferLength() != wanted) return "fanother size than it says";
       out.resize(out.size() + wanted);
       if (!image.GetBuffer(out.data() + out.size() - wanted)) return "fits pixels cannot be unpacked";
@@ -144,22 +161,24 @@ std::string unpack_all(const std::vector<std::string>& frames, const std::string
   return out;
 }
 
-std::vector<char> by_gdcm(const std::vector<std::string>& frames, const std::string& syntax,
-                          const DicomHeader& header) {
-  const std::size_t wanted = frame_bytes(header) * frames.size();
-  const ChildResult child = in_child([&] { return unpack_all(frames, syntax, header); }, kMostSeconds, wanted + 4096);
+std::vector<char> by_gdcm(const std::vector<std::string>& frames, const std::string& syntax, const DicomHeader& header,
+                          PixelBits bits) {
+  const std::size_t wanted = frame_pixels(header) * std::size_t(bits.allocated / 8) * frames.size();
+  const ChildResult child =
+      in_child([&] { return unpack_all(frames, syntax, header, bits); }, kMostSeconds, wanted + 4096);
   std::string failure;
   if (!child.came_back || child.bytes.empty())
     failure = "unpacking its pixels fails";
   else if (child.bytes[0] != 'p' || child.bytes.size() != wanted + 1)
     failure = child.bytes.substr(1);
-  if (!failure.empty()) refuse(header.path, "expected a whole DICOM file, got a damaged one: " + failure);
-  return {child.bytes.begin() + 1, child.bytes.end()};
+  if (!failure.empty()) refuse(header.path, damaged_dicom(failure));
+  return widened({child.bytes.begin() + 1, child.bytes.end()}, bits.allocated / 8, header.allocated / 8);
 }
 
 #else
 
-std::vector<char> by_gdcm(const std::vector<std::string>&, const std::string& syntax, const DicomHeader& header) {
+std::vector<char> by_gdcm(const std::vector<std::string>&, const std::string& syntax, const DicomHeader& header,
+                          PixelBits) {
   throw core::EnvironmentLacks(
       tr("{}: this build does not unpack JPEG in DICOM (transfer syntax {}): install libgdcm-dev and build again, "
          "or convert the series to NIfTI or NRRD",
@@ -178,18 +197,25 @@ bool unpacks_jpeg() {
 #endif
 }
 
-std::vector<char> unpacked_jpeg(const std::vector<std::string>& frames, DicomPacking packing, const std::string& syntax,
-                                const DicomHeader& header) {
+UnpackedFrames unpacked_jpeg(const std::vector<std::string>& frames, DicomPacking packing, const std::string& syntax,
+                             const DicomHeader& header) {
+  std::uint32_t bits = 0;
   for (const std::string& packed : frames) {
-    const CodestreamSize size = Marks(packed, header).size(packing);
+    const CodestreamSize size = CodestreamMarks(packed, header).size(packing);
     if (size.columns != std::uint32_t(header.columns) || size.rows != std::uint32_t(header.rows) ||
         size.components != 1 || size.bits > std::uint32_t(header.allocated) || header.allocated > 16)
       refuse(header.path, tr("expected a packed frame of {} x {} pixels with one value of up to {} bits, got {} x "
                              "{} with {} of {} bits",
                              header.columns, header.rows, std::min(header.allocated, 16), size.columns, size.rows,
                              size.components, size.bits));
+    if (bits != 0 && size.bits != bits)
+      refuse(header.path, tr("expected packed frames of {} bits, got one of {}", bits, size.bits));
+    bits = size.bits;
   }
-  return by_gdcm(frames, syntax, header);
+  PixelBits seen{header.allocated, header.stored};
+  if (packing == DicomPacking::jpeg_2000 && bits < std::uint32_t(header.stored))
+    seen = {bits <= 8 ? 8 : 16, std::max(1, int(bits))};
+  return {by_gdcm(frames, syntax, header, seen), seen.stored};
 }
 
 }  // namespace trocar::volumes

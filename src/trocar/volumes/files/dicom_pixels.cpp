@@ -11,7 +11,7 @@ namespace trocar::volumes {
 namespace {
 
 [[noreturn]] void damaged_pixels(const DicomHeader& header, const std::string& what) {
-  refuse(header.path, "expected a whole DICOM file, got a damaged one: " + what);
+  refuse(header.path, damaged_dicom(what));
 }
 
 bool own_order_is_big() {
@@ -35,27 +35,30 @@ void keep_stored_bits(std::vector<char>& bytes, int stored) {
     std::memcpy(bytes.data() + at, &value, sizeof(T));
   }
 }
-void clean_up(std::vector<char>& bytes, const DicomHeader& header) {
+void clean_up(std::vector<char>& bytes, const DicomHeader& header, int stored) {
   switch (header.element()) {
     case Element::int8:
-      return keep_stored_bits<std::int8_t>(bytes, header.stored);
+      return keep_stored_bits<std::int8_t>(bytes, stored);
     case Element::uint8:
-      return keep_stored_bits<std::uint8_t>(bytes, header.stored);
+      return keep_stored_bits<std::uint8_t>(bytes, stored);
     case Element::int16:
-      return keep_stored_bits<std::int16_t>(bytes, header.stored);
+      return keep_stored_bits<std::int16_t>(bytes, stored);
     case Element::uint16:
-      return keep_stored_bits<std::uint16_t>(bytes, header.stored);
+      return keep_stored_bits<std::uint16_t>(bytes, stored);
     case Element::int32:
-      return keep_stored_bits<std::int32_t>(bytes, header.stored);
+      return keep_stored_bits<std::int32_t>(bytes, stored);
     default:
-      return keep_stored_bits<std::uint32_t>(bytes, header.stored);
+      return keep_stored_bits<std::uint32_t>(bytes, stored);
   }
 }
 
-std::vector<char> plain_pixels(const DicomElement& pixels, const DicomHeader& header, bool big) {
-  const std::size_t wanted = frame_bytes(header) * std::size_t(header.frames);
+std::vector<char> plain_pixels(const DicomElement& pixels, const DicomHeader& header, bool big,
+                               std::vector<std::string>& notes) {
+  const std::size_t wanted = frame_bytes(header) * header.frames.size();
   if (pixels.value.size() < wanted)
     damaged_pixels(header, tr("{} bytes of pixels instead of {}", pixels.value.size(), wanted));
+  if (pixels.value.size() > wanted + wanted % 2)  // values have an even length
+    notes.push_back(tr("{} bytes behind the last pixel were passed over", pixels.value.size() - wanted));
   std::vector<char> out(pixels.value.begin(), pixels.value.begin() + std::ptrdiff_t(wanted));
   // Pixels of a byte are written as words of two, too.
   const std::size_t word = std::max<std::size_t>(2, std::size_t(header.allocated / 8));
@@ -73,7 +76,7 @@ std::uint32_t little32(std::string_view bytes, std::size_t at) {
 
 /// Fragments belong to frames one by one, all to the only frame, or as the table of offsets says.
 std::vector<std::string> packed_frames(const DicomElement& pixels, const DicomHeader& header) {
-  const std::size_t frames = std::size_t(header.frames);
+  const std::size_t frames = header.frames.size();
   if (pixels.fragments.size() < frames + 1)
     damaged_pixels(header,
                    tr("{} packed frames instead of {}", std::max<std::size_t>(pixels.fragments.size(), 1) - 1, frames));
@@ -122,14 +125,16 @@ std::vector<char> unpacked_rle(std::string_view packed, const DicomHeader& heade
 
 }  // namespace
 
-std::vector<char> dicom_pixels(const DicomDocument& file, const DicomHeader& header, std::size_t most_voxels) {
-  if (const auto fault = size_fault({header.columns, header.rows, header.frames}, most_voxels))
+std::vector<char> dicom_pixels(const DicomDocument& file, const DicomHeader& header, std::size_t most_voxels,
+                               std::vector<std::string>& notes) {
+  if (const auto fault = size_fault({header.columns, header.rows, std::int64_t(header.frames.size())}, most_voxels))
     refuse(header.path, *fault);
   const DicomElement* pixels = file.root.find(kDicomPixels);
   if (!pixels) damaged_pixels(header, "no pixels");
   std::vector<char> out;
+  int stored = header.stored;
   if (file.packing == DicomPacking::none) {
-    out = plain_pixels(*pixels, header, file.big_endian);
+    out = plain_pixels(*pixels, header, file.big_endian, notes);
   } else if (file.packing == DicomPacking::other) {
     refuse(header.path, tr("expected pixels that are not packed, or by RLE, JPEG, JPEG-LS or JPEG 2000, got the "
                            "transfer syntax {}",
@@ -137,7 +142,11 @@ std::vector<char> dicom_pixels(const DicomDocument& file, const DicomHeader& hea
   } else {
     const std::vector<std::string> frames = packed_frames(*pixels, header);
     if (file.packing != DicomPacking::rle) {
-      out = unpacked_jpeg(frames, file.packing, file.syntax, header);
+      UnpackedFrames unpacked = unpacked_jpeg(frames, file.packing, file.syntax, header);
+      out = std::move(unpacked.bytes);
+      stored = unpacked.stored;
+      if (stored != header.stored)
+        notes.push_back(tr("the packed pixels hold {} bits, where the header says {}", stored, header.stored));
     } else {
       for (const std::string& packed : frames) {
         const std::vector<char> frame = unpacked_rle(packed, header);
@@ -145,7 +154,7 @@ std::vector<char> dicom_pixels(const DicomDocument& file, const DicomHeader& hea
       }
     }
   }
-  clean_up(out, header);
+  clean_up(out, header, stored);
   return out;
 }
 

@@ -1,147 +1,112 @@
-// DICOM files of a folder: told apart by series, put in order, decoded one after the other.
+// DICOM images as a volume: the stack is chosen, put in order, and decoded one file after the other.
 #include <algorithm>
-#include <cmath>
-#include <fstream>
+#include <map>
 
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/core/files.hpp>
+#include <trocar/core/hash.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/volumes/files/dicom.hpp>
+#include <trocar/volumes/files/dicom_choice.hpp>
 #include <trocar/volumes/files/dicom_pixels.hpp>
+#include <trocar/volumes/files/slice_stack.hpp>
 
 namespace trocar::volumes {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostFiles = 20'000;
-constexpr int kDeepest = 6;
+/// All frames of a file, decoded; what had to be corrected goes into the notes.
+using PixelsOf = std::function<std::vector<char>(int file, std::vector<std::string>& notes)>;
 
-struct Found {
-  std::vector<std::vector<DicomHeader>> series;
-  int others = 0;          // files that are no DICOM images
-  std::string not_usable;  // why the first of the DICOM files without usable pixels is none
+/// The frames of the file that was asked for last, as files have many.
+class LastPixels {
+ public:
+  explicit LastPixels(PixelsOf read) : m_read(std::move(read)) {}
+
+  const std::vector<char>& of(int file) {
+    if (file == m_file) return m_pixels;
+    m_file = -1;
+    m_notes.clear();
+    m_pixels = m_read(file, m_notes);
+    m_file = file;
+    return m_pixels;
+  }
+  const std::vector<std::string>& notes() const { return m_notes; }  ///< on that file
+
+ private:
+  PixelsOf m_read;
+  std::vector<char> m_pixels;
+  std::vector<std::string> m_notes;
+  int m_file = -1;
 };
 
-constexpr std::size_t kBeginning = std::size_t(1) << 16;  // most headers are shorter
-constexpr std::uint64_t kMostFileBytes = std::uint64_t(1) << 31;
-
-/// False where this is no DICOM file.
-bool read_header(const fs::path& path, DicomHeader& out) {
-  std::string bytes(kBeginning, '\0');
-  std::ifstream in(path, std::ios::binary);
-  in.read(bytes.data(), std::streamsize(bytes.size()));
-  bytes.resize(std::size_t(in.gcount()));
-  if (!looks_like_dicom(bytes)) return false;
-  const std::string name = path.generic_string();
-  const bool marked = bytes.size() > 132 && bytes.compare(128, 4, "DICM") == 0;
-  try {
-    DicomDocument file = parse_dicom(bytes, name, true);
-    if (file.ends_early) {
-      bytes = core::read_file(path, kMostFileBytes);
-      file = parse_dicom(bytes, name);
+PixelsDigest digest_of(const std::vector<DicomHeader>& files, LastPixels& pixels) {
+  return [&files, &pixels](ImageAt image) {
+    const DicomHeader& header = files[std::size_t(image.file)];
+    const Rescale& r = header.frames[std::size_t(image.frame)].rescale;
+    try {
+      const std::vector<char>& all = pixels.of(image.file);
+      const std::size_t bytes = all.size() / header.frames.size();
+      return fmt::format("{} {} {}", core::hex(core::hash_bytes(all.data() + bytes * std::size_t(image.frame), bytes)),
+                         r.slope, r.intercept);
+    } catch (const core::BadInput&) {
+      return std::string();
     }
-    out = dicom_header(file, name);
-  } catch (const core::BadInput&) {
-    if (marked) throw;
-    return false;  // some other file that begins as DICOM without its mark does
-  }
-  return true;
+  };
 }
 
-std::vector<char> read_pixels(const DicomHeader& header, const ReadOptions& options) {
-  const std::string bytes = core::read_file(header.path, kMostFileBytes);
-  const DicomDocument file = parse_dicom(bytes, header.path);
-  const DicomHeader again = dicom_header(file, header.path);
-  if (!same_stack(again, header) || again.frames != header.frames || again.element() != header.element())
-    refuse(header.path, "expected the file as it was a moment ago, got another one");
-  return dicom_pixels(file, header, options.most_voxels);
-}
-
-std::vector<fs::path> files_below(const fs::path& folder) {
-  std::vector<fs::path> out;
-  std::error_code error;
-  fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error), end;
-  if (error) refuse(folder.generic_string(), "expected a folder that can be read, got " + error.message());
-  for (; it != end; it.increment(error)) {
-    if (error) break;
-    if (it.depth() >= kDeepest) it.disable_recursion_pending();
-    if (!it->is_regular_file(error)) continue;
-    if (out.size() >= kMostFiles)
-      refuse(folder.generic_string(), tr("expected at most {} files in the folder, got more", kMostFiles));
-    out.push_back(it->path());
-  }
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
-Found find_series(const fs::path& folder, const Progress& progress) {
-  Found out;
-  const std::vector<fs::path> files = files_below(folder);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    tell(progress, double(i) / double(files.size()));
-    DicomHeader header;
-    if (!read_header(files[i], header)) {
-      ++out.others;
-      continue;
-    }
-    if (!header.fault.empty()) {
-      if (out.not_usable.empty()) out.not_usable = header.path + ": " + header.fault;
-      ++out.others;
-      continue;
-    }
-    const auto same = std::find_if(out.series.begin(), out.series.end(),
-                                   [&](const auto& s) { return same_stack(s[0], header) && header.frames == 1; });
-    if (same == out.series.end())
-      out.series.push_back({header});
-    else
-      same->push_back(header);
-  }
-  std::stable_sort(out.series.begin(), out.series.end(), [](const auto& a, const auto& b) {
-    const std::size_t na = a.size() * std::size_t(a[0].frames), nb = b.size() * std::size_t(b[0].frames);
-    return na != nb ? na > nb : a[0].uid < b[0].uid;
-  });
-  return out;
-}
-
-std::vector<SeriesFacts> facts_of(const Found& found) {
-  std::vector<SeriesFacts> out;
-  for (const auto& s : found.series) {
-    const DicomHeader& first = s[0];
-    out.push_back({first.uid,
-                   first.description,
-                   first.modality,
-                   int(s.size()),
-                   {first.columns, first.rows, int(s.size()) * first.frames}});
-  }
-  return out;
-}
-
-/// All frames of a series as slices, and what holds for all of them.
-class Stack {
+/// The chosen images as a volume.
+class VolumeOfImages {
  public:
-  Stack(const std::vector<DicomHeader>& series, const std::string& name, const ReadOptions& options, ReadReport& report)
-      : m_series(series), m_name(name), m_options(options), m_report(report) {}
+  VolumeOfImages(const std::vector<DicomHeader>& files, const std::string& name, const ReadOptions& options,
+                 ReadReport& report)
+      : m_files(files), m_name(name), m_options(options), m_report(report) {}
 
-  /// Where the volume is; which frames it takes, in their order.
-  void arrange(Raster& raster) {
-    const DicomHeader& first = m_series[0];
-    std::vector<SlicePlace> places;
-    for (std::size_t f = 0; f < m_series.size(); ++f) {
-      if (m_series[f].places.empty())
-        refuse(m_series[f].path, m_series[f].frames > 1
-                                     ? "expected a place for each frame (Plane Position Sequence), got none"
-                                     : "expected Image Position (Patient), got none");
-      places.insert(places.end(), m_series[f].places.begin(), m_series[f].places.end());
+  Raster read(const DicomStack& stack, int group, LastPixels& pixels) {
+    for (const int i : stack.groups[std::size_t(group)].images) m_images.push_back(stack.images[std::size_t(i)]);
+    Raster raster;
+    arrange(raster);
+    std::vector<std::size_t> by_file(m_images.size());
+    for (std::size_t s = 0; s < by_file.size(); ++s) by_file[s] = s;
+    std::stable_sort(by_file.begin(), by_file.end(),
+                     [&](std::size_t a, std::size_t b) { return m_images[a].file < m_images[b].file; });
+    int told_on = -1;
+    for (std::size_t n = 0; n < by_file.size(); ++n) {
+      tell(m_options.progress, 0.3 + 0.4 * double(n) / double(by_file.size()));
+      const int file = m_images[by_file[n]].file;
+      put(raster, by_file[n], pixels.of(file));
+      if (file != told_on) remember(file, pixels.notes());
+      told_on = file;
     }
-    if (!(first.between_columns > 0 && first.between_rows > 0)) refuse(first.path, "expected Pixel Spacing, got none");
-    const SliceStack stack = stack_slices(places, first.row, first.column, m_name, m_report.notes);
-    const int frame = choose(stack.frames);
-    for (int k = 0; k < stack.slices; ++k) m_wanted.push_back(stack.order[std::size_t(k * stack.frames + frame)]);
-    const Mat3d step =
-        Mat3d::from_columns(first.between_columns * first.row, first.between_rows * first.column, stack.step);
+    for (const auto& [text, names] : m_corrected)
+      m_report.notes.push_back(names.size() == 1 ? text : tr("{} ({} files)", text, names.size()));
+    share_rescale(raster);
+    return raster;
+  }
+
+ private:
+  const std::vector<DicomHeader>& m_files;
+  const std::string& m_name;
+  const ReadOptions& m_options;
+  ReadReport& m_report;
+  std::vector<ImageAt> m_images;  // of each slice, lowest first
+  std::map<std::string, std::vector<std::string>> m_corrected;
+
+  const DicomHeader& header(std::size_t slice) const { return m_files[std::size_t(m_images[slice].file)]; }
+  const DicomFrame& frame(std::size_t slice) const { return header(slice).frames[std::size_t(m_images[slice].frame)]; }
+
+  void arrange(Raster& raster) {
+    std::vector<SlicePlace> places;
+    for (std::size_t i = 0; i < m_images.size(); ++i) places.push_back({frame(i).position, frame(i).thickness});
+    const DicomHeader& first = header(0);
+    const DicomFrame at = frame(0);
+    const SliceStack stack = stack_slices(places, at.row, at.column, m_name, m_report.notes);
+    std::vector<ImageAt> ordered;
+    for (const int i : stack.order) ordered.push_back(m_images[std::size_t(i)]);
+    m_images = std::move(ordered);
+    const Mat3d step = Mat3d::from_columns(at.between_columns * at.row, at.between_rows * at.column, stack.step);
     if (const auto fault = size_fault({first.columns, first.rows, stack.slices}, m_options.most_voxels))
       refuse(m_name, *fault);
     if (const auto fault = place_fault(stack.origin, step)) refuse(m_name, *fault);
@@ -150,133 +115,152 @@ class Stack {
     if (first.photometric == "MONOCHROME1")
       m_report.notes.push_back("MONOCHROME1: small values are meant to be shown bright; the values are as in the file");
     if (first.modality == "CT") raster.unit = "HU";
-    raster.rescale.resize(m_wanted.size());
+    raster.rescale.resize(m_images.size());
   }
 
-  /// Puts the frames of a file where they belong.
-  void put(Raster& raster, std::size_t file, const std::vector<char>& pixels) {
-    const DicomHeader& header = m_series[file];
+  void put(Raster& raster, std::size_t slice, const std::vector<char>& pixels) {
+    const DicomHeader& from = header(slice);
     if (raster.owned.empty()) {
-      raster.element = header.element();
+      raster.element = from.element();
       raster.owned.resize(raster.wanted());
     }
-    if (header.element() != raster.element)
-      refuse(header.path,
-             tr("expected {} as in the other slices, got {}", name_of(raster.element), name_of(header.element())));
-    const std::size_t bytes = pixels.size() / std::size_t(header.frames);
-    for (int f = 0; f < header.frames; ++f) {
-      const auto slice = std::find(m_wanted.begin(), m_wanted.end(), first_frame(file) + f) - m_wanted.begin();
-      if (slice == std::ptrdiff_t(m_wanted.size())) continue;
-      std::copy_n(pixels.begin() + std::ptrdiff_t(bytes) * f, bytes,
-                  raster.owned.begin() + std::ptrdiff_t(bytes) * slice);
-      raster.rescale[std::size_t(slice)] = header.rescale[std::size_t(f)];
-    }
-  }
-  bool needs(std::size_t file) const {
-    const int first = first_frame(file), end = first + m_series[file].frames;
-    return std::any_of(m_wanted.begin(), m_wanted.end(), [&](int w) { return w >= first && w < end; });
+    if (from.element() != raster.element)
+      refuse(from.path,
+             tr("expected {} as in the other slices, got {}", name_of(raster.element), name_of(from.element())));
+    const std::size_t bytes = pixels.size() / from.frames.size();
+    std::copy_n(pixels.begin() + std::ptrdiff_t(bytes * std::size_t(m_images[slice].frame)), bytes,
+                raster.owned.begin() + std::ptrdiff_t(bytes * slice));
+    raster.rescale[slice] = frame(slice).rescale;
   }
 
- private:
-  const std::vector<DicomHeader>& m_series;
-  const std::string& m_name;
-  const ReadOptions& m_options;
-  ReadReport& m_report;
-  std::vector<int> m_wanted;  // of each slice the frame, counted through all files
-
-  int first_frame(std::size_t file) const {
-    // Files of several frames are series of their own (same_stack).
-    return int(file) * m_series[0].frames;
+  void remember(int file, const std::vector<std::string>& on_pixels) {
+    const DicomHeader& from = m_files[std::size_t(file)];
+    for (const auto* notes : {&from.corrected, &on_pixels})
+      for (const std::string& note : *notes) {
+        std::vector<std::string>& names = m_corrected[note];
+        if (names.empty() || names.back() != from.path) names.push_back(from.path);
+      }
   }
-  int choose(int frames) {
-    ReadReport& r = m_report;
-    r.frames = frames;
-    r.frame = m_options.frame;
-    if (m_options.frame < 0 || m_options.frame >= frames)
-      refuse(m_name,
-             tr("expected one of {} images at each position (0 to {}), got {}", frames, frames - 1, m_options.frame));
-    if (frames > 1)
-      r.notes.push_back(tr("{} images at each position (time points): number {} is read", frames, r.frame));
-    return r.frame;
+
+  /// One slope and intercept for all says more than one a slice.
+  static void share_rescale(Raster& raster) {
+    const auto same = [&](const Rescale& r) {
+      return r.slope == raster.rescale[0].slope && r.intercept == raster.rescale[0].intercept;
+    };
+    if (std::all_of(raster.rescale.begin(), raster.rescale.end(), same)) raster.rescale.resize(1);
   }
 };
 
-/// One slope and intercept for all says more than one a slice.
-void share_rescale(Raster& raster) {
-  const auto same = [&](const Rescale& r) {
-    return r.slope == raster.rescale[0].slope && r.intercept == raster.rescale[0].intercept;
-  };
-  if (std::all_of(raster.rescale.begin(), raster.rescale.end(), same)) raster.rescale.resize(1);
+void tell_copies(const DicomStack& stack, const std::vector<DicomHeader>& files, ReadReport& report) {
+  std::vector<std::string> names;
+  for (const auto& [copy, original] : stack.copies)
+    names.push_back(tr("{} (as {})", files[std::size_t(copy)].path, files[std::size_t(original)].path));
+  if (!names.empty())
+    report.notes.push_back(tr("images that are there twice are read once; left out: {}", few_of(names)));
 }
 
-std::size_t choose_series(const Found& found, const fs::path& file, const std::string& folder, int wanted) {
-  const int count = int(found.series.size());
-  if (wanted < 0 || wanted > count)
-    refuse(folder, tr("expected one of {} series (1 to {}), got {}", count, count, wanted));
-  if (wanted > 0) return std::size_t(wanted - 1);
-  if (file.empty()) return 0;
-  for (std::size_t s = 0; s < found.series.size(); ++s)
-    for (const DicomHeader& h : found.series[s])
-      if (fs::path(h.path).lexically_normal() == file.lexically_normal()) return s;
-  refuse(file.generic_string(),
-         found.not_usable.empty() ? "expected a DICOM image, got another file" : found.not_usable);
+/// @param file  of the folder's files: it was named; -1: none was
+Raster read_stacks(const DicomFolder& folder, int file, const std::string& name, const ReadOptions& options,
+                   ReadReport& report, const PixelsOf& pixels_of) {
+  LastPixels pixels(pixels_of);
+  const std::vector<DicomStack> stacks = dicom_stacks(folder.files, digest_of(folder.files, pixels), name);
+  const DicomStack& stack = stacks[choose_stack(folder, stacks, options.series, file, name, report)];
+  const int group = choose_group(stack, options.frame, file, name, report);
+  tell_copies(stack, folder.files, report);
+  return VolumeOfImages(folder.files, name, options, report).read(stack, group, pixels);
 }
 
-void tell_choice(const Found& found, std::size_t chosen, ReadReport& report) {
-  report.series = facts_of(found);
-  report.chosen_series = int(chosen) + 1;
-  const auto named = [&](std::size_t s) {
-    const SeriesFacts& f = report.series[s];
-    return fmt::format("{} '{}' ({} x {} x {})", s + 1, f.description, f.size[0], f.size[1], f.size[2]);
-  };
-  if (found.series.size() > 1) {
-    std::string others;
-    for (std::size_t s = 0; s < found.series.size() && s < 20; ++s)
-      if (s != chosen) others += (others.empty() ? "" : ", ") + named(s);
-    report.notes.push_back(tr("series {} of {} is read; others: {}", named(chosen), found.series.size(), others));
-  }
-  if (found.others > 0) report.notes.push_back(tr("{} files that are no DICOM images were passed over", found.others));
+std::vector<char> pixels_of_file(const DicomHeader& header, const ReadOptions& options,
+                                 std::vector<std::string>& notes) {
+  OpenedDicom opened;
+  open_dicom(header.path, opened);
+  const DicomHeader again = dicom_header(opened.file, header.path);
+  if (again.broken) refuse(header.path, again.fault);
+  if (again.frames.size() != header.frames.size() || again.element() != header.element() ||
+      !same_stack(again, again.frames[0], header, header.frames[0]))
+    refuse(header.path, "expected the file as it was a moment ago, got another one");
+  notes = opened.file.corrected;
+  return dicom_pixels(opened.file, header, options.most_voxels, notes);
+}
+
+/// The number of a file among those with slices; refused with the reason where it has none. -1: it stands for its
+/// folder.
+int number_of(const DicomFolder& folder, const fs::path& file) {
+  const std::string path = file.generic_string();
+  std::error_code error;
+  for (std::size_t f = 0; f < folder.files.size(); ++f)
+    if (folder.files[f].path == path || fs::equivalent(folder.files[f].path, file, error)) return int(f);
+  for (const LeftOut& left : folder.left_out)
+    if (left.path == path || fs::equivalent(left.path, file, error)) {
+      if (left.is_directory) return -1;
+      refuse(path, left.why);
+    }
+  refuse(path, "expected the file as it was a moment ago, got none");
+}
+
+[[noreturn]] void refuse_empty(const DicomFolder& folder, const std::string& name) {
+  std::string why;
+  for (const std::string& note : notes_on(folder.left_out)) why += (why.empty() ? ": " : "; ") + note;
+  refuse(name, tr("expected DICOM images, got none{}", why));
+}
+
+/// What is missing may be in files that are damaged.
+[[noreturn]] void refuse_with_damaged(const core::BadInput& bad, const DicomFolder& folder) {
+  constexpr std::size_t kMostTold = 20;
+  std::vector<core::Fault> faults = bad.faults();
+  for (const LeftOut& left : folder.left_out)
+    if (left.broken && left.path != faults[0].at.file && faults.size() < kMostTold)
+      faults.push_back({{left.path, 0, 0}, left.why});
+  throw core::BadInput(faults);
 }
 
 }  // namespace
 
-std::vector<SeriesFacts> dicom_series(const fs::path& folder, const ReadOptions& options) {
-  return facts_of(find_series(folder, options.progress));
+std::vector<SeriesFacts> dicom_series(const fs::path& path, const ReadOptions& options) {
+  const DicomFolder folder = read_dicom_folder(path, options.progress);
+  LastPixels pixels([&](int file, std::vector<std::string>& notes) {
+    return pixels_of_file(folder.files[std::size_t(file)], options, notes);
+  });
+  std::vector<SeriesFacts> out;
+  for (const DicomStack& stack : dicom_stacks(folder.files, digest_of(folder.files, pixels), path.generic_string()))
+    out.push_back(facts_of(stack, folder.files));
+  return out;
 }
 
-Raster read_dicom_series(const fs::path& folder, const fs::path& file, const ReadOptions& options, ReadReport& report) {
+Raster read_dicom_series(const fs::path& path, const fs::path& file, const ReadOptions& options, ReadReport& report) {
   report.format = "DICOM";
-  const Found found = find_series(folder, part(options.progress, 0, 0.3));
-  const std::string name = (file.empty() ? folder : file).generic_string();
-  if (found.series.empty())
-    refuse(name, found.not_usable.empty() ? "expected DICOM images, got none"
-                                          : "expected DICOM images with grey values, got none: " + found.not_usable);
-  const std::size_t chosen = choose_series(found, file, name, options.series);
-  tell_choice(found, chosen, report);
-  const std::vector<DicomHeader>& series = found.series[chosen];
+  const DicomFolder folder = read_dicom_folder(path, part(options.progress, 0, 0.3));
+  const int number = file.empty() ? -1 : number_of(folder, file);
+  const std::string name = (number < 0 ? path : file).generic_string();
+  if (folder.files.empty()) refuse_empty(folder, name);
   Raster raster;
-  Stack stack(series, name, options, report);
-  stack.arrange(raster);
-  for (std::size_t f = 0; f < series.size(); ++f) {
-    tell(options.progress, 0.3 + 0.4 * double(f) / double(series.size()));
-    if (!stack.needs(f)) continue;
-    stack.put(raster, f, read_pixels(series[f], options));
+  try {
+    raster = read_stacks(folder, number, name, options, report, [&](int f, std::vector<std::string>& notes) {
+      return pixels_of_file(folder.files[std::size_t(f)], options, notes);
+    });
+  } catch (const SeriesChoice&) {
+    throw;
+  } catch (const core::BadInput& bad) {
+    refuse_with_damaged(bad, folder);
   }
-  share_rescale(raster);
+  // Where a file was named, only what may belong to its series matters.
+  std::vector<LeftOut> told = folder.left_out;
+  if (number >= 0)
+    told.erase(std::remove_if(told.begin(), told.end(), [](const LeftOut& l) { return !l.dicom; }), told.end());
+  for (std::string& note : notes_on(told)) report.notes.push_back(std::move(note));
   return raster;
 }
 
 Raster read_dicom_bytes(const Source& source) {
   source.report.format = "DICOM";
   const DicomDocument file = parse_dicom(source.bytes, source.file);
-  const std::vector<DicomHeader> series{dicom_header(file, source.file)};
-  if (!series[0].fault.empty()) refuse(source.file, series[0].fault);
-  Raster raster;
-  Stack stack(series, source.file, source.options, source.report);
-  stack.arrange(raster);
-  stack.put(raster, 0, dicom_pixels(file, series[0], source.options.most_voxels));
-  share_rescale(raster);
-  return raster;
+  DicomFolder folder;
+  folder.files.push_back(dicom_header(file, source.file));
+  const DicomHeader& header = folder.files[0];
+  if (!header.fault.empty()) refuse(source.file, header.fault);
+  return read_stacks(folder, 0, source.file, source.options, source.report, [&](int, std::vector<std::string>& notes) {
+    return dicom_pixels(file, header, source.options.most_voxels, notes);
+  });
 }
 
 }  // namespace trocar::volumes

@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include <trocar/core/text.hpp>
-#include <trocar/volumes/files/header_fields.hpp>
-#include <trocar/volumes/files/inflate.hpp>
+#include <trocar/geometry/voxel_files/inflate.hpp>
 #include <trocar/volumes/files/readers.hpp>
 
 namespace trocar::volumes {
+
+using geometry::HeaderField, geometry::HeaderFields;
+
 namespace {
 
 struct MetaType {
@@ -148,34 +150,41 @@ bool looks_like_metaimage(std::string_view bytes) {
 
 Raster read_metaimage(const Source& source) {
   source.report.format = "MetaImage";
-  HeaderFields fields = read_fields(source.bytes, source.file, '=', "elementdatafile");
+  HeaderFields fields = geometry::read_fields(source.bytes, source.file, '=', "elementdatafile");
   MetaHeader header(source, fields);
   header.read();
   Raster raster = std::move(header.raster);
   const int frame = choose_frame(source, header.frames, "time points");
-  const std::size_t wanted = raster.wanted(), offset = std::size_t(frame) * wanted;
+  const std::size_t wanted = raster.wanted(), all = wanted * std::size_t(header.frames),
+                    offset = std::size_t(frame) * wanted;
   std::string other;
   std::string_view data = source.bytes.substr(fields.end);
   const bool local = lowered(header.data->value.substr(0, 10)) == "local";
   if (!local) {
-    const std::string name(header.data->value);
-    if (!source.beside || !is_plain_name(name))
+    const auto name = geometry::name_beside(header.data->value);
+    if (!source.beside || !name)
       throw core::BadInput({{{source.file, header.data->line, header.data->column},
-                             tr("expected LOCAL or one file of the same folder, got {}", shown(name))}});
-    other = source.beside(name);
+                             tr("expected LOCAL or one file of the same folder, got {}", shown(header.data->value))}});
+    other = source.beside(*name);
     data = other;
   }
   if (header.packed) {
+    bool more = false;
     raster.owned =
-        inflated(data, Wrapping::zlib, offset, wanted, source.file, false, part(source.options.progress, 0, 0.5));
+        geometry::inflated(data, geometry::Wrapping::zlib, offset, wanted, source.file, false,
+                           told_by(part(source.options.progress, 0, 0.5)), offset + wanted == all ? &more : nullptr);
+    if (more) tell_longer(source, all);
     return raster;
   }
-  if (header.header_size >= 0)
-    data.remove_prefix(std::min(data.size(), std::size_t(header.header_size)));
-  else
-    data = data.substr(data.size() - std::min(data.size(), wanted * std::size_t(header.frames)));  // -1: the last bytes
-  if (data.size() < offset || data.size() - offset < wanted)
-    refuse(source.file, tr("expected {} bytes of voxels, got {}", offset + wanted, data.size()));
+  if (header.header_size > 0) data.remove_prefix(std::min(data.size(), std::size_t(header.header_size)));
+  if (header.header_size < 0) data.remove_prefix(data.size() - std::min(data.size(), all));  // -1: the last bytes
+  if (data.size() < all) refuse(source.file, tr("expected {} bytes of voxels, got {}", all, data.size()));
+  if (data.size() > all && !local && header.header_size == 0)
+    refuse(source.file,
+           tr("expected {} bytes of voxels, as the sizes say, got {}: write \"HeaderSize\" into the header "
+              "(-1 where the voxels are the file's last bytes)",
+              all, data.size()));
+  if (data.size() > all) tell_longer(source, all);
   if (local)
     raster.bytes = data.substr(offset, wanted);
   else

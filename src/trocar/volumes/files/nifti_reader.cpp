@@ -6,10 +6,13 @@
 #include <fmt/format.h>
 
 #include <trocar/core/text.hpp>
-#include <trocar/volumes/files/inflate.hpp>
+#include <trocar/geometry/voxel_files/inflate.hpp>
 #include <trocar/volumes/files/readers.hpp>
 
 namespace trocar::volumes {
+
+using geometry::inflated, geometry::Wrapping;
+
 namespace {
 
 constexpr std::size_t kHeader1 = 348, kHeader2 = 540;
@@ -116,14 +119,17 @@ Element element_of(const Header& h, const std::string& file) {
                   h.datatype, what));
 }
 
-double millimetres(const Header& h) {
+double millimetres(const Header& h, ReadReport& report) {
   switch (h.units & 7) {
     case 1:
       return 1000;
+    case 2:
+      return 1;
     case 3:
       return 1e-3;
     default:
-      return 1;  // millimetres, or not said
+      report.notes.emplace_back(tr("the file does not say its unit of length: taken as millimetres"));
+      return 1;
   }
 }
 
@@ -143,7 +149,7 @@ Vec3d lps(Vec3d ras) { return {-ras.x, -ras.y, ras.z}; }
 
 /// Step and origin in L P S [mm].
 void place_grid(const Header& h, const Source& source, Vec3d& origin, Mat3d& step) {
-  const double mm = millimetres(h);
+  const double mm = millimetres(h, source.report);
   Vec3d columns[3];
   if (h.sform > 0) {
     for (std::size_t j = 0; j < 3; ++j) columns[j] = {h.srow[j], h.srow[4 + j], h.srow[8 + j]};
@@ -199,7 +205,12 @@ Raster read_nifti(const Source& source) {
 
   const std::int64_t dims = h.dim[0];
   if (dims < 2 || dims > 7) refuse(source.file, tr("expected 2 to 7 dimensions, got {}", dims));
-  const auto dim = [&](std::size_t i) { return std::int64_t(i) <= dims ? h.dim[i] : 1; };
+  // The first must be there; of the others some writers leave those 0 that they do not use.
+  const auto dim = [&](std::size_t i) {
+    const bool unused = std::int64_t(i) > dims || (i > 1 && h.dim[i] == 0);
+    if (std::int64_t(i) <= dims && unused) source.report.notes.push_back(tr("dimension {} is 0: taken as 1", i));
+    return unused ? 1 : h.dim[i];
+  };
   for (std::size_t i = 5; i <= 7; ++i)
     if (dim(i) != 1) refuse(source.file, tr("expected one number a voxel, got {} along dimension {}", dim(i), i));
   const std::array<std::int64_t, 3> size{dim(1), dim(2), dim(3)};
@@ -215,18 +226,23 @@ Raster read_nifti(const Source& source) {
   const std::size_t least = version == Version::one ? 352 : 544;
   if (!(h.vox_offset >= 0 && h.vox_offset <= 1e9))
     refuse(source.file, tr("expected voxels within the file, got them at byte {}", h.vox_offset));
-  const int frame = choose_frame(source, dim(4), "time points");
+  const std::int64_t frames = dim(4);
+  const int frame = choose_frame(source, frames, "time points");
   // Writers of old left the offset 0 and meant: right behind the header.
-  const std::size_t from = std::max(std::size_t(h.vox_offset), least) + std::size_t(frame) * raster.wanted();
+  const std::size_t first = std::max(std::size_t(h.vox_offset), least), wanted = raster.wanted(),
+                    all = wanted * std::size_t(frames), from = first + std::size_t(frame) * wanted;
+  bool more = false;
   if (packed) {
-    raster.owned = inflated(source.bytes, Wrapping::gzip, from, raster.wanted(), source.file, false,
-                            part(source.options.progress, 0, 0.5));
-  } else if (from > source.bytes.size() || raster.wanted() > source.bytes.size() - from) {
-    refuse(source.file, tr("expected {} bytes of voxels from byte {} on, got a file of {} bytes", raster.wanted(), from,
-                           source.bytes.size()));
+    raster.owned = inflated(source.bytes, Wrapping::gzip, from, wanted, source.file, false,
+                            told_by(part(source.options.progress, 0, 0.5)), frame + 1 == frames ? &more : nullptr);
+  } else if (first > source.bytes.size() || all > source.bytes.size() - first) {
+    refuse(source.file,
+           tr("expected {} bytes of voxels from byte {} on, got a file of {} bytes", all, first, source.bytes.size()));
   } else {
-    raster.bytes = source.bytes.substr(from, raster.wanted());
+    raster.bytes = source.bytes.substr(from, wanted);
+    more = source.bytes.size() - first > all;
   }
+  if (more) tell_longer(source, all);
   return raster;
 }
 

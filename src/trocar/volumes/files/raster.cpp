@@ -1,45 +1,27 @@
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include <fmt/format.h>
 
-#include <trocar/core/error.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/volumes/files/raster.hpp>
 
 namespace trocar::volumes {
 namespace {
 
-constexpr double kMostPlace = 1e6, kLeastStep = 1e-4, kMostStep = 1e4;  // [mm]
 constexpr double kMostValue = 1e30;  // beyond, differences of values are no numbers any more
-
-bool machine_is_big() {
-  const std::uint16_t one = 1;
-  return *reinterpret_cast<const char*>(&one) == 0;
-}
-
-template <class T>
-T element_at(const char* from, bool swapped) {
-  char own[sizeof(T)];
-  std::memcpy(own, from, sizeof(T));
-  if (swapped) std::reverse(own, own + sizeof(T));
-  T value;
-  std::memcpy(&value, own, sizeof(T));
-  return value;
-}
 
 /// Calls f(voxel, value after slope and intercept) for all voxels of a slice.
 template <class T, class F>
 void slice_values(const Raster& raster, int slice, F&& f) {
   const std::size_t in_slice = std::size_t(raster.grid.size[0]) * std::size_t(raster.grid.size[1]);
-  const bool swapped = sizeof(T) > 1 && raster.big_endian != machine_is_big();
+  const bool swapped = raster.big_endian != geometry::machine_is_big();
   Rescale r;
   if (!raster.rescale.empty()) r = raster.rescale[raster.rescale.size() == 1 ? 0 : std::size_t(slice)];
   const char* data = raster.data();
   for (std::size_t i = in_slice * std::size_t(slice), end = i + in_slice; i < end; ++i) {
-    const auto number = double(element_at<T>(data + i * raster.stride * sizeof(T), swapped));
+    const auto number = double(geometry::number_at<T>(data + i * raster.stride * sizeof(T), swapped));
     f(i, r.intercept + r.slope * number);
   }
 }
@@ -47,38 +29,7 @@ template <class F>
 void each_value(const Raster& raster, const Progress& progress, F&& f) {
   for (int k = 0; k < raster.grid.size[2]; ++k) {
     tell(progress, double(k) / raster.grid.size[2]);
-    switch (raster.element) {
-      case Element::int8:
-        slice_values<std::int8_t>(raster, k, f);
-        break;
-      case Element::uint8:
-        slice_values<std::uint8_t>(raster, k, f);
-        break;
-      case Element::int16:
-        slice_values<std::int16_t>(raster, k, f);
-        break;
-      case Element::uint16:
-        slice_values<std::uint16_t>(raster, k, f);
-        break;
-      case Element::int32:
-        slice_values<std::int32_t>(raster, k, f);
-        break;
-      case Element::uint32:
-        slice_values<std::uint32_t>(raster, k, f);
-        break;
-      case Element::int64:
-        slice_values<std::int64_t>(raster, k, f);
-        break;
-      case Element::uint64:
-        slice_values<std::uint64_t>(raster, k, f);
-        break;
-      case Element::real32:
-        slice_values<float>(raster, k, f);
-        break;
-      case Element::real64:
-        slice_values<double>(raster, k, f);
-        break;
-    }
+    geometry::with_type(raster.element, [&](auto zero) { slice_values<decltype(zero)>(raster, k, f); });
   }
 }
 
@@ -121,44 +72,6 @@ void choose_numbers(const Raster& raster, const Range& range, Volume& volume) {
 }
 
 }  // namespace
-
-std::size_t width_of(Element element) {
-  constexpr std::size_t kWidths[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
-  return kWidths[std::size_t(element)];
-}
-const char* name_of(Element element) {
-  constexpr const char* kNames[] = {"int8",   "uint8", "int16",  "uint16", "int32",
-                                    "uint32", "int64", "uint64", "float",  "double"};
-  return kNames[std::size_t(element)];
-}
-
-void refuse(const std::string& file, std::string message) {
-  throw core::BadInput({{{file, 0, 0}, std::move(message)}});
-}
-
-std::optional<std::string> size_fault(const std::array<std::int64_t, 3>& announced, std::size_t most_voxels) {
-  std::uint64_t room = most_voxels;
-  for (const std::int64_t size : announced) {
-    if (size < 1) return tr("expected sizes of at least 1, got {} x {} x {}", announced[0], announced[1], announced[2]);
-    if (size > std::numeric_limits<int>::max() || std::uint64_t(size) > room)
-      return tr("expected at most {} voxels, got {} x {} x {}", most_voxels, announced[0], announced[1], announced[2]);
-    room /= std::uint64_t(size);
-  }
-  return {};
-}
-
-std::optional<std::string> place_fault(Vec3d origin, const Mat3d& step) {
-  for (int k = 0; k < 3; ++k) {
-    if (!(std::fabs(origin[k]) <= kMostPlace))
-      return tr("expected an origin within 1e6 mm, got {} on axis {}", origin[k], k);
-    const double size = length(step.column(k));
-    if (!(size >= kLeastStep && size <= kMostStep))
-      return tr("expected voxels from 1e-4 to 1e4 mm apart, got {} along axis {}", size, k);
-  }
-  const double box = length(step.column(0)) * length(step.column(1)) * length(step.column(2));
-  if (!(std::fabs(determinant(step)) > 1e-3 * box)) return "expected three axes that span a voxel, got a flat one";
-  return {};
-}
 
 Volume packed_volume(const Raster& raster, const std::string& file, std::vector<std::string>& notes,
                      const Progress& progress) {

@@ -3,18 +3,20 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <trocar/geometry/voxel_files/grid_faults.hpp>
+#include <trocar/geometry/voxel_files/header_fields.hpp>
+#include <trocar/geometry/voxel_files/numbers.hpp>
 #include <trocar/volumes/files/volume_file.hpp>
 
 namespace trocar::volumes {
 
-enum class Element : unsigned char { int8, uint8, int16, uint16, int32, uint32, int64, uint64, real32, real64 };
-std::size_t width_of(Element element);
-const char* name_of(Element element);
+using Element = geometry::NumberType;
+using geometry::lowered, geometry::name_of, geometry::place_fault, geometry::refuse, geometry::shown,
+    geometry::size_fault, geometry::width_of;
 
 /// value = intercept + slope * number
 struct Rescale {
@@ -37,14 +39,6 @@ struct Raster {
   /// Bytes from the first element of the first voxel to the last one's end.
   std::size_t wanted() const { return ((grid.count() - 1) * stride + 1) * width_of(element); }
 };
-
-/// Throws core::BadInput for a file as a whole: `file:0:0: message`.
-[[noreturn]] void refuse(const std::string& file, std::string message);
-
-/// What is wrong with a grid, or nothing: sizes, places up to 1e6 mm, steps from 1e-4 to 1e4 mm that span a voxel.
-/// @param announced  sizes as the file has them, which may be beyond int
-std::optional<std::string> size_fault(const std::array<std::int64_t, 3>& announced, std::size_t most_voxels);
-std::optional<std::string> place_fault(Vec3d origin, const Mat3d& step);
 
 /// Numbers that are none become the least value, which the notes tell.
 Volume packed_volume(const Raster& raster, const std::string& file, std::vector<std::string>& notes,

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include <trocar/geometry/voxel_files/nrrd.hpp>
 #include <trocar/volumes/files/raster.hpp>
 
 namespace trocar::volumes {
@@ -20,15 +21,20 @@ struct Source {
   FileBeside beside;
 };
 
-/// A name of a file in the same folder, and nowhere else.
-bool is_plain_name(std::string_view name);
+/// A progress as readers without one of their own call it.
+inline std::function<void(double)> told_by(Progress progress) {
+  return [progress = std::move(progress)](double share) { tell(progress, share); };
+}
+
+/// Notes that bytes behind the last voxel were passed over.
+void tell_longer(const Source& source, std::size_t bytes);
 
 /// Which of `frames` was asked for, told in the report; a fault where there is no such one.
 int choose_frame(const Source& source, std::int64_t frames, const char* what);
 
 bool looks_like_nifti(std::string_view bytes);  ///< packed or not
 Raster read_nifti(const Source& source);
-bool looks_like_nrrd(std::string_view bytes);
+using geometry::looks_like_nrrd;
 Raster read_nrrd_volume(const Source& source);
 bool looks_like_metaimage(std::string_view bytes);
 Raster read_metaimage(const Source& source);

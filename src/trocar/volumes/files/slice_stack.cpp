@@ -17,32 +17,19 @@ constexpr int kMostNamed = 8;
 
 struct Level {
   double along = 0;  // the normal [mm]
-  std::vector<int> images;
+  int image = 0;
 };
 
-std::vector<Level> levels_of(std::span<const SlicePlace> places, Vec3d normal) {
-  std::vector<int> order(places.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return dot(places[a].position, normal) < dot(places[b].position, normal); });
+/// One image a position, with the position.
+std::vector<Level> single_levels(std::span<const SlicePlace> places, Vec3d normal, const std::string& file) {
   std::vector<Level> out;
-  for (const int i : order) {
-    const double along = dot(places[i].position, normal);
-    if (out.empty() || along - out.back().along > kSamePosition) out.push_back({along, {}});
-    out.back().images.push_back(i);
+  for (const std::vector<int>& images : levels_of(places, normal)) {
+    const double along = dot(places[std::size_t(images[0])].position, normal);
+    if (images.size() != 1)
+      refuse(file, tr("expected one image at each position, got {} at {:.2f} mm", images.size(), along));
+    out.push_back({along, images[0]});
   }
-  for (Level& level : out)
-    std::stable_sort(level.images.begin(), level.images.end(),
-                     [&](int a, int b) { return places[a].number < places[b].number; });
   return out;
-}
-
-void require_equally_many(const std::vector<Level>& levels, const std::string& file) {
-  const std::size_t usual = levels[0].images.size();
-  for (const Level& level : levels)
-    if (level.images.size() != usual)
-      refuse(file, tr("expected equally many images at each position, got {} at {:.2f} mm and {} at {:.2f} mm", usual,
-                      levels[0].along, level.images.size(), level.along));
 }
 
 double median_gap(const std::vector<Level>& levels) {
@@ -71,16 +58,27 @@ void require_none_missing(const std::vector<Level>& levels, double spacing, cons
 
 }  // namespace
 
+std::vector<std::vector<int>> levels_of(std::span<const SlicePlace> places, Vec3d normal) {
+  std::vector<int> order(places.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto along = [&](int i) { return dot(places[std::size_t(i)].position, normal); };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return along(a) < along(b); });
+  std::vector<std::vector<int>> out;
+  for (const int i : order) {
+    if (out.empty() || along(i) - along(out.back().back()) > kSamePosition) out.emplace_back();
+    out.back().push_back(i);
+  }
+  return out;
+}
+
 SliceStack stack_slices(std::span<const SlicePlace> places, Vec3d row, Vec3d column, const std::string& file,
                         std::vector<std::string>& notes) {
   const Vec3d normal = normalised(cross(row, column));
-  const std::vector<Level> levels = levels_of(places, normal);
-  require_equally_many(levels, file);
+  const std::vector<Level> levels = single_levels(places, normal, file);
   SliceStack out;
   out.slices = int(levels.size());
-  out.frames = int(levels[0].images.size());
-  for (const Level& level : levels) out.order.insert(out.order.end(), level.images.begin(), level.images.end());
-  out.origin = places[levels[0].images[0]].position;
+  for (const Level& level : levels) out.order.push_back(level.image);
+  out.origin = places[std::size_t(levels[0].image)].position;
   if (levels.size() == 1) {
     const double thickness = places[0].thickness;
     out.step = (thickness > 0 ? thickness : 1) * normal;
@@ -88,12 +86,12 @@ SliceStack stack_slices(std::span<const SlicePlace> places, Vec3d row, Vec3d col
     return out;
   }
   require_none_missing(levels, median_gap(levels), file);
-  out.step = (places[levels.back().images[0]].position - out.origin) / double(levels.size() - 1);
+  out.step = (places[std::size_t(levels.back().image)].position - out.origin) / double(levels.size() - 1);
   const double spacing = dot(out.step, normal);
   double worst = 0;
   for (std::size_t k = 0; k < levels.size(); ++k)
-    for (const int i : levels[k].images)
-      worst = std::max(worst, length(places[i].position - (out.origin + double(k) * out.step)));
+    worst =
+        std::max(worst, length(places[std::size_t(levels[k].image)].position - (out.origin + double(k) * out.step)));
   if (worst > kUneven * spacing + kSamePosition)
     refuse(file, tr("expected slices evenly {:.3g} mm apart in a straight line, got one {:.3g} mm from its place",
                     spacing, worst));

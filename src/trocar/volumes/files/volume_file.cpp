@@ -9,7 +9,7 @@
 #include <trocar/core/text.hpp>
 #include <trocar/volumes/files/dicom.hpp>
 #include <trocar/volumes/files/dicom_elements.hpp>
-#include <trocar/volumes/files/header_fields.hpp>
+#include <trocar/volumes/files/known_bytes.hpp>
 
 namespace trocar::volumes {
 namespace {
@@ -19,13 +19,21 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostBytes = std::uint64_t(4) << 30;
 constexpr double kStraight = 0.05;  // [degrees]; a hundred slices of 1 mm are a tenth of a millimetre aside then
 
+std::string described(std::string_view bytes) {
+  const std::string_view start = bytes.substr(0, 16);
+  if (std::string known = known_bytes(bytes); !known.empty()) return known;
+  const bool text = std::all_of(start.begin(), start.end(),
+                                [](char c) { return (c >= ' ' && c < 127) || c == '\n' || c == '\r' || c == '\t'; });
+  return text ? tr("a text that begins with {}", shown(start)) : shown(start);
+}
+
 Raster read_bytes(const Source& source) {
   if (source.bytes.empty()) refuse(source.file, "expected a volume, got an empty file");
   if (looks_like_dicom(source.bytes)) return read_dicom_bytes(source);
   if (looks_like_nifti(source.bytes)) return read_nifti(source);
   if (looks_like_nrrd(source.bytes)) return read_nrrd_volume(source);
   if (looks_like_metaimage(source.bytes)) return read_metaimage(source);
-  refuse(source.file, tr("expected DICOM, NIfTI, NRRD or MetaImage, got {}", shown(source.bytes.substr(0, 16))));
+  refuse(source.file, tr("expected DICOM, NIfTI, NRRD or MetaImage, got {}", described(source.bytes)));
 }
 
 /// What a file is read into: the bytes must live as long as the raster looks into them.
@@ -87,20 +95,22 @@ LabelFile labels_of(const Raster& raster, const std::string& file, const ReadOpt
 
 }  // namespace
 
-bool is_plain_name(std::string_view name) {
-  return !name.empty() && name.size() < 256 && name[0] != '.' &&
-         name.find_first_of("/\\:%\0") == std::string_view::npos && name.find('\0') == std::string_view::npos;
-}
-
 int choose_frame(const Source& source, std::int64_t frames, const char* what) {
   if (frames < 1 || frames > 65536) refuse(source.file, tr("expected 1 to 65536 {}, got {}", what, frames));
-  const int wanted = source.options.frame;
+  const int wanted = source.options.frame.value_or(0);
   source.report.frames = int(frames);
   source.report.frame = wanted;
   if (wanted < 0 || wanted >= frames)
     refuse(source.file, tr("expected one of {} {} (0 to {}), got {}", frames, what, frames - 1, wanted));
-  if (frames > 1) source.report.notes.push_back(tr("{} {}: number {} is read", frames, what, wanted));
+  if (frames > 1)
+    source.report.notes.push_back(
+        tr("{} {}: number {} is read; \"frame\" chooses another, from 0 to {}", frames, what, wanted, frames - 1));
   return wanted;
+}
+
+void tell_longer(const Source& source, std::size_t bytes) {
+  source.report.notes.push_back(
+      tr("the header says {} bytes of voxels, the file holds more: what follows was passed over", bytes));
 }
 
 VolumeFile read_volume(const fs::path& path, const ReadOptions& options) {

@@ -11,10 +11,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include <trocar/core/error.hpp>
 #include <trocar/volumes/image/labels.hpp>
 #include <trocar/volumes/image/progress.hpp>
 #include <trocar/volumes/image/volume.hpp>
@@ -23,7 +26,7 @@ namespace trocar::volumes {
 
 struct ReadOptions {
   int series = 0;  ///< of several in a folder, 1, 2, ... as listed; 0: the file's own, or the one with most slices
-  int frame = 0;   ///< of several time points or layers, from 0
+  std::optional<int> frame = {};  ///< of several time points, phases or layers, from 0; none: the file's own, or 0
   std::size_t most_voxels = std::size_t(1) << 28;  ///< 512 x 512 x 1024: half a gigabyte
   Progress progress = {};
 };
@@ -32,21 +35,36 @@ struct ReadOptions {
 struct SeriesFacts {
   std::string uid, description, modality;
   int files = 0;
-  Index3 size{};  ///< columns, rows, slices
+  Index3 size{};       ///< columns, rows, slices
+  std::string detail;  ///< its plane, and which part of a series it is: "axial, Acquisition Number 2"
+  int frames = 1;      ///< time points or phases
+};
+
+/// One of several series must be chosen: none of them is what the file or folder stands for.
+class SeriesChoice : public core::BadInput {
+ public:
+  SeriesChoice(const std::string& file, const std::string& message, std::vector<SeriesFacts> series)
+      : BadInput({{{file, 0, 0}, message}}), m_series(std::move(series)) {}
+  const std::vector<SeriesFacts>& series() const { return m_series; }  ///< as ReadOptions::series counts them, from 1
+
+ private:
+  std::vector<SeriesFacts> m_series;
 };
 
 struct ReadReport {
   std::string format;              ///< "DICOM", "NIfTI-1", ...
   std::vector<std::string> notes;  ///< sentences about what was chosen, left out, or changed
   std::vector<SeriesFacts> series;
-  int chosen_series = 0;      ///< 1, 2, ...; 0 where there are no series
-  int frames = 1, frame = 0;  ///< time points or layers in the file; which of them this is
+  int chosen_series = 0;                 ///< 1, 2, ...; 0 where there are no series
+  int frames = 1, frame = 0;             ///< time points or layers in the file; which of them this is
+  std::vector<std::string> frame_names;  ///< of DICOM's: "Acquisition Number 2"
 };
 
 struct VolumeFile {
   Volume volume;
   ReadReport report;
 };
+/// @throws SeriesChoice     where it is not clear which of several series is meant; a core::BadInput
 /// @throws core::BadInput   with all faults found, `path:line:col` in headers of text, bytes counted elsewhere
 /// @throws core::EnvironmentLacks  for JPEG in DICOM where the program was built without GDCM
 /// @throws Cancelled        where options.progress said so

@@ -6,12 +6,14 @@
 #include <trocar/core/files.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
-#include <trocar/volumes/files/header_fields.hpp>
-#include <trocar/volumes/files/inflate.hpp>
+#include <trocar/geometry/voxel_files/inflate.hpp>
 #include <trocar/volumes/files/raster.hpp>
 #include <trocar/volumes/files/volume_writer.hpp>
 
 namespace trocar::volumes {
+
+using geometry::gzipped;
+
 namespace {
 
 namespace fs = std::filesystem;

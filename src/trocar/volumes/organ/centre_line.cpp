@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <queue>
@@ -27,6 +28,17 @@ class Lumen {
   bool has(std::size_t voxel) const { return m_set.in[voxel] != 0; }
   float depth(std::size_t voxel) const { return m_depth[voxel]; }
   Vec3d patient(std::size_t voxel) const { return m_grid.to_patient(index_of(voxel)); }
+  double least_spacing() const { return m_grid.least_spacing(); }
+  bool inside(Vec3d lps_mm) const {
+    const Index3 at = m_grid.nearest(lps_mm);
+    std::array<std::size_t, 3> in_box{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const int i = at[a] - m_set.box.low[a];
+      if (i < 0 || i >= m_size[a]) return false;
+      in_box[a] = std::size_t(i);
+    }
+    return has(in_box[0] + std::size_t(m_size[0]) * (in_box[1] + std::size_t(m_size[1]) * in_box[2]));
+  }
 
   std::size_t nearest(Vec3d lps_mm) const {
     std::size_t best = count();
@@ -134,6 +146,68 @@ class Lumen {
   }
 };
 
+/// What hangs together with a voxel and is near it.
+class Surroundings {
+ public:
+  explicit Surroundings(const Lumen& lumen) : m_lumen(lumen), m_mark(lumen.count(), 0) {}
+
+  /// Calls f(voxel) for this one and all within `reach` [mm] that ways within it lead to: a neighbouring branch that
+  /// only lies beside is not among them.
+  template <class F>
+  void each(std::size_t centre, double reach, F&& f) {
+    const Vec3d middle = m_lumen.patient(centre);
+    std::vector<std::size_t> open{centre};
+    m_mark[centre] = ++m_turn;
+    while (!open.empty()) {
+      const std::size_t voxel = open.back();
+      open.pop_back();
+      f(voxel);
+      m_lumen.each_neighbour(voxel, [&](std::size_t n, double) {
+        if (m_mark[n] == m_turn || length(m_lumen.patient(n) - middle) > reach) return;
+        m_mark[n] = m_turn;
+        open.push_back(n);
+      });
+    }
+  }
+
+  /// From the wall of an end to the middle line. The rim of a flat end, where a vessel was cut, leads to the middle of
+  /// that end; along a vessel, which widens slowly, nothing leads on.
+  std::size_t middle_near(std::size_t voxel) {
+    constexpr double kWidens = 0.25;  // a millimetre of radius in four of length is no vessel but an end
+    while (true) {
+      const double depth = double(m_lumen.depth(voxel));
+      const Vec3d here = m_lumen.patient(voxel);
+      std::size_t best = voxel;
+      each(voxel, depth + 2 * m_lumen.least_spacing(), [&](std::size_t v) {
+        const bool steep = double(m_lumen.depth(v)) - depth >= kWidens * length(m_lumen.patient(v) - here);
+        if (steep && m_lumen.depth(v) > m_lumen.depth(best)) best = v;
+      });
+      if (best == voxel) return voxel;
+      voxel = best;
+    }
+  }
+
+ private:
+  const Lumen& m_lumen;
+  std::vector<int> m_mark;
+  int m_turn = 0;
+};
+
+/// A line goes on straight from its last point to the wall of its end.
+void extend(std::vector<CentrePoint>& line, const Lumen& lumen) {
+  const CentrePoint last = line.back();
+  std::size_t from = line.size() - 1;
+  while (from > 0 && length(last.at - line[from].at) < last.radius) --from;
+  const Vec3d way = last.at - line[from].at;
+  if (length(way) == 0) return;
+  const double step = 1e-3 * lumen.least_spacing();
+  for (double on = step; on <= 3 * last.radius; on += step) {
+    const Vec3d at = last.at + on / length(way) * way;
+    if (!lumen.inside(patient_from_scene(at))) return;
+    line.push_back({at, last.radius});
+  }
+}
+
 /// Voxels from the end back to the start, or to the first that is `reached`.
 std::vector<std::size_t> way_back(const Lumen::Ways& ways, std::size_t end,
                                   const std::function<bool(std::size_t)>& reached) {
@@ -181,8 +255,9 @@ std::size_t choose_root(const Lumen& lumen) {
 
 class TreeBuilder {
  public:
-  TreeBuilder(const Lumen& lumen, std::size_t root, const TreeOptions& options)
+  TreeBuilder(const Lumen& lumen, Surroundings& around, std::size_t root, const TreeOptions& options)
       : m_lumen(lumen),
+        m_around(around),
         m_options(options),
         m_plain(lumen.ways(root, false, part(options.progress, 0, 0.3))),
         m_central(lumen.ways(root, true, part(options.progress, 0.3, 0.6))),
@@ -207,53 +282,41 @@ class TreeBuilder {
       if (m_covered[by_distance[i]]) continue;
       branches += branch(by_distance[i]) ? 1 : 0;
     }
+    if (!m_options.root_mm) extend_root();
     return std::move(m_tree);
   }
 
  private:
   const Lumen& m_lumen;
+  Surroundings& m_around;
   const TreeOptions& m_options;
   Lumen::Ways m_plain, m_central;
   std::vector<int> m_point;  // of voxels in the tree, or -1
   std::vector<bool> m_covered;
   CentreTree m_tree;
 
+  std::vector<CentrePoint> m_first;  // the first branch, from the root on
+
   /// What belongs to the branch at this voxel: a little more than the ball that fits there.
   void cover(std::size_t centre) {
-    const double reach = 1.5 * double(m_lumen.depth(centre)) + 2;
-    const Vec3d middle = m_lumen.patient(centre);
-    std::vector<std::size_t> open{centre};
-    m_covered[centre] = true;
-    // Through voxels that hang together: a neighbouring branch that only lies beside is not covered.
-    m_mark.resize(m_lumen.count(), 0);
-    ++m_turn;
-    m_mark[centre] = m_turn;
-    while (!open.empty()) {
-      const std::size_t voxel = open.back();
-      open.pop_back();
-      m_lumen.each_neighbour(voxel, [&](std::size_t n, double) {
-        if (m_mark[n] == m_turn || length(m_lumen.patient(n) - middle) > reach) return;
-        m_mark[n] = m_turn;
-        m_covered[n] = true;
-        open.push_back(n);
-      });
-    }
+    m_around.each(centre, 1.5 * double(m_lumen.depth(centre)) + 2, [&](std::size_t v) { m_covered[v] = true; });
   }
-  std::vector<int> m_mark;
-  int m_turn = 0;
 
   /// From an end to the tree, where it is long enough; covered in any case.
   bool branch(std::size_t end) {
     const auto in_tree = [&](std::size_t v) { return m_point[v] >= 0; };
-    std::vector<std::size_t> voxels = way_back(m_central, end, in_tree);
-    const std::size_t joint = voxels.back();
-    double way = 0;
+    const std::size_t middle = m_around.middle_near(end);
+    const std::vector<std::size_t> voxels = way_back(m_central, middle, in_tree);
+    double way = double(m_lumen.depth(middle));
     for (std::size_t i = 1; i < voxels.size(); ++i)
       way += length(m_lumen.patient(voxels[i]) - m_lumen.patient(voxels[i - 1]));
-    const bool long_enough = way >= m_options.least_branch_mm + double(m_lumen.depth(joint));
-    if (long_enough) grow(voxels);
+    // What the root covers may hold the other end of a short vessel.
+    const bool is_new = !m_covered[middle] || m_tree.points.size() == 1;
+    const bool is_branch = is_new && way >= m_options.least_branch_mm + double(m_lumen.depth(voxels.back()));
+    if (is_branch) grow(voxels);
+    for (const std::size_t v : way_back(m_central, end, in_tree)) cover(v);
     for (const std::size_t v : voxels) cover(v);
-    return long_enough;
+    return is_branch;
   }
 
   void grow(const std::vector<std::size_t>& voxels) {
@@ -261,15 +324,37 @@ class TreeBuilder {
     line.push_back(m_tree.points[std::size_t(m_point[voxels.back()])]);
     for (std::size_t i = voxels.size() - 1; i-- > 0;) line.push_back(m_lumen.point(voxels[i]));
     straighten(line);
+    extend(line, m_lumen);
+    if (m_first.empty()) m_first = line;
     int parent = m_point[voxels.back()];
     for (std::size_t i = 1; i < line.size(); ++i) {
-      const std::size_t voxel = voxels[voxels.size() - 1 - i];
-      m_point[voxel] = int(m_tree.points.size());
+      const int point = int(m_tree.points.size());
+      if (i < voxels.size()) m_point[voxels[voxels.size() - 1 - i]] = point;
       m_tree.points.push_back(line[i]);
       m_tree.parent.push_back(parent);
-      parent = m_point[voxel];
+      parent = point;
     }
     m_tree.ends.push_back(parent);
+  }
+
+  /// The root's own end: the points from its wall on come before all others.
+  void extend_root() {
+    if (m_first.empty()) return;
+    std::vector<CentrePoint> back(m_first.rbegin(), m_first.rend());
+    const std::size_t was = back.size();
+    extend(back, m_lumen);
+    const int more = int(back.size() - was);
+    CentreTree out;
+    for (std::size_t i = back.size(); i-- > was;) {
+      out.parent.push_back(int(out.points.size()) - 1);
+      out.points.push_back(back[i]);
+    }
+    for (std::size_t i = 0; i < m_tree.points.size(); ++i) {
+      out.points.push_back(m_tree.points[i]);
+      out.parent.push_back(i == 0 ? more - 1 : m_tree.parent[i] + more);
+    }
+    for (const int end : m_tree.ends) out.ends.push_back(end + more);
+    m_tree = std::move(out);
   }
 };
 
@@ -290,8 +375,9 @@ std::vector<CentrePoint> centre_line(const Labels& labels, int label, Vec3d from
 
 CentreTree centre_tree(const Labels& labels, int label, const TreeOptions& options) {
   const Lumen lumen(labels, label);
-  const std::size_t root = options.root_mm ? lumen.nearest(*options.root_mm) : choose_root(lumen);
-  return TreeBuilder(lumen, root, options).build();
+  Surroundings around(lumen);
+  const std::size_t root = around.middle_near(options.root_mm ? lumen.nearest(*options.root_mm) : choose_root(lumen));
+  return TreeBuilder(lumen, around, root, options).build();
 }
 
 }  // namespace trocar::volumes

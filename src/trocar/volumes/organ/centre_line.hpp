@@ -5,7 +5,8 @@
 //   for (std::size_t p = 0; p < artery.points.size(); ++p) segment(artery.points[p], artery.parent[p]);
 //
 // Paths are the cheapest ones through the label's voxels, where a millimetre is the dearer the nearer the wall is.
-// Branches are found from their far ends: what is farthest from the root and not yet near a branch is the next end.
+// Branches are found from their far ends: what is farthest from the root and not yet near a branch is the next end. Ends
+// lie on the middle line, also where a vessel was cut off flat; from there the line goes straight to the wall of its end.
 // [Sato et al. 2000, TEASAR: tree-structure extraction algorithm for accurate and robust skeletons]
 #pragma once
 

@@ -6,19 +6,19 @@
 #include <trocar/core/decimal.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
-#include <trocar/volumes/files/header_fields.hpp>
+#include <trocar/geometry/voxel_files/header_fields.hpp>
 
-namespace trocar::volumes {
+namespace trocar::geometry {
 namespace {
 
 constexpr std::size_t kMostHeader = 1u << 20, kMostFields = 20'000, kMostTold = 50;
 constexpr double kMostNumber = 1e9;
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool is_padding(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  while (!text.empty() && is_padding(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_padding(text.back())) text.remove_suffix(1);
   return text;
 }
 
@@ -35,6 +35,10 @@ std::vector<std::string_view> words_of(std::string_view text) {
 
 }  // namespace
 
+void refuse(const std::string& file, std::string message) {
+  throw core::BadInput({{{file, 0, 0}, std::move(message)}});
+}
+
 std::string lowered(std::string_view text) {
   std::string out(text);
   for (char& c : out)
@@ -45,7 +49,7 @@ std::string lowered(std::string_view text) {
 std::string shown(std::string_view text) {
   if (text.empty()) return "nothing";
   const bool cut = text.size() > 60;
-  return "'" + core::printable(text.substr(0, 60)) + (cut ? "...'" : "'");
+  return fmt::format("'{}{}'", core::printable(text.substr(0, 60)), cut ? "..." : "");
 }
 
 const HeaderField* HeaderFields::find(std::string_view name) const {
@@ -140,4 +144,4 @@ HeaderFields read_fields(std::string_view bytes, const std::string& file, char s
   }
 }
 
-}  // namespace trocar::volumes
+}  // namespace trocar::geometry

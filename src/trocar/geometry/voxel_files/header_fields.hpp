@@ -13,7 +13,7 @@
 
 #include <trocar/core/error.hpp>
 
-namespace trocar::volumes {
+namespace trocar::geometry {
 
 struct HeaderField {
   std::string name;        ///< in lower case
@@ -51,8 +51,11 @@ class HeaderFields {
 /// (lower case). Lines that begin with # are passed over. NRRD's "key:=value" become fields "key:=" with that value.
 HeaderFields read_fields(std::string_view bytes, const std::string& file, char separator, std::string_view last);
 
+/// Throws core::BadInput for a file as a whole: `file:0:0: message`.
+[[noreturn]] void refuse(const std::string& file, std::string message);
+
 std::string lowered(std::string_view text);
 /// Text from a file as a message shows it: short, and nothing that a terminal would obey.
 std::string shown(std::string_view text);
 
-}  // namespace trocar::volumes
+}  // namespace trocar::geometry

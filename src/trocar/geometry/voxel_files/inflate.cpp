@@ -4,10 +4,10 @@
 #include <zlib.h>
 
 #include <trocar/core/text.hpp>
-#include <trocar/volumes/files/inflate.hpp>
-#include <trocar/volumes/files/raster.hpp>
+#include <trocar/geometry/voxel_files/header_fields.hpp>
+#include <trocar/geometry/voxel_files/inflate.hpp>
 
-namespace trocar::volumes {
+namespace trocar::geometry {
 namespace {
 
 constexpr std::size_t kMostRatio = 1032;  // what deflate can make of a byte at best [RFC 1951]
@@ -73,14 +73,18 @@ class Inflater {
 }  // namespace
 
 std::vector<char> inflated(std::string_view packed, Wrapping wrapping, std::size_t from, std::size_t count,
-                           const std::string& file, bool at_most, const Progress& progress) {
+                           const std::string& file, bool at_most, const std::function<void(double)>& progress,
+                           bool* more) {
+  const auto tell = [&](std::size_t done) {
+    if (progress) progress(double(done) / double(from + count));
+  };
   const std::size_t most = packed.size() * kMostRatio + 1024;
   if (!at_most && (count > most || from > most - count))
     refuse(file, tr("expected {} bytes unpacked, got {} packed, which cannot be so many", from + count, packed.size()));
   Inflater in(packed, wrapping, file);
   std::vector<char> part(std::min(from, kPart));
   for (std::size_t dropped = 0; dropped < from;) {
-    tell(progress, double(dropped) / double(from + count));
+    tell(dropped);
     const std::size_t got = in.read(part.data(), std::min(part.size(), from - dropped));
     if (got == 0) refuse(file, tr("expected {} bytes unpacked, got {}", from + count, dropped));
     dropped += got;
@@ -89,7 +93,7 @@ std::vector<char> inflated(std::string_view packed, Wrapping wrapping, std::size
   std::vector<char> out(at_most ? std::min(count, kPart) : count);
   std::size_t done = 0;
   while (done < count) {
-    tell(progress, double(from + done) / double(from + count));
+    tell(from + done);
     if (done == out.size()) out.resize(std::min(count, 2 * out.size()));
     const std::size_t got = in.read(out.data() + done, std::min(out.size() - done, 16 * kPart));
     done += got;
@@ -97,6 +101,8 @@ std::vector<char> inflated(std::string_view packed, Wrapping wrapping, std::size
   }
   if (done < count && !at_most) refuse(file, tr("expected {} bytes unpacked, got {}", from + count, from + done));
   out.resize(done);
+  char next = 0;
+  if (more) *more = in.read(&next, 1) == 1;
   return out;
 }
 
@@ -123,4 +129,4 @@ std::string gzipped(std::string_view bytes) {
   return out;
 }
 
-}  // namespace trocar::volumes
+}  // namespace trocar::geometry

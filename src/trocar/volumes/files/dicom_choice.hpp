@@ -1,0 +1,25 @@
+// Which of the stacks of a folder is read, and which of several images at each position. Used by the readers only.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <trocar/volumes/files/dicom_folder.hpp>
+#include <trocar/volumes/files/dicom_stacks.hpp>
+
+namespace trocar::volumes {
+
+/// The index of a stack. What there is goes into the report, with a note where there are several.
+/// @param series  1, 2, ...; 0: that of the file, or else the one with most slices
+/// @param file    of the folder's files: it was named; -1: none was
+/// @throws SeriesChoice  where the default is one of several parts of a series or a file
+/// @throws core::BadInput  for a series that there is none of, or that is damaged or no volume
+std::size_t choose_stack(const DicomFolder& folder, const std::vector<DicomStack>& stacks, int series, int file,
+                         const std::string& name, ReadReport& report);
+
+/// The index of a group. The default is that of the file, else the first.
+int choose_group(const DicomStack& stack, std::optional<int> frame, int file, const std::string& name,
+                 ReadReport& report);
+
+}  // namespace trocar::volumes
