@@ -155,6 +155,27 @@ TEST(Injection, WhatHasFlowedInIsInTheTissueOrHasLeakedToThePicolitre) {  // [in
   EXPECT_EQ(w.flags, 0u);
 }
 
+TEST(Injection, WhatLeaksOutOfAllTracksAtOnceReachesTheFluidsAccountToThePicolitre) {  // [injection account]
+  Ward w;
+  w.pierce();
+  w.press(3000);
+  w.lower(0.04);
+  InjectionState& s = w.state.injection;
+  ASSERT_GE(s.track_count, 1);
+  for (; s.track_count < kMaxTracks; ++s.track_count) s.tracks[size_t(s.track_count)] = s.tracks[0];
+  const std::int64_t before = w.account().leaked;
+  for (int i = 0; i < 100; ++i) {
+    w.step();
+    ASSERT_EQ(w.state.fluids.ledger.in[size_t(fluids::Source::kIrrigated)].saline, w.account().leaked) << i;
+  }
+  int leaking = 0;
+  for (const NeedleTrack& track : s.tracks) leaking += track.leaked > 0;
+  EXPECT_EQ(leaking, kMaxTracks);
+  EXPECT_GT(w.account().leaked, before);
+  EXPECT_TRUE(balanced(s));
+  EXPECT_TRUE(audit(w.model.wet.model, w.state.fluids));
+}
+
 TEST(Injection, IntoTheOpenItIsSpilled) {
   Ward w;
   w.press(1000);
