@@ -119,5 +119,33 @@ TEST(SessionWarnings, AFlagThatLimitsTheSimulationIsReportedOnceWithItsRemedy) {
   EXPECT_TRUE(session.broken().empty());
 }
 
+/// A node that something keeps on the far side of its cells.
+TEST(SessionFlags, CellsThatArePushedOpenCountWhenThatLasts) {
+  Session session(lesson(), 1);
+  const auto has_flag = [&session] {
+    const std::vector<std::string> names = flag_names(session.flags());
+    return std::find(names.begin(), names.end(), "inverted_cells") != names.end();
+  };
+  auto& nodes = const_cast<sim::State&>(session.state()).solids[0].nodes;
+  const tissue::NetworkModel& network = lesson().model.solids[0].network;
+  const tissue::TetRest& cell = network.tets[network.tets.size() / 2];
+  const auto mirror = [&] {  // through the cell's other corners
+    tissue::NodeState &a = nodes[size_t(cell.row[0])], &b = nodes[size_t(cell.row[1])];
+    a.x = b.x + (b.x - a.x), a.y = b.y + (b.y - a.y), a.z = b.z + (b.z - a.z);
+    a.vx = a.vy = a.vz = 0;
+  };
+  for (int i = 0; i < 100; ++i) {
+    if (i % 20 == 0) mirror();
+    session.advance(lesson().model.start);
+  }
+  ASSERT_TRUE(session.broken().empty());
+  EXPECT_FALSE(has_flag());
+  for (int i = 0; i < 1200 && session.broken().empty(); ++i) {
+    if (i % 2 == 0) mirror();
+    session.advance(lesson().model.start);
+  }
+  EXPECT_TRUE(has_flag());
+}
+
 }  // namespace
 }  // namespace trocar::attempt

@@ -124,8 +124,7 @@ TEST(Suture, ANeedleSwungAgainstSteelSlipsInItsJawsAtTheirGrip) {  // [needle in
   const Vec3d across{0.034, 0.066, -0.060};
   d.input.tools[left] = sim::tool_input(kinematics::inverse(box().hands[size_t(left)].port, across, 0), 1.0f);
   d.rest(0.8);
-  const interactions::ToolModel& holder = box().placed(size_t(right));
-  const double bears = holder.friction * holder.pinch_max;
+  const double bears = box().placed(size_t(right)).friction * d.state.tools[size_t(right)].pinch;
   const Vec3d x = d.suture().needle.x;
   const Quatd q = d.suture().needle.q;
   double most = 0;

@@ -11,6 +11,7 @@
 #include <trocar/core/hash.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/training/observe/hands.hpp>
@@ -102,8 +103,9 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
   m_inputs_hash = core::hash_bytes(&input, sizeof input, m_inputs_hash);
   m_report = sim::step(m_lesson.model, input, m_state, m_work);
   if (m_beside) m_beside->advance(input);
-  warn_of(m_report.flags & ~m_flags);
-  m_flags |= m_report.flags;
+  const std::uint32_t flags = lasting(m_report.flags);
+  warn_of(flags & ~m_flags);
+  m_flags |= flags;
   if (m_report.fine())
     watch_tick();
   else
@@ -113,6 +115,13 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
     m_writer->keyframe(m_state.tick, sim::display_bytes(m_lesson.model, m_state));
   note_failure();
   return m_report;
+}
+
+/// A cell that is pressed flat and pushed open again is nothing to be told, unless it lasts.
+std::uint32_t Session::lasting(std::uint32_t flags) {
+  constexpr std::uint64_t kLasts = core::kTicksPerSecond;
+  m_inverted_for = flags & tissue::StepReport::kInverted ? m_inverted_for + 1 : 0;
+  return m_inverted_for < kLasts ? flags & ~std::uint32_t(tissue::StepReport::kInverted) : flags;
 }
 
 /// What everybody who watches makes of a tick.

@@ -56,7 +56,7 @@ class Session {
   /// Empty, or how the physics failed: the State is not to be trusted any more, and the result has no assessment.
   const std::string& broken() const { return m_broken; }
   bool finished() const { return !m_broken.empty() || (m_monitor && m_monitor->finished()); }
-  /// Flags of all ticks so far.
+  /// Flags of all ticks so far; cells that are pushed open count when that has lasted for a second.
   std::uint32_t flags() const { return m_flags; }
   /// What of these flags limits the simulation, in words and with the remedy: each once, as standard error has it. May
   /// be read while another thread advances.
@@ -84,6 +84,7 @@ class Session {
   static constexpr std::size_t kMaxKept = 2000, kMaxLooks = 200;
 
  private:
+  std::uint32_t lasting(std::uint32_t flags);
   void watch_tick();
   void fail();
   void warn_of(std::uint32_t flags);
@@ -117,6 +118,7 @@ class Session {
   std::array<double, sim::kMaxTools> m_path{};
   std::array<int, std::size(sim::kEventWords) + 1> m_counts{};  ///< by sim::Event::Kind
   std::uint32_t m_flags = 0;
+  std::uint64_t m_inverted_for = 0;  ///< ticks in a row in which cells have been pushed open
   std::uint64_t m_inputs_hash = 0;
   std::string m_broken;
 };
