@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <trocar/sim/model/bodies.hpp>
+
 #include "small_scene.hpp"
 
 using namespace trocar;

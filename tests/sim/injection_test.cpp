@@ -235,8 +235,10 @@ TEST(Injection, AHundredMillilitresAtOnceComeBackAlongTheNeedleAndNothingIsLostO
   EXPECT_LE(held, 1.001 * tissue::kFullest * room);
   EXPECT_GT(leaked, 0.5 * 100e-6);
   EXPECT_GT(highest, 5.0 / 6 * 20e3 + 50e3) << "it takes more than to open a cavity";
-  for (const Event& e : w.events)
-    if (e.kind == Event::torn) EXPECT_EQ(e.tool, kNeedle) << "whose needle it is";
+  for (const Event& e : w.events) {
+    if (e.kind != Event::torn) continue;
+    EXPECT_EQ(e.tool, kNeedle) << "whose needle it is";
+  }
 }
 
 TEST(Injection, TheHandFeelsPressureTimesAreaOnItsPlunger) {  // [plunger]

@@ -24,12 +24,12 @@ bool holds(const interactions::ToolState& tool, BodyId body) {
 }
 
 sim::ClipSeat seat_of(const Clip& clip, const sim::Model& model, const sim::State& state) {
-  if (clip.strand >= 0) return seat_on_strand(clip, model, state);
+  if (clip.strand >= 0) return sim::seat_on_strand(clip, model, state);
   const interactions::VesselPath& path = model.vessels.list[std::size_t(clip.vessel - 1)].path;
   sim::HostViews views = sim::make_host_views(model);
   std::vector<Vec3d> points(path.points.size());
   pose_vessel(path, sim::look_at_hosts(model, state, views), points);
-  return seat_on_vessel(clip, model, state, points);
+  return sim::seat_on_vessel(clip, model, state, points);
 }
 
 ClipPress press_with(const sim::ClipLegs& legs, double radius, double s) {
@@ -61,7 +61,7 @@ bool closes_end(const Clip& clip, double end) {
 
 ClipPress press_of(const Clip& clip, const sim::Model& model, const sim::State& state) {
   const sim::ClipSeat seat = seat_of(clip, model, state);
-  ClipPress press = press_with(legs_on(clip, seat), seat.radius, clip.s);
+  ClipPress press = press_with(sim::legs_on(clip, seat), seat.radius, clip.s);
   press.flat = kClipHalfGap / press.radius;
   if (clip.strand >= 0) find_stumps(clip, dot(press.normal, seat.frame.tangent) > 0, state, press);
   return press;
@@ -69,7 +69,7 @@ ClipPress press_of(const Clip& clip, const sim::Model& model, const sim::State& 
 
 ClipPress press_on_thread(const Clip& clip, int number, const sim::State& state) {
   const suture::ThreadClip* sits = interactions::thread_clip(state.objects.sutures, clip, number);
-  return sits ? press_with(legs_on_thread(clip, *sits), kClipHalfGap, sits->s[0]) : ClipPress{};
+  return sits ? press_with(sim::legs_on_thread(clip, *sits), kClipHalfGap, sits->s[0]) : ClipPress{};
 }
 
 std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::State& state) {
