@@ -53,7 +53,8 @@ int exit_code(const Json& result, const std::string& input) {
 /// The result in a few lines, for people.
 void tell(const Json& result) {
   if (result.contains("failure")) {
-    fmt::print("{}\n", tr("not assessed: the simulation failed after {:.1f} s", result["simulated_seconds"].get<double>()));
+    fmt::print("{}\n",
+               tr("not assessed: the simulation failed after {:.1f} s", result["simulated_seconds"].get<double>()));
   } else if (result["passed"].is_null()) {
     fmt::print("done: {:.1f} s\n", result["simulated_seconds"].get<double>());
   } else {

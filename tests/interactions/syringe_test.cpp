@@ -66,7 +66,8 @@ TEST(Syringe, BelowThatPressureFluidSeepsAwaySlowly) {
   EXPECT_LE(held.force, weak.most_force * (1 + 1e-12));
 }
 
-/// Tissue that is full takes nothing: what the hand wants comes back along the needle, with the pressure that this takes.
+/// Tissue that is full takes nothing: what the hand wants comes back along the needle, with the pressure that this
+/// takes.
 TEST(Syringe, WhereTissueFillsPressureRisesAndFluidComesBackAlongTheNeedle) {  // [back flow]
   const NeedleModel n = needle_22g();
   const double gapes = 4e-11, wanted = 10 * kPerMinute;

@@ -207,8 +207,7 @@ TEST(Sling, TheHandWhoseBladesCutTheTailIsTheEventsHand) {
   for (int tick = 0; tick < arrive + close; ++tick) {
     const Vec3d tip = there - 0.06 * std::max(0.0, 1 - double(tick) / (arrive - 300)) * axis;
     const double handle = std::clamp(double(tick - arrive) / (close - 50), 0.0, 1.0);
-    d.input.tools[std::size_t(blades)] =
-        sim::tool_input(kinematics::inverse(scissors.port, tip, roll), float(handle));
+    d.input.tools[std::size_t(blades)] = sim::tool_input(kinematics::inverse(scissors.port, tip, roll), float(handle));
     const sim::StepReport report = d.step();
     for (int i = 0; i < report.event_count; ++i)
       if (report.events[i].kind == sim::Event::thread_cut) cuts.push_back(report.events[i]);

@@ -68,8 +68,8 @@ class AttemptLog {
   bool m_ended = false;
 };
 
-/// What `--input` means for the attempt: a demonstration or a replay is no attempt of the trainee, everything else is. A
-/// familiarisation that is done again stays one.
+/// What `--input` means for the attempt: a demonstration or a replay is no attempt of the trainee, everything else is.
+/// A familiarisation that is done again stays one.
 training::AttemptMode mode_of_input(const std::string& input);
 
 /// "2026-03-01T14:05:09Z"

@@ -6,9 +6,9 @@
 //   Q_in = (p_tip - p_open) / R_fill,  Q_back = (p_tip - p_open) C,  Q = Q_in + Q_back          [back flow]
 //
 // Below the opening pressure fluid seeps between cells, slowly; a thumb that wants more raises the pressure until a
-// cavity opens. No more is needed until the tissue around it fills: then it resists, and beyond the opening pressure the
-// hole around the needle gapes, so that more and more comes back along it. A hand has a flow in mind and a force that
-// it does not exceed.
+// cavity opens. No more is needed until the tissue around it fills: then it resists, and beyond the opening pressure
+// the hole around the needle gapes, so that more and more comes back along it. A hand has a flow in mind and a force
+// that it does not exceed.
 #pragma once
 
 #include <trocar/core/fields.hpp>

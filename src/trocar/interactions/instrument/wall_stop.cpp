@@ -8,15 +8,15 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kFromTrocar = 0.040;    // [m] of the shaft that no wall stops
-constexpr double kShaftSpacing = 0.020;  // [m] of the points along the shaft that are tested
-constexpr double kWallReach = 0.012;     // [m] further than this from its nearest vertex no wall touches a point
-constexpr double kBehindWall = 0.005;    // [m]
-constexpr double kBesideFoot = 0.0015;   // [m] off the foot of the normal: past the wall's rim
-constexpr double kPress = 500;           // [N/m]
-constexpr double kMostStop = 15;         // [N]
-constexpr double kQuickestTip = 0.0006;  // [m] that the tip moves in a tick: what hands do, no jumps
-constexpr double kWithdraws = 0.0005;    // [m] further out than it is: the hand draws back, and nothing holds it
+constexpr double kFromTrocar = 0.040;          // [m] of the shaft that no wall stops
+constexpr double kShaftSpacing = 0.020;        // [m] of the points along the shaft that are tested
+constexpr double kWallReach = 0.012;           // [m] further than this from its nearest vertex no wall touches a point
+constexpr double kBehindWall = 0.005;          // [m]
+constexpr double kBesideFoot = 0.0015;         // [m] off the foot of the normal: past the wall's rim
+constexpr double kPress = 500;                 // [N/m]
+constexpr double kMostStop = 15;               // [N]
+constexpr double kQuickestTip = 0.0006;        // [m] that the tip moves in a tick: what hands do, no jumps
+constexpr double kWithdraws = 0.0005;          // [m] further out than it is: the hand draws back, and nothing holds it
 constexpr int kRounds = 4, kCornerRounds = 8;  // where one wall stops it; where several do
 constexpr double kOneWall = 0.9;               // cosine between normals above which it is the same wall
 
@@ -182,8 +182,8 @@ class WallContacts {
     return to;
   }
 
-  /// What the walls press back with against `pull`, the hand's: each along its normal and none inwards. Their sum is the
-  /// part of it that they stop.                                                                       [wall corner]
+  /// What the walls press back with against `pull`, the hand's: each along its normal and none inwards. Their sum is
+  /// the part of it that they stop.                                                                       [wall corner]
   Vec3d force_against(Vec3d pull) const noexcept {
     std::array<double, kMost> force{};
     Vec3d left = pull;

@@ -3,8 +3,8 @@
 // it came to be behind one, it comes out.
 //
 // The press is a spring from where the instrument is to where the hand wants it, along the wall's normal: 500 N/m, at
-// most 15 N (our choice: walls of flesh over bone are stiffer than any hand). In a corner it stays in front of all walls
-// there, and their forces add.
+// most 15 N (our choice: walls of flesh over bone are stiffer than any hand). In a corner it stays in front of all
+// walls there, and their forces add.
 #pragma once
 
 #include <span>

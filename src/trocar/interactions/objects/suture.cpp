@@ -74,7 +74,7 @@ void hold_from_start(const SutureModel& m, const SutureState& s, BodyId id, cons
 }
 
 bool cut_thread(const SutureModel& m, const ToolModel& tool, const ToolShape& shape, SutureState& s) noexcept {
-  constexpr double kBetween = 0.0008;  // [m] from the middle, when they have closed
+  constexpr double kBetween = 0.0008;                        // [m] from the middle, when they have closed
   if (m.sling.there() && !s.sling.computed()) return false;  // it is in its tube, or grows out of it
   const double near = tool.jaw_length + 0.005;
   for (std::int32_t n = 0; n + 1 < m.thread.nodes; ++n) {

@@ -79,8 +79,7 @@ class Sewing {
         m_state.thread, m_work.thread);
     m_work.thread_report = r;
     m_state.strain = r.tension;
-    if (r.flags & suture::ThreadReport::kNonFinite && !m_report.bad.exists())
-      m_report.bad = id();
+    if (r.flags & suture::ThreadReport::kNonFinite && !m_report.bad.exists()) m_report.bad = id();
     part_thread(r);
     take_reactions();
     if (m_model.sling.there()) settle_sling(m_model, m_dt, m_state, m_work);
@@ -104,8 +103,7 @@ class Sewing {
     const bool crushed = m_state.crushed >= kCrushedAfter;
     if (!crushed && m_state.strained < kPartsAfter) return;
     const double pulled_apart = looped ? m_state.sling.knot : r.weakest;
-    suture::cut(m_model.thread, m_state.thread,
-                crushed ? (hardest->a + 0.5) * m_model.thread.spacing : pulled_apart);
+    suture::cut(m_model.thread, m_state.thread, crushed ? (hardest->a + 0.5) * m_model.thread.spacing : pulled_apart);
     m_state.broken = 1;
     m_report.broken = id();
     m_state.strained = m_state.crushed = 0;
@@ -542,8 +540,9 @@ void turn_in_jaws(const SutureWork& w, int hand, const ToolModel& model, const T
   }
 }
 
-/// Where the grip bears no more the needle slides: the jaws have it where it is now, strained by what they bear. One that
-/// is pushed against a jaw with more than the jaws' grip spreads them and comes out.                  [needle in jaws]
+/// Where the grip bears no more the needle slides: the jaws have it where it is now, strained by what they bear. One
+/// that is pushed against a jaw with more than the jaws' grip spreads them and comes out.                  [needle in
+/// jaws]
 void slide_in_jaws(const SutureModel& m, const SutureState& s, const SutureWork& w, int hand, const ToolShape& shape,
                    ToolState& tool) noexcept {
   constexpr double kSpread = 0.0015;  // [m] of the needle beside the jaws' mid-plane

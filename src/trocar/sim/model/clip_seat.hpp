@@ -25,9 +25,9 @@ ClipSeat seat_on_vessel(const interactions::Clip& clip, const Model& model, cons
 
 /// Two parallel legs.
 struct ClipLegs {
-  Vec3d centre;               ///< between them, of what they hold
-  Vec3d axis, open;           ///< unit: along them from their bend on, and the way they close
-  double low = 0, high = 0;   ///< from and to, along the axis from the centre [m]
+  Vec3d centre;              ///< between them, of what they hold
+  Vec3d axis, open;          ///< unit: along them from their bend on, and the way they close
+  double low = 0, high = 0;  ///< from and to, along the axis from the centre [m]
 };
 ClipLegs legs_on(const interactions::Clip& clip, const ClipSeat& seat) noexcept;
 /// @param sits  the clip on its thread

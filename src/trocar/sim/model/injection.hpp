@@ -114,9 +114,9 @@ struct InjectionState {
   std::vector<NeedleHand> hands;              ///< (hands)
   std::vector<tissue::InfusionState> organs;  ///< (organs) empty ones where nothing is taken up
   std::vector<std::int64_t> given;            ///< (organs) that has found room in each [pL]
-  std::vector<double> fills;                  ///< (hands) how the tissue around a needle's point resists, as it is filled
-                                              ///< [Pa s/m^3]
-  std::vector<NeedleTrack> tracks;            ///< (kMaxTracks)
+  std::vector<double> fills;        ///< (hands) how the tissue around a needle's point resists, as it is filled
+                                    ///< [Pa s/m^3]
+  std::vector<NeedleTrack> tracks;  ///< (kMaxTracks)
   std::int32_t track_count = 0;
   std::int32_t reserved = 0;
   InjectionAccount account;
@@ -128,10 +128,9 @@ struct InjectionState {
   }
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("hands", s.hands), v("organs", s.organs), v("given", s.given),
-        v("fills", s.fills, core::only_if(s.resists())), v("track_count", s.track_count),
-        v("tracks", s.tracks, core::FieldNote{.first = s.track_count}), v("account", s.account),
-        v("reserved", s.reserved, core::kNotHashed);
+    v("hands", s.hands), v("organs", s.organs), v("given", s.given), v("fills", s.fills, core::only_if(s.resists())),
+        v("track_count", s.track_count), v("tracks", s.tracks, core::FieldNote{.first = s.track_count}),
+        v("account", s.account), v("reserved", s.reserved, core::kNotHashed);
   }
 };
 

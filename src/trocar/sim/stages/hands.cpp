@@ -56,9 +56,8 @@ void change_instrument(StepContext& c, size_t t, std::int32_t wanted) noexcept {
 void stop_at_walls(StepContext& c, size_t t, const kinematics::FulcrumPose& wanted,
                    const kinematics::FulcrumPose& before) noexcept {
   const std::span<const interactions::Surface> walls{c.work.surfaces.data() + c.model.organs(), c.model.walls.size()};
-  c.work.wall_stops[t] =
-      interactions::stop_at_walls(c.model.tool(c.state, t), wanted, before, joints_of(c.state, t), walls,
-                                  c.state.tools[t], port_shift(c.state, t));
+  c.work.wall_stops[t] = interactions::stop_at_walls(c.model.tool(c.state, t), wanted, before, joints_of(c.state, t),
+                                                     walls, c.state.tools[t], port_shift(c.state, t));
 }
 
 bool holds_open_bag(const StepContext& c, size_t t) noexcept {

@@ -27,7 +27,8 @@ constexpr double kTrackLeaks = 1e-12;  // [m^3/Pa s] when it has just been left:
 constexpr double kTrackWide = 0.004;   // [m] what is around it is what leaks
 constexpr double kTrackDeep = 0.003;   // [m] where its pressure is asked for
 constexpr double kFillsFrom = 0.6;     // share of what tissue can hold from which on it resists.          Our choice
-constexpr double kFillsAt = 10e-6 / 60;  // [m^3/s] that take the opening pressure once more half way from there. Our choice
+constexpr double kFillsAt =
+    10e-6 / 60;                   // [m^3/s] that take the opening pressure once more half way from there. Our choice
 constexpr double kGapes = 4e-11;  // [m^3/Pa s] around a needle beyond the opening pressure: 80 um wide, 3.5 mm long
 constexpr double kDrains = 0.01;  // of what lies at a tear, in kShareTicks.                                Our choice
 constexpr double kTearFound = 0.03;  // [m] how far from there skin is looked for
@@ -82,8 +83,8 @@ void share_out_pending(StepContext& c, size_t hand, NeedleHand& n, bool drugged)
     const double spread = tissue::spread_of(fluids::kM3PerPicolitre * double(n.here));
     in = tissue::infuse(infusion, c.work.nodes[organ], n.at, n.pending, spread, drugged,
                         std::uint32_t(c.state.tick + 1), fluid, c.work.infusion[organ]);
-    c.state.injection.fills[hand] = resistance_of(
-        infusion.opening, tissue::filled_about(infusion, c.work.nodes[organ], n.at, spread, fluid));
+    c.state.injection.fills[hand] =
+        resistance_of(infusion.opening, tissue::filled_about(infusion, c.work.nodes[organ], n.at, spread, fluid));
     loosen_bonds(c, n.at, fluids::kM3PerPicolitre * double(in), spread);
   }
   c.state.injection.given[organ] -= n.pending - in;

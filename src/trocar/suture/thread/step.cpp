@@ -15,7 +15,8 @@ constexpr double kMostTurn = 0.5;     ///< that a solve may turn an element, abo
 constexpr int kCalmTicks = 200;       ///< after which a thread that is still sleeps
 constexpr double kStillSpeed = 1e-6;  ///< [m/s]
 constexpr double kForgotten = 0.02;   ///< share of a tick that is not worth another solve
-constexpr double kKnotPress = 0.25;   ///< of its pull: where thread presses harder on itself, it is knotted. Our estimate
+constexpr double kKnotPress =
+    0.25;  ///< of its pull: where thread presses harder on itself, it is knotted. Our estimate
 
 /// The share of what is left that the next solve takes.
 void choose_part(Tick& t) {

@@ -64,9 +64,9 @@ struct InfusionState {
 InfusionState dry(const InfusionModel& model);
 
 struct InfusionWork {
-  std::vector<double> weight;  ///< (rows)
-  std::vector<float> now;      ///< (rows) sum of the cells' volumes around a node [m^3]
-  std::vector<Vec3f> force;    ///< (rows) [N]
+  std::vector<double> weight;      ///< (rows)
+  std::vector<float> now;          ///< (rows) sum of the cells' volumes around a node [m^3]
+  std::vector<Vec3f> force;        ///< (rows) [N]
   std::vector<std::uint8_t> torn;  ///< (rows) 1: at a cell that has torn
   std::int32_t pushes = 0;         ///< 1: `force` is of this tick
   std::int32_t tears = 0;          ///< 1: there is fluid at cells that have torn

@@ -96,9 +96,10 @@ std::span<const EventKind> reported_events() {
   return all;
 }
 
-const EventKind kTorn{"torn",   {},
-                      {},       "Tissue tore under a hand's pull or pressure; reported once per body while the tear grows.",
-                      anywhere, &make_detector<Torn>,
-                      false,    EventKind::Hold::now};
+const EventKind kTorn{
+    "torn",   {},
+    {},       "Tissue tore under a hand's pull or pressure; reported once per body while the tear grows.",
+    anywhere, &make_detector<Torn>,
+    false,    EventKind::Hold::now};
 
 }  // namespace trocar::training
