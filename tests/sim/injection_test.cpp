@@ -208,7 +208,7 @@ const Model& flooded_model() {
     for (scene::Tissue& t : d.tissues)
       if (t.name == "flesh") t.failure_strain = 0.65;
     for (scene::Instrument& i : d.instruments)
-      if (i.name == "needle") i.needle.holds = 100e-6, i.needle.flow = 10e-6;
+      if (i.name == "needle") i.needle.holds = 100e-6, i.needle.flow = 600e-6;  // [m^3], [m^3/min]
     return scene::compile(d);
   }();
   return made;

@@ -33,8 +33,9 @@ std::optional<ClipLegs> legs_now(StepContext& c, int number) noexcept {
 
 /// How far from the jaws' mid-plane a clip reaches that lies between the legs of the one that is about to close [m];
 /// below 0: it lies beside them.
+/// @param was  the jaws when the tick began: what they have had between them
 double reach_between(const interactions::ToolModel& tool, const interactions::ToolShape& shape,
-                     const ClipLegs& legs) noexcept {
+                     const interactions::ToolShape& was, const ClipLegs& legs) noexcept {
   const Vec3d low = to_jaw(shape, legs.centre + legs.low * legs.axis),
               high = to_jaw(shape, legs.centre + legs.high * legs.axis);
   // Where it is nearest to the new legs, as both are seen along the way that these close.
@@ -44,7 +45,7 @@ double reach_between(const interactions::ToolModel& tool, const interactions::To
   if (near.distance2 > kClipLegWidth * kClipLegWidth) return -1;
   const Vec3d at = low + near.s * (high - low);
   const double off = std::fabs(at.x);
-  return off < shape.half_opening(at.z) ? off + kHalfClip : -1;
+  return off < was.half_opening(at.z) ? off + kHalfClip : -1;
 }
 
 /// Legs of titanium do not close on a clip of titanium: the jaws stay as far open as what lies between them is thick.
@@ -52,16 +53,18 @@ void stop_at_clips(StepContext& c, std::size_t t) noexcept {
   interactions::ToolState& tool = c.state.tools[t];
   if (tool.armed <= 0 || c.state.clip_count == 0) return;
   const interactions::ToolModel& model = c.model.tool(c.state, t);
-  const Vec3d tip = c.work.shapes[t].frame.tip;
+  const interactions::ToolShape& shape = c.work.shapes[t];
+  const interactions::ToolShape was = interactions::shape_before(model, c.state.touches[t]);
   double reach = -1;
   for (int i = 0; i < c.state.clip_count; ++i) {
     const std::optional<ClipLegs> legs = legs_now(c, i);
-    if (!legs || length(legs->centre - tip) > 2 * model.jaw_length) continue;
-    reach = std::max(reach, reach_between(model, c.work.shapes[t], *legs));
+    if (!legs || length(legs->centre - shape.frame.tip) > 2 * model.jaw_length) continue;
+    reach = std::max(reach, reach_between(model, shape, was, *legs));
   }
   const double stop = reach < 0 ? 0 : interactions::aperture_at(model, 2 * reach, model.jaw_length);
   if (tool.aperture >= stop) return;
   tool.aperture = stop;
+  c.work.shapes[t] = shape_of(c.model, c.state, t);
   if (tool.armed == kArmed) emit_event(c, Event::clip_blocked, int(t), -1);
   tool.armed = kBlocked;
 }

@@ -253,7 +253,7 @@ void swell(const InfusionModel& m, const NetworkModel& network, const std::vecto
     const float before = s.pressure[r];
     const float most = std::min(float(m.opening), kMostPerTheta * float(m.modulus) * theta);
     s.pressure[r] = std::clamp(s.pressure[r] + gain * (theta - stands), 0.0f, most);
-    if (w.torn[r] != 0) s.pressure[r] = s.pressure[r] > kNoPressure ? kRelieves * before : 0;
+    if (w.torn[r] != 0) s.pressure[r] = before > kNoPressure ? kRelieves * before : 0;
     any = any || s.pressure[r] > 0 || s.volume[r] > 0;
   }
   s.stirred = any ? 1 : 0;
