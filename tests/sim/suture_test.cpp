@@ -121,7 +121,7 @@ TEST(Suture, ANeedleSwungAgainstSteelSlipsInItsJawsAtTheirGrip) {  // [needle in
   NeedleDriver d(box(), right_hand());
   const int right = right_hand(), left = 1 - right;
   d.rest(0.1);
-  const Vec3d across{0.034, 0.066, -0.060};
+  const Vec3d across{0.050, 0.066, -0.058};
   d.input.tools[left] = sim::tool_input(kinematics::inverse(box().hands[size_t(left)].port, across, 0), 1.0f);
   d.rest(0.8);
   const double bears = box().placed(size_t(right)).friction * d.state.tools[size_t(right)].pinch;

@@ -224,7 +224,7 @@ TEST(ThreadKnots, AKnotOfThreeThrowsAtHalfItsLoadDoesNotCreep) {
 /// Both ends drawn apart until it is overloaded.
 struct Overloaded {
   double pull = 0;   ///< then [N]
-  double where = 0;  ///< as a share of its length
+  double beside = 1;  ///< how near thread lies there that is 5 diameters on along it [m]
 };
 Overloaded overload(const std::vector<Vec3d>& path) {
   const ThreadStuff stuff = find_thread("3-0", "PDS")->stuff;
@@ -238,7 +238,12 @@ Overloaded overload(const std::vector<Vec3d>& path) {
   for (int k = 0; k < 12000; ++k) {
     holds[0].x.x += 2e-5, holds[1].x.x -= 2e-5;
     const ThreadReport report = advance(m, {.holds = holds}, {.holds = pulls}, s, w);
-    if (report.flags & ThreadReport::kOverloaded) return {std::fabs(pulls[0].force.x), report.weakest / m.length};
+    if (!(report.flags & ThreadReport::kOverloaded)) continue;
+    Overloaded found{std::fabs(pulls[0].force.x), 1};
+    const int at = place_at(m, report.weakest).element;
+    for (int i = 0; i < m.nodes; ++i)
+      if (std::abs(i - at) * m.spacing > 5 * stuff.diameter) found.beside = std::min(found.beside, length(s.x[i] - s.x[at]));
+    return found;
   }
   return {};
 }
@@ -248,11 +253,12 @@ TEST(ThreadKnots, AKnottedThreadIsOverloadedAtItsKnotPullAndInItsKnotAStraightOn
   const Overloaded knotted = overload(laid_overhand(1, 0.15, 0.012, stuff.diameter));
   expect_ratio("pull that overloads an overhand knot, over the knot pull", knotted.pull, stuff.knotted_break_force,
                0.05);
-  EXPECT_NEAR(knotted.where, 0.5, 0.1);
+  EXPECT_LT(knotted.beside, 2 * stuff.diameter) << "thread lies on thread there";
   const std::vector<Vec3d> path{{0.15, 0, 0}, {0, 0, 0}};  // as the other lies: its first end is drawn to +x
   const Overloaded straight = overload(path);
   expect_ratio("pull that overloads a straight thread, over its breaking force", straight.pull, stuff.break_force,
                0.05);
+  EXPECT_GT(straight.beside, 4 * stuff.diameter);
 }
 
 }  // namespace
