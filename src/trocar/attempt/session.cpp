@@ -104,7 +104,7 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
   m_report = sim::step(m_lesson.model, input, m_state, m_work);
   if (m_beside) m_beside->advance(input);
   const std::uint32_t flags = lasting(m_report.flags);
-  warn_of(flags & ~m_flags);
+  if (m_report.fine()) warn_of(flags & ~m_flags);
   m_flags |= flags;
   if (m_report.fine())
     watch_tick();

@@ -223,7 +223,7 @@ TEST(ThreadKnots, AKnotOfThreeThrowsAtHalfItsLoadDoesNotCreep) {
 
 /// Both ends drawn apart until it is overloaded.
 struct Overloaded {
-  double pull = 0;   ///< then [N]
+  double pull = 0;    ///< then [N]
   double beside = 1;  ///< how near thread lies there that is 5 diameters on along it [m]
 };
 Overloaded overload(const std::vector<Vec3d>& path) {
@@ -242,7 +242,8 @@ Overloaded overload(const std::vector<Vec3d>& path) {
     Overloaded found{std::fabs(pulls[0].force.x), 1};
     const int at = place_at(m, report.weakest).element;
     for (int i = 0; i < m.nodes; ++i)
-      if (std::abs(i - at) * m.spacing > 5 * stuff.diameter) found.beside = std::min(found.beside, length(s.x[i] - s.x[at]));
+      if (std::abs(i - at) * m.spacing > 5 * stuff.diameter)
+        found.beside = std::min(found.beside, length(s.x[i] - s.x[at]));
     return found;
   }
   return {};
