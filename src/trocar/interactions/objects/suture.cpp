@@ -178,10 +178,8 @@ void Suture::touch(const Models& models, const States& states, const ObjectHand&
   }
   for (size_t i = 0; astride && i < states.size(); ++i)
     gather_thread(models.list[i], states[i], hand.tool, shape, all.list[i].gathered);
-  if (hand.touching.tool >= int(all.pinches.size())) return;
-  SuturePinch& pinch = all.pinches[size_t(hand.touching.tool)];
-  pinch.bears = hand.tool.friction * hand.state.pinch;
-  pinch.each = std::max(kJustHolds, pinch.bears) / std::max(1, int(hand.state.holds));
+  if (hand.touching.tool < int(all.pinches.size()))
+    all.pinches[size_t(hand.touching.tool)].bears = hand.tool.friction * hand.state.pinch;
 }
 
 Vec3d Suture::middle(const Models& models, const States& states, size_t i) noexcept {
@@ -211,7 +209,7 @@ void Suture::pull(const Models& models, const States&, const Hold& hold, Vec3d t
     }
     const bool by_hand = tag.index >= 0 && size_t(tag.index) < all.pinches.size();
     w.needle.holds.push_back({grip_of(m, hold.element), target, kSteelInJaws * law.stiffness, law.damping, tag.index,
-                              Vec3d{}, by_hand ? all.pinches[size_t(tag.index)].each : -1.0});
+                              Vec3d{}, by_hand ? std::max(kJustHolds, all.pinches[size_t(tag.index)].bears) : -1.0});
     w.hold_tags.push_back(tag);
     return;
   }

@@ -197,7 +197,6 @@ struct SuturePinch {
   Vec3d first, last;  ///< targets of the lowest and the highest node
   std::int32_t lowest = 0, highest = 0;
   double bears = 0;  ///< [N]
-  double each = 0;   ///< of a needle's place between them [N]
   Tag tag;
   Vec3d force;  ///< out: of the jaws on the thread [N]
 };

@@ -91,15 +91,13 @@ class Springs {
     const double apart = s.drive - product(s.row, u);
     return s.stiffness * (s.gap + m_tick * apart) + s.damping * apart;
   }
-  /// What three springs from `first` on bear of their force together.
+  /// What the springs of a grip, from `first` on, bear of their force together.
   double grip_share(std::size_t first, const Motion& u) const noexcept {
-    double square = 0;
-    for (std::size_t i = first; i < first + 3; ++i) {
-      const double whole = whole_of(m_list[i], u);
-      square += whole * whole;
-    }
-    const double bears = m_list[first].bears, force = std::sqrt(square);
-    return force > bears ? bears / force : 1;
+    Vec3d force;
+    for (std::size_t i = first; i < m_list.size() && std::size_t(m_list[i].normal) == first; ++i)
+      if (m_list[i].bound == NeedleSpring::grips) force[int((i - first) % 3)] += whole_of(m_list[i], u);
+    const double bears = m_list[first].bears, pull = length(force);
+    return pull > bears ? bears / pull : 1;
   }
 
   /// Forces at that motion and the shares that their bounds leave them. @return the greatest change of a share
@@ -199,13 +197,16 @@ bool advance(const NeedleModel& m, Vec3d gravity, double h, NeedleState& s, Need
     number += 3;
   }
   const int first_hold = number;
-  for (const NeedleHold& hold : w.holds) {
+  int grip = number;  // where the holds of this owner begin
+  for (std::size_t i = 0; i < w.holds.size(); ++i) {
+    const NeedleHold& hold = w.holds[i];
+    if (i > 0 && hold.owner != w.holds[i - 1].owner) grip = number;
     const Vec3d arm = rotate(s.q, hold.own), off = hold.target - (s.x + arm);
     for (int k = 0; k < 3; ++k) {
       Vec3d axis;
       axis[k] = 1;
       all.add(arm, axis, hold.stiffness, hold.damping, off[k], {0, 0, 0},
-              hold.bears >= 0 ? NeedleSpring::grips : NeedleSpring::both, hold.bears, number);
+              hold.bears >= 0 ? NeedleSpring::grips : NeedleSpring::both, hold.bears, grip);
     }
     number += 3;
   }
