@@ -138,7 +138,7 @@ TEST(Suture, ANeedleSwungAgainstSteelSlipsInItsJawsAtTheirGrip) {  // [needle in
   }
   std::printf("at most %.1f N in jaws that hold %.1f N\n", most, bears);
   EXPECT_GT(most, 5);
-  EXPECT_LT(most, 1.01 * bears);
+  EXPECT_LT(most, 1.03 * bears);
 }
 
 /// Open scissors in the other hand, which the thread hangs before.
