@@ -52,7 +52,10 @@ int exit_code(const Json& result, const std::string& input) {
 
 /// The result in a few lines, for people.
 void tell(const Json& result) {
-  if (result["passed"].is_null()) {
+  if (result.contains("failure")) {
+    fmt::print("{}\n",
+               tr("not assessed: the simulation failed after {:.1f} s", result["simulated_seconds"].get<double>()));
+  } else if (result["passed"].is_null()) {
     fmt::print("done: {:.1f} s\n", result["simulated_seconds"].get<double>());
   } else {
     const Json& a = result["assessment"];
@@ -66,7 +69,6 @@ void tell(const Json& result) {
       fmt::print("  error {}: {} (-{:.0f})\n", e["code"].get<std::string>(), e["meaning"].get<std::string>(),
                  e["points"].get<double>());
   }
-  if (result.contains("failure")) fmt::print("{}\n", result["failure"].get<std::string>());
   for (const char* key : {"recording", "report"})
     if (result.contains(key)) fmt::print("{}: {}\n", key, result[key].get<std::string>());
 }

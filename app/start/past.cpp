@@ -59,6 +59,7 @@ bool worth_listing(const PastAttempt& a) { return !was_left(a) || a.seconds >= k
 
 std::string result_of(const PastAttempt& a) {
   if (a.state == "running") return tr("Not ended");
+  if (a.state == "not assessed") return tr("Not assessed: the simulation failed");
   if (a.mode == "familiarisation") return tr("Familiarisation");
   if (a.mode == "demonstration") return tr("Demonstration");
   if (a.mode == "free practice" || (!a.score && !was_left(a))) return tr("Free practice");

@@ -21,7 +21,7 @@ void draw_verdict(const ResultSummary& s, const std::string& mode) {
   using Verdict = ResultSummary::Verdict;
   switch (s.verdict) {
     case Verdict::simulation_failed:
-      ui::title(tr("The simulation failed"), ui::kRed);
+      ui::title(tr("Not assessed: the simulation failed"), ui::kRed);
       ui::text(s.failure, ui::kRed);
       return;
     case Verdict::no_score:

@@ -66,6 +66,33 @@ TEST(Syringe, BelowThatPressureFluidSeepsAwaySlowly) {
   EXPECT_LE(held.force, weak.most_force * (1 + 1e-12));
 }
 
+/// Tissue that is full takes nothing: what the hand wants comes back along the needle, with the pressure that this
+/// takes.
+TEST(Syringe, WhereTissueFillsPressureRisesAndFluidComesBackAlongTheNeedle) {  // [back flow]
+  const NeedleModel n = needle_22g();
+  const double gapes = 4e-11, wanted = 10 * kPerMinute;
+  double last_tip = 0, last_in = 1;
+  for (const double fills : {0.0, 1e10, 1e11, 1e12, 1e15}) {
+    const PlungerPush p = push_plunger(n, {0, kOpens, fills, gapes}, wanted);
+    const double in = p.flow - p.back, beyond = p.tip - kOpens;
+    EXPECT_EQ(p.flow, wanted) << "the thumb is strong enough";
+    EXPECT_NEAR(p.back, gapes * beyond, 1e-9 * wanted) << fills;
+    EXPECT_NEAR(in * fills, beyond, 1e-6 * kOpens) << fills;
+    EXPECT_GE(p.tip, last_tip);
+    EXPECT_LT(in, last_in);
+    last_tip = p.tip, last_in = in;
+  }
+  EXPECT_NEAR(last_tip, kOpens + wanted / gapes, 5);
+  EXPECT_LT(last_in, 1e-3 * wanted);
+}
+
+TEST(Syringe, AgainstFullTissueAThumbIsTooWeakForAnyFlow) {  // [back flow]
+  const NeedleModel n = needle_22g();
+  const PlungerPush p = push_plunger(n, {0, kOpens, 1e15, 4e-11}, 600 * kPerMinute);
+  EXPECT_LT(p.flow, 500 * kPerMinute);
+  EXPECT_NEAR(p.force, n.most_force, 1e-9);
+}
+
 TEST(Syringe, AThumbExceedsItsForceNever) {
   NeedleModel n = needle_22g();
   for (const double most : {0.5, 2.0, 5.0, 40.0})

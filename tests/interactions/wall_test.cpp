@@ -16,6 +16,7 @@ using small::kGrasper;
 namespace {
 
 constexpr double kFloor = -0.020;      ///< of the small scene [m]
+constexpr double kSide = 0.095;        ///< where a test puts an upright wall: it faces -x [m]
 constexpr double kJawRadius = 0.0018;  ///< of its grasper's closed jaws [m]
 
 Vec3d tip_of(const small::Table& t) { return t.work.shapes[kGrasper].frame.tip; }
@@ -90,6 +91,57 @@ TEST(Walls, LetAnInstrumentSlideAlongThem) {
   t.carry(kGrasper, {0.085, -0.030, kFloor - 0.005}, {0.065, -0.030, kFloor - 0.005}, 0.1);
   t.steps(100);
   EXPECT_LT(tip_of(t).x, from - 0.014);
+  EXPECT_NEAR(tip_of(t).z, kFloor + kJawRadius, 2e-4);
+}
+
+/// The small scene with an upright wall beside the floor, which leans over it by so much.
+sim::Model with_corner(double leans) {
+  scene::Description d = small::description();
+  scene::Wall side;
+  side.name = "side";
+  side.rows = side.columns = 3;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) {
+      const double up = -0.010 + 0.015 * c;
+      side.net.push_back({kSide - std::sin(leans) * up, 0.05 - 0.05 * r, kFloor + std::cos(leans) * up});
+    }
+  d.walls.push_back(side);
+  return scene::compile(d);
+}
+/// Into that corner, `beyond` the side and `below` the floor.
+small::Table pressed_into_corner(const sim::Model& model, double beyond, double below) {
+  small::Table t(model);
+  const Vec3d above{0.080, -0.030, 0.0}, over{0.080, -0.030, kFloor + 0.005};
+  t.close(kGrasper, 1);
+  t.carry(kGrasper, {0.055, 0, 0.04}, above, 0.2);
+  t.carry(kGrasper, above, over, 0.2);
+  t.carry(kGrasper, over, {kSide + beyond, -0.030, kFloor - below}, 0.1);
+  t.steps(100);
+  return t;
+}
+
+TEST(Walls, InACornerBothStopItAndTheirForcesAdd) {  // [wall corner]
+  const sim::Model model = with_corner(0);
+  const double beyond = 0.008, below = 0.012;
+  const small::Table t = pressed_into_corner(model, beyond, below);
+  EXPECT_NEAR(tip_of(t).x, kSide - kJawRadius, 1e-4);
+  EXPECT_NEAR(tip_of(t).z, kFloor + kJawRadius, 1e-4);
+  EXPECT_NEAR(force_on(t).x, -500 * (beyond + kJawRadius), 0.2);
+  EXPECT_NEAR(force_on(t).y, 0, 0.2);
+  EXPECT_NEAR(force_on(t).z, 500 * (below + kJawRadius), 0.2);
+}
+
+TEST(Walls, InACornerTheirForceIsBoundedAsOfOneWall) {
+  const sim::Model model = with_corner(0);
+  EXPECT_NEAR(length(force_on(pressed_into_corner(model, 0.03, 0.03))), 15, 1e-6);
+}
+
+TEST(Walls, InAnAcuteCornerItIsInFrontOfBoth) {  // [wall corner]
+  const double leans = 0.35;
+  const sim::Model model = with_corner(leans);
+  const small::Table t = pressed_into_corner(model, 0.006, 0.010);
+  const Vec3d out{-std::cos(leans), 0, -std::sin(leans)};
+  EXPECT_NEAR(dot(tip_of(t) - Vec3d{kSide, -0.030, kFloor}, out), kJawRadius, 2e-4);
   EXPECT_NEAR(tip_of(t).z, kFloor + kJawRadius, 2e-4);
 }
 

@@ -155,6 +155,27 @@ TEST(Injection, WhatHasFlowedInIsInTheTissueOrHasLeakedToThePicolitre) {  // [in
   EXPECT_EQ(w.flags, 0u);
 }
 
+TEST(Injection, WhatLeaksOutOfAllTracksAtOnceReachesTheFluidsAccountToThePicolitre) {  // [injection account]
+  Ward w;
+  w.pierce();
+  w.press(3000);
+  w.lower(0.04);
+  InjectionState& s = w.state.injection;
+  ASSERT_GE(s.track_count, 1);
+  for (; s.track_count < kMaxTracks; ++s.track_count) s.tracks[size_t(s.track_count)] = s.tracks[0];
+  const std::int64_t before = w.account().leaked;
+  for (int i = 0; i < 100; ++i) {
+    w.step();
+    ASSERT_EQ(w.state.fluids.ledger.in[size_t(fluids::Source::kIrrigated)].saline, w.account().leaked) << i;
+  }
+  int leaking = 0;
+  for (const NeedleTrack& track : s.tracks) leaking += track.leaked > 0;
+  EXPECT_EQ(leaking, kMaxTracks);
+  EXPECT_GT(w.account().leaked, before);
+  EXPECT_TRUE(balanced(s));
+  EXPECT_TRUE(audit(w.model.wet.model, w.state.fluids));
+}
+
 TEST(Injection, IntoTheOpenItIsSpilled) {
   Ward w;
   w.press(1000);
@@ -178,6 +199,46 @@ TEST(Injection, WhereItLiesTheOrganSwellsByWhatItHolds) {  // [injected volume]
     more += double(w.work.infusion[kOrgan].now[r]) - double(model.room[r]);
   }
   EXPECT_NEAR(more / held, 1, 0.05);
+}
+
+/// A syringe of 100 mL that a hand empties as fast as it can, into flesh that can tear.
+const Model& flooded_model() {
+  static const Model made = [] {
+    scene::Description d = with_needle();
+    for (scene::Tissue& t : d.tissues)
+      if (t.name == "flesh") t.failure_strain = 0.65;
+    for (scene::Instrument& i : d.instruments)
+      if (i.name == "needle") i.needle.holds = 100e-6, i.needle.flow = 600e-6;  // [m^3], [m^3/min]
+    return scene::compile(d);
+  }();
+  return made;
+}
+
+TEST(Injection, AHundredMillilitresAtOnceComeBackAlongTheNeedleAndNothingIsLostOrNotFinite) {  // [back flow]
+  Ward w(flooded_model());
+  w.pierce();
+  ASSERT_TRUE(w.needle().in());
+  double highest = 0;
+  w.input.pedals = irrigates(kNeedle);
+  for (int i = 0; i < 60'000 && w.needle().left > 0; ++i) {
+    w.step();
+    highest = std::max(highest, w.needle().tip_pressure);
+    ASSERT_TRUE(balanced(w.state.injection)) << i;
+    ASSERT_EQ(w.flags & (tissue::StepReport::kNonFinite | tissue::StepReport::kIndefinite), 0u) << i;
+  }
+  EXPECT_EQ(w.needle().left, 0);
+  double room = 0;
+  for (const float v : w.model.injection.organs[kOrgan].infusion.room) room += double(v);
+  const double held = double(w.organ().total) * 1e-15, leaked = double(w.account().leaked) * 1e-15;
+  std::printf("%.1f mL in %.1f mL of flesh, %.1f mL leaked, %d tears, %.0f kPa, %.1f s\n", 1e6 * held, 1e6 * room,
+              1e6 * leaked, w.count(Event::torn), highest / 1e3, double(w.state.tick) * kTick);
+  EXPECT_LE(held, 1.001 * tissue::kFullest * room);
+  EXPECT_GT(leaked, 0.5 * 100e-6);
+  EXPECT_GT(highest, 5.0 / 6 * 20e3 + 50e3) << "it takes more than to open a cavity";
+  for (const Event& e : w.events) {
+    if (e.kind != Event::torn) continue;
+    EXPECT_EQ(e.tool, kNeedle) << "whose needle it is";
+  }
 }
 
 TEST(Injection, TheHandFeelsPressureTimesAreaOnItsPlunger) {  // [plunger]

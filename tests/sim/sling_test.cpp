@@ -35,12 +35,16 @@ const SlingDriver& closed() {
   }();
   return done;
 }
-/// The handle opened, the tube 30 mm back, the tail cut between knot and mouth.
-void leave(SlingDriver& d) {
+/// The handle opened, the tube 30 mm back.
+void draw_back(SlingDriver& d) {
   d.grip(0, 0.5);
   d.rest(0.5);
   d.move(d.tip() + 0.03 * normalised(d.port() - d.tip()), 0.02);
   d.rest(0.5);
+}
+/// And the tail cut between knot and mouth.
+void leave(SlingDriver& d) {
+  draw_back(d);
   suture::cut(d.model().thread, d.state.objects.sutures[d.in_hand].thread, 0.5 * (d.sling().knot + d.sling().fed));
   d.rest(0.5);
 }
@@ -181,11 +185,52 @@ TEST(Sling, HoldsAtTwoTenthsOfANewtonBelowEightAndCutsThroughAtTwoTenthsAbove) {
 
 TEST(Sling, StaysWithItsKnotWhenTheTailIsCut) {
   EXPECT_EQ(left().sling().stage, interactions::SlingState::left);
-  EXPECT_EQ(left().told(sim::Event::thread_cut), 1);
   EXPECT_EQ(left().told(sim::Event::loop_loosened), 0);
+  EXPECT_EQ(training::secured_loops(box(), left().state, 0).count, 1);
   EXPECT_NEAR(place_of(left()), kPlace, 0.001);
   EXPECT_GE(cover_of(left()), 0.98);
   EXPECT_LT(left().sling().knot - closed().sling().knot, 0.0002);
+}
+
+TEST(Sling, TheHandWhoseBladesCutTheTailIsTheEventsHand) {
+  SlingDriver d = closed();
+  draw_back(d);
+  const int blades = box().hand_index("left");
+  const interactions::ToolModel& scissors = box().placed(std::size_t(blades));
+  const std::size_t tail =
+      std::size_t(suture::place_at(d.model().thread, 0.5 * (d.sling().knot + d.sling().fed)).element);
+  const Vec3d at = d.suture().thread.x[tail], along = normalised(d.suture().thread.x[tail + 1] - at);
+  const Vec3d axis = normalised(at - scissors.port), there = at + 0.5 * scissors.jaw_length * axis;
+  const double roll = kinematics::roll_towards(kinematics::inverse(scissors.port, there, 0), along);
+  std::vector<sim::Event> cuts;
+  const int arrive = 800, close = 200;
+  for (int tick = 0; tick < arrive + close; ++tick) {
+    const Vec3d tip = there - 0.06 * std::max(0.0, 1 - double(tick) / (arrive - 300)) * axis;
+    const double handle = std::clamp(double(tick - arrive) / (close - 50), 0.0, 1.0);
+    d.input.tools[std::size_t(blades)] = sim::tool_input(kinematics::inverse(scissors.port, tip, roll), float(handle));
+    const sim::StepReport report = d.step();
+    for (int i = 0; i < report.event_count; ++i)
+      if (report.events[i].kind == sim::Event::thread_cut) cuts.push_back(report.events[i]);
+  }
+  ASSERT_EQ(cuts.size(), 1u);
+  EXPECT_EQ(cuts[0].tool, blades);
+  EXPECT_EQ(cuts[0].body(), BodyId(BodyKind::suture, 0));
+  EXPECT_EQ(d.sling().stage, interactions::SlingState::left);
+  EXPECT_EQ(d.told(sim::Event::thread_broken), 0);
+}
+
+TEST(Sling, AThreadThatIsPulledApartIsBrokenNotCutAndItsLoopIsNotSecured) {  // [knot pull]
+  sim::Model weak = box();
+  suture::ThreadStuff& stuff = weak.objects.sutures.list[0].thread.stuff;
+  stuff.knotted_break_force = 3, stuff.break_force = 5;  // the handle pulls with 3.8 N
+  SlingDriver d(weak, right_hand());
+  d.put_over(0, kEnd, kPlace);
+  ASSERT_EQ(d.told(sim::Event::thread_broken), 0);
+  d.draw_closed(0, kPlace, 0.4, 6);
+  EXPECT_EQ(d.told(sim::Event::thread_broken), 1);
+  EXPECT_EQ(d.told(sim::Event::thread_cut), 0);
+  EXPECT_EQ(d.suture().broken, 1);
+  EXPECT_EQ(training::secured_loops(weak, d.state, 0).count, 0);
 }
 
 TEST(Sling, StaysOnAStumpOfSixMillimetres) {

@@ -116,6 +116,31 @@ TEST(Suture, TurnsInJawsWhereItsTipIsPushedAside) {
   EXPECT_GT(d.state.tools[size_t(right_hand())].holds, 0);
 }
 
+/// A shaft in its way: the needle is held no faster than friction and pinch hold it, however fast the hand is.
+TEST(Suture, ANeedleSwungAgainstSteelSlipsInItsJawsAtTheirGrip) {  // [needle in jaws]
+  const int right = right_hand(), left = 1 - right;
+  sim::Model smooth = box();
+  for (interactions::ToolModel& tool : smooth.hands[size_t(right)].rack) tool.friction = 0.2;
+  NeedleDriver d(smooth, right);
+  d.rest(0.1);
+  const Vec3d across{0.050, 0.0653, -0.0543};
+  d.input.tools[left] = sim::tool_input(kinematics::inverse(box().hands[size_t(left)].port, across, 0), 1.0f);
+  d.rest(0.8);
+  const double bears = smooth.placed(size_t(right)).friction * d.state.tools[size_t(right)].pinch;
+  const Vec3d x = d.suture().needle.x;
+  const Quatd q = d.suture().needle.q;
+  double most = 0;
+  for (int i = 0; i < 300; ++i) {
+    d.lead(x + (0.4 * i * sim::kTick) * Vec3d{0, -1, 0}, q);
+    d.step();
+    const double* pull = d.state.tools[size_t(right)].pull;
+    most = std::max(most, length(Vec3d{pull[0], pull[1], pull[2]}));
+  }
+  std::printf("at most %.1f N in jaws that hold %.1f N\n", most, bears);
+  EXPECT_GT(most, 5);
+  EXPECT_LT(most, 1.03 * bears);
+}
+
 /// Open scissors in the other hand, which the thread hangs before.
 struct Scissors {
   NeedleDriver d{box(), right_hand()};

@@ -83,7 +83,7 @@ struct InfusedQuarter {
   }
   void ticks(int count) {
     for (int i = 0; i < count; ++i) {
-      swell(model, network, state.nodes, kTick, fluid, scratch);
+      swell(model, network, state.nodes, kTick, fluid, scratch, state.tet_phase);
       ASSERT_TRUE(advance(network, {}, {}, state, work, nullptr, Hands::off, {}, scratch.force).fine());
     }
   }
@@ -144,6 +144,60 @@ TEST(Infusion, NoPressureIsHigherThanThatAtWhichACavityOpens) {
   float most = 0;
   for (const float p : q.fluid.pressure) most = std::max(most, p);
   EXPECT_FLOAT_EQ(most, float(5 * kE / 6));
+}
+
+/// Severs the springs across the plane x = `at`.
+void tear(InfusedQuarter& q, double at) {
+  for (int s = 0; s < q.network.springs; ++s) {
+    const auto x = [&](int end) { return q.network.rest[size_t(q.network.spring_nodes[size_t(2 * s + end)])].x; };
+    if ((x(0) < at) != (x(1) < at)) cut_spring(q.network, q.state, s);
+  }
+}
+
+TEST(Infusion, WhereTissueHasTornThereIsNoPressureAndItRunsOut) {  // [torn cell]
+  InfusedQuarter q(12, 0.036, 0.012, 2e-6);
+  q.bring(1, 5e-3);
+  q.ticks(500);
+  EXPECT_EQ(q.scratch.tears, 0);
+  tear(q, 0.0045);
+  q.ticks(600);
+  ASSERT_EQ(q.scratch.tears, 1);
+  float torn = 0, whole = 0;
+  for (size_t r = 0; r < q.model.room.size(); ++r)
+    (q.scratch.torn[r] ? torn : whole) = std::max(q.scratch.torn[r] ? torn : whole, q.fluid.pressure[r]);
+  EXPECT_EQ(torn, 0);
+  EXPECT_GT(whole, 100);
+  const std::int64_t before = q.fluid.total;
+  std::int64_t out = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::int32_t row = -1;
+    out += drain_tears(0.01, q.scratch, q.fluid, row);
+  }
+  EXPECT_EQ(q.fluid.total, before - out);
+  EXPECT_GT(out, before / 10);
+  for (size_t r = 0; r < q.model.room.size(); ++r) EXPECT_TRUE(!q.scratch.torn[r] || q.fluid.volume[r] == 0) << r;
+}
+
+TEST(Infusion, StretchesNoCellFurtherThanItsFluidAccountsForWhateverHoldsIt) {  // [torn cell]
+  InfusedQuarter q(10, 0.030, 0.006, 20e-6);
+  for (int s = 0; s < q.network.springs; ++s)  // a body of threads
+    if (s % 4 != 0) set_spring_scale(q.network, q.state, s, 0.02f);
+  for (int i = 0; i < 200; ++i) {
+    infuse(q.model, q.nodes(), {0, 0, -0.006}, 20'000'000, 8e-3, false, 1, q.fluid, q.scratch);
+    q.ticks(10);
+  }
+  double most = 0;
+  for (const TetRest& cell : q.network.tets) {
+    const auto at = [&](int k) {
+      const NodeState& n = q.state.nodes[size_t(cell.row[k])];
+      return Vec3d{double(n.x), double(n.y), double(n.z)};
+    };
+    const Vec3d o = at(0);
+    most = std::max(most, dot(at(1) - o, cross(at(2) - o, at(3) - o)) / double(cell.rest6));
+  }
+  std::printf("a cell is %.2f times as large at most\n", most);
+  EXPECT_GT(most, 1.2);
+  EXPECT_LT(most, 1.5 * double(kBursts)) << "it swings beyond that";
 }
 
 TEST(Infusion, KeepsEveryPicolitreThroughTenThousandRandomActs) {

@@ -543,6 +543,15 @@ TEST(Events, TearingIsToldOnceABodyForAsLongAsItGoesOn) {
   EXPECT_EQ(n.report(sim::Event::torn, kGrasper, kCord), 1);
 }
 
+TEST(Events, WhatTearsOrBreaksByItselfIsNobodysAndATearByAHandAfterItCounts) {
+  Noticed torn, broken;
+  torn.watch(kTorn);
+  broken.watch(*find_event("thread_broken"));
+  EXPECT_EQ(torn.report(sim::Event::torn, -1, kCord), 0);
+  EXPECT_EQ(torn.report(sim::Event::torn, kGrasper, kCord), 1);
+  EXPECT_EQ(broken.report(sim::Event::thread_broken, -1, kCord), 0);
+}
+
 TEST(Events, AClipHasAPlaceAndAMannerOrIsLost) {
   Noticed n, lost;
   n.watch(kClipped);

@@ -78,6 +78,41 @@ TEST(HydrodissectionExercise, TheDemonstrationPassesOnSeveralSeeds) {
   for (const std::uint64_t seed : {0, 1}) expect_passes("../cholecystectomy/hydrodissection", seed);
 }
 
+/// All of the syringe at the first place. @param holds [m^3]  @param flow [m^3/s]
+void flood(double holds, double flow) {
+  Lesson lesson(kInjection);
+  for (sim::HandModel& hand : lesson.model.hands)
+    for (interactions::ToolModel& tool : hand.rack)
+      if (tool.can().inject) tool.needle.holds = holds, tool.needle.flow = flow;
+  first(lesson, "inject").set("volume_mL", 0.96 * holds);
+  const int organ = lesson.model.organ_index("uterus"), hand = first(lesson, "inject").argument("hand").index;
+  Performer performer(lesson.model, std::move(lesson.demonstration), {Tremor{0.0002, 1}});
+  sim::State state = sim::initial_state(lesson.model);
+  sim::Work work = sim::make_work(lesson.model);
+  int tears = 0;
+  double highest = 0;
+  while (!performer.done() && state.tick < 120'000) {
+    const sim::StepReport report = step(lesson.model, performer.next(lesson.model, state), state, work);
+    performer.after(lesson.model, state, report);
+    for (int i = 0; i < report.event_count; ++i) tears += report.events[i].kind == sim::Event::torn;
+    highest = std::max(highest, state.injection.hands[size_t(hand)].tip_pressure);
+    ASSERT_TRUE(report.fine()) << double(state.tick) * sim::kTick << " s";
+    ASSERT_TRUE(balanced(state.injection)) << double(state.tick) * sim::kTick << " s";
+  }
+  const sim::InjectionAccount& account = state.injection.account;
+  std::printf("%.0f mL at %.0f mL/min: %.1f injected, %.1f in the uterus, %.1f leaked, %d tears, %.0f kPa, %.0f s\n",
+              1e6 * holds, 6e7 * flow, 1e-9 * double(account.injected),
+              1e-9 * double(state.injection.organs[size_t(organ)].total), 1e-9 * double(account.leaked), tears,
+              highest / 1e3, double(state.tick) * sim::kTick);
+  EXPECT_GT(account.injected, 20 * fluids::kMillilitre);
+}
+
+TEST(InjectionExercise, AnyVolumeAtAnySpeedStaysFiniteAndWhatFindsNoRoomComesBack) {
+  flood(50e-6, 1e-6);
+  flood(50e-6, 2e-6);
+  flood(100e-6, 10e-6);
+}
+
 class InjectionFlaw : public testing::TestWithParam<Flaw> {};
 TEST_P(InjectionFlaw, TriggersItsErrorAndOnlyWhatTheTableSaysItImplies) {
   const Flaw& flaw = GetParam();

@@ -322,6 +322,8 @@ TEST(LoopFacts, SayWhereALoopLiesAndWhatItLeavesOfTheLumen) {
   g.stage = SlingState::left;
   expect_told(w.value(kLoopSecured, on), 1);
   expect_told(w.value(kLoopPull, on), 0);  // nobody pulls at it
+  w.suture().broken = 1;
+  expect_told(w.value(kLoopSecured, on), 0);  // its tail was not cut
 }
 
 /// The small scene with an injection needle in its second hand.

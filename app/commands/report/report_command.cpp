@@ -52,12 +52,12 @@ int list(const Store& store, const Options& o, bool json) {
                                          : no_attempts_of(store, o.trainee));
     return core::kDone;
   }
-  fmt::print("{:>5}  {:16}  {:16}  {:28}  {:14}  {:11}  {:>5}  {:>8}\n", "", tr("started (UTC)"), tr("trainee"),
+  fmt::print("{:>5}  {:16}  {:16}  {:28}  {:14}  {:12}  {:>5}  {:>8}\n", "", tr("started (UTC)"), tr("trainee"),
              tr("exercise"), tr("mode"), tr("state"), tr("score"), tr("seconds"));
   for (const Attempt& a : attempts) {
     std::string begun = a.started.substr(0, std::min<std::size_t>(16, a.started.size()));
     std::replace(begun.begin(), begun.end(), 'T', ' ');
-    fmt::print("{:>5}  {:16}  {:16}  {:28}  {:14}  {:11}  {:>5}  {:8.1f}\n", a.number, begun, cut_to(a.trainee, 16),
+    fmt::print("{:>5}  {:16}  {:16}  {:28}  {:14}  {:12}  {:>5}  {:8.1f}\n", a.number, begun, cut_to(a.trainee, 16),
                cut_to(a.exercise, 28), name_of(a.mode), name_of(a.state),
                a.score ? fmt::format("{:.0f}", *a.score) : "", a.seconds);
   }

@@ -140,7 +140,7 @@ bool AttemptLog::try_to_record(const fs::path& path) {
 void AttemptLog::end(Json& result, AttemptState how) {
   if (m_ended) return;
   m_ended = true;
-  m_attempt.state = how;
+  m_attempt.state = result.contains("failure") ? AttemptState::not_assessed : how;
   m_attempt.ended = utc_now();
   result["attempt"] = {{"number", m_attempt.number},      {"uuid", m_attempt.uuid},
                        {"mode", name_of(m_attempt.mode)}, {"state", name_of(m_attempt.state)},
@@ -158,11 +158,14 @@ void AttemptLog::end(Json& result, AttemptState how) {
     if (!kept.in_database && kept.anywhere()) result["attempt"]["kept_in"] = kept.file.string();
     take_notices();
   }
-  if (!m_notices.empty()) result["notices"] = m_notices;
+  std::vector<std::string> notices = m_notices;
+  for (const std::string& warning : m_session.warnings()) notices.push_back(warning);
+  if (!notices.empty()) result["notices"] = notices;
 }
 
 std::string AttemptLog::warning() const {
   if (const std::string& fault = m_session.recording_failure(); !fault.empty()) return fault;
+  if (const std::vector<std::string> warnings = m_session.warnings(); !warnings.empty()) return warnings.back();
   return m_notices.empty() ? std::string() : m_notices.back();
 }
 

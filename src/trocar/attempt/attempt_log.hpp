@@ -42,10 +42,12 @@ class AttemptLog {
   AttemptLog& operator=(const AttemptLog&) = delete;
 
   /// Closes the recording with the result and completes the row. The result gets "attempt" (number, uuid, mode, state,
-  /// times) and, if there is something to tell, "notices". May be called once; later calls do nothing.
+  /// times) and, if there is something to tell, "notices". Where the simulation failed the state is not_assessed,
+  /// whatever `how` says. May be called once; later calls do nothing.
   void end(Json& result, training::AttemptState how);
 
-  /// What the trainee should know at once: the disk is full, the store cannot be written. Empty: all is well. Cheap.
+  /// What the trainee should know at once: the disk is full, the store cannot be written, the simulation is limited.
+  /// Empty: all is well. Cheap.
   std::string warning() const;
   /// Everything that was said about keeping this attempt.
   const std::vector<std::string>& notices() const { return m_notices; }
@@ -66,8 +68,8 @@ class AttemptLog {
   bool m_ended = false;
 };
 
-/// What `--input` means for the attempt: a demonstration or a replay is no attempt of the trainee, everything else is. A
-/// familiarisation that is done again stays one.
+/// What `--input` means for the attempt: a demonstration or a replay is no attempt of the trainee, everything else is.
+/// A familiarisation that is done again stays one.
 training::AttemptMode mode_of_input(const std::string& input);
 
 /// "2026-03-01T14:05:09Z"

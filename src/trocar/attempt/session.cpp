@@ -11,6 +11,7 @@
 #include <trocar/core/hash.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/training/observe/hands.hpp>
@@ -21,14 +22,27 @@ namespace {
 struct FlagName {
   std::uint32_t bit;
   const char* name;
+  const char* warning = nullptr;  ///< what it means for who practises; null: nothing, or the result says it
 };
 constexpr FlagName kFlags[] = {
-    {tissue::StepReport::kNonFinite, "non_finite"},       {tissue::StepReport::kInverted, "inverted_cells"},
-    {tissue::StepReport::kBadLoad, "bad_load"},           {tissue::StepReport::kIndefinite, "indefinite"},
-    {sim::StepReport::kTooManyLoads, "too_many_loads"},   {sim::StepReport::kBadInput, "bad_input"},
-    {sim::StepReport::kRecordsFull, "book_full"},         {sim::StepReport::kHeatFull, "heat_full"},
-    {sim::StepReport::kDropsFull, "drops_full"},          {sim::StepReport::kBloodFlow, "blood_flow"},
-    {tissue::StepReport::kBeyondLinear, "beyond_linear"},
+    {tissue::StepReport::kNonFinite, "non_finite"},
+    {tissue::StepReport::kInverted, "inverted_cells"},
+    {tissue::StepReport::kBadLoad, "bad_load", "A force on the tissue was not finite and was left out."},
+    {tissue::StepReport::kIndefinite, "indefinite"},
+    {sim::StepReport::kTooManyLoads, "too_many_loads", "There are too many contacts at once: some are left out."},
+    {sim::StepReport::kBadInput, "bad_input",
+     "An input device sent a value that is not finite, or chose an instrument that is not in the rack. "
+     "That hand did not move."},
+    {sim::StepReport::kRecordsFull, "book_full",
+     "No more clips, cuts or wounds can be recorded: further clips are lost, blades do not cut, tears stop growing. "
+     "Restart the exercise."},
+    {sim::StepReport::kHeatFull, "heat_full",
+     "No more heated tissue can be computed. The author can raise bricks or awake under energy in the scene."},
+    {sim::StepReport::kDropsFull, "drops_full",
+     "There are too many drops of fluid: further fluid goes straight into the pool."},
+    {sim::StepReport::kBloodFlow, "blood_flow", "The blood flow has no solution and stopped. Restart the exercise."},
+    {tissue::StepReport::kBeyondLinear, "beyond_linear",
+     "An organ has turned further than its model allows: its forces and its shape are inaccurate."},
 };
 
 }  // namespace
@@ -89,10 +103,29 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
   m_inputs_hash = core::hash_bytes(&input, sizeof input, m_inputs_hash);
   m_report = sim::step(m_lesson.model, input, m_state, m_work);
   if (m_beside) m_beside->advance(input);
-  m_flags |= m_report.flags;
-  if (!m_report.fine())
-    m_broken = tr("the tissue's motion failed in tick {} (body {}, node {}): a fault of the simulation", m_state.tick,
-                  sim::name_of(m_lesson.model, m_report.first_bad_body), m_report.first_bad_index);
+  const std::uint32_t flags = lasting(m_report.flags);
+  if (m_report.fine()) warn_of(flags & ~m_flags);
+  m_flags |= flags;
+  if (m_report.fine())
+    watch_tick();
+  else
+    fail();
+  if (m_writer && m_state.tick % sim::kHashEvery == 0) m_writer->hash(m_state.tick, mark());
+  if (m_writer && m_state.tick % sim::kKeyframeEvery == 0)
+    m_writer->keyframe(m_state.tick, sim::display_bytes(m_lesson.model, m_state));
+  note_failure();
+  return m_report;
+}
+
+/// A cell that is pressed flat and pushed open again is nothing to be told, unless it lasts.
+std::uint32_t Session::lasting(std::uint32_t flags) {
+  constexpr std::uint64_t kLasts = core::kTicksPerSecond;
+  m_inverted_for = flags & tissue::StepReport::kInverted ? m_inverted_for + 1 : 0;
+  return m_inverted_for < kLasts ? flags & ~std::uint32_t(tissue::StepReport::kInverted) : flags;
+}
+
+/// What everybody who watches makes of a tick.
+void Session::watch_tick() {
   for (size_t t = 0; t < m_lesson.model.hands.size(); ++t) {
     const Vec3d tip = training::tip_of(m_lesson.model, m_state, t);
     m_path[t] += length(tip - m_tip[t]);
@@ -104,11 +137,34 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
     m_exercise_from = double(m_state.tick) * sim::kTick - m_monitor->seconds();
   collect_moments();
   keep_moments();
-  if (m_writer && m_state.tick % sim::kHashEvery == 0) m_writer->hash(m_state.tick, mark());
-  if (m_writer && m_state.tick % sim::kKeyframeEvery == 0)
-    m_writer->keyframe(m_state.tick, sim::display_bytes(m_lesson.model, m_state));
-  note_failure();
-  return m_report;
+}
+
+/// Nothing that is not finite was so all at once: before it, tissue moves, tears and presses as no hand made it. How
+/// long before nobody can say, so the attempt is not assessed at all, and no error of it is kept.
+void Session::fail() {
+  m_broken = tr(
+      "The simulation failed at {:.3f} s (body {}, node {}). This is a fault of the program, not of the trainee: the "
+      "attempt is not assessed.",
+      double(m_state.tick) * sim::kTick, sim::name_of(m_lesson.model, m_report.first_bad_body),
+      m_report.first_bad_index);
+  std::erase_if(m_kept, [](const KeptMoment& k) { return k.moment.what == "error"; });
+  core::log::error("{}", m_broken);
+}
+
+void Session::warn_of(std::uint32_t flags) {
+  if (flags == 0) return;
+  for (const FlagName& f : kFlags) {
+    if (!(flags & f.bit) || !f.warning) continue;
+    const std::string warning = tr("{} (at {:.1f} s)", tr(f.warning), double(m_state.tick) * sim::kTick);
+    core::log::warn("{}", warning);
+    const std::lock_guard lock(m_failure_lock);
+    m_warnings.push_back(warning);
+  }
+}
+
+std::vector<std::string> Session::warnings() const {
+  const std::lock_guard lock(m_failure_lock);
+  return m_warnings;
 }
 
 void Session::note_failure() {
@@ -198,18 +254,19 @@ void Session::collect_moments() {
 
 Json Session::result(bool interrupted) const {
   const sim::Model& model = m_lesson.model;
-  const bool passed = !interrupted && m_broken.empty() && m_monitor && m_monitor->score().passed;
+  const bool failed = !m_broken.empty();
+  const bool passed = !interrupted && m_monitor && m_monitor->score().passed;
   Json r;
   r["exercise"] = m_lesson.name;
   r["seed"] = m_lesson.seed;
-  r["passed"] = m_monitor && m_scored ? Json(passed) : Json(nullptr);
-  if (!m_broken.empty()) r["failure"] = m_broken;
+  r["passed"] = m_monitor && m_scored && !failed ? Json(passed) : Json(nullptr);
+  if (failed) r["failure"] = m_broken;
   if (interrupted) r["interrupted"] = true;
   // Two clocks: all that was simulated, and what counts, from the first motion of an instrument to the last goal.
   r["simulated_seconds"] = double(m_state.tick) * sim::kTick;
   if (m_monitor) {
     r["exercise_seconds"] = m_monitor->seconds();
-    r["assessment"] = Json::parse(m_monitor->result_json());
+    r["assessment"] = failed ? Json(nullptr) : Json::parse(m_monitor->result_json());
   }
   if (m_exercise_from >= 0) r["exercise_from_s"] = m_exercise_from;
   r["metrics"] = Json::parse(training::metrics_json(m_trace.trace(), metrics_options()));
@@ -231,7 +288,7 @@ Json Session::result(bool interrupted) const {
     moments.push_back({{"tick", k.moment.tick}, {"what", k.moment.what}, {"text", k.moment.text}});
   r["moments"] = moments;
   r["flags"] = flag_names(m_flags);
-  r["tissue_survived"] = m_broken.empty();
+  r["tissue_survived"] = !failed;
   r["ticks"] = m_state.tick;
   r["state_hash"] = core::hex(sim::hash_of(m_state));
   r["model_hash"] = core::hex(model.hash);

@@ -53,11 +53,14 @@ class Session {
   const training::Monitor* monitor() const { return m_monitor.get(); }  ///< null: free practice
   /// What happened in the last tick; usually empty.
   const std::vector<Moment>& moments() const { return m_moments; }
-  /// Empty, or how the physics failed: the State is not to be trusted any more.
+  /// Empty, or how the physics failed: the State is not to be trusted any more, and the result has no assessment.
   const std::string& broken() const { return m_broken; }
   bool finished() const { return !m_broken.empty() || (m_monitor && m_monitor->finished()); }
-  /// Flags of all ticks so far.
+  /// Flags of all ticks so far; cells that are pushed open count when that has lasted for a second.
   std::uint32_t flags() const { return m_flags; }
+  /// What of these flags limits the simulation, in words and with the remedy: each once, as standard error has it. May
+  /// be read while another thread advances.
+  std::vector<std::string> warnings() const;
   /// What a recording compares: the State's hash and all inputs so far (an input may leave no trace in the State).
   std::uint64_t mark() const;
   double path_length(int tool) const { return m_path[size_t(tool)]; }  ///< of its tip [m]
@@ -81,6 +84,10 @@ class Session {
   static constexpr std::size_t kMaxKept = 2000, kMaxLooks = 200;
 
  private:
+  std::uint32_t lasting(std::uint32_t flags);
+  void watch_tick();
+  void fail();
+  void warn_of(std::uint32_t flags);
   void collect_moments();
   void keep_moments();
   void note_failure();
@@ -100,6 +107,7 @@ class Session {
   std::filesystem::path m_recording;
   mutable std::mutex m_failure_lock;
   std::string m_recording_failure;
+  std::vector<std::string> m_warnings;
   bool m_scored = true;
   SolverBeside* m_beside = nullptr;
   training::TraceRecorder m_trace;
@@ -110,6 +118,7 @@ class Session {
   std::array<double, sim::kMaxTools> m_path{};
   std::array<int, std::size(sim::kEventWords) + 1> m_counts{};  ///< by sim::Event::Kind
   std::uint32_t m_flags = 0;
+  std::uint64_t m_inverted_for = 0;  ///< ticks in a row in which cells have been pushed open
   std::uint64_t m_inputs_hash = 0;
   std::string m_broken;
 };

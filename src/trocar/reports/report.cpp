@@ -24,6 +24,7 @@ Report gather(const training::Store* store, Attempt attempt) {
   Report r;
   Json result = Json::parse(attempt.result, nullptr, false);
   if (result.is_object()) r.result = std::move(result);
+  if (r.result.contains("failure")) r.result.erase("assessment");  // an older result may hold one
   if (!attempt.trace.empty()) try {
       r.trace = training::trace_from_bytes(attempt.trace, "the attempt's motion");
     } catch (const core::BadInput& bad) {

@@ -49,9 +49,10 @@ Verdict verdict_of(const Report& r) {
     case training::AttemptState::aborted:
       return {"", tr("Ended early")};
     case training::AttemptState::finished:
+    case training::AttemptState::not_assessed:
       break;
   }
-  if (r.result.contains("failure")) return {"", tr("The simulation failed")};
+  if (r.result.contains("failure")) return {"", tr("Not assessed: the simulation failed")};
   const Json& passed = part_of(r.result, "passed");
   if (!passed.is_boolean())
     return {"", r.attempt.mode == training::AttemptMode::familiarisation ? tr("Familiarisation")

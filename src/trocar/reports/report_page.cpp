@@ -38,9 +38,10 @@ std::string write_report(const fs::path& folder, const Json& result, const train
   attempt.exercise = text_in(result, "exercise");
   attempt.input = text_in(result, "input");
   attempt.mode = training::mode_named(text_in(part_of(result, "attempt"), "mode")).value_or(attempt.mode);
-  attempt.state = result.contains("interrupted") ? training::AttemptState::aborted : training::AttemptState::finished;
+  const std::string text = result.dump(-1, ' ', false, Json::error_handler_t::replace);
+  attempt.state = training::state_in_result(text);
   if (attempt.program_version.empty()) attempt.program_version = TROCAR_VERSION;
-  fill_from_result(result.dump(-1, ' ', false, Json::error_handler_t::replace), attempt);
+  fill_from_result(text, attempt);
   if (session) {
     attempt.title = session->lesson().title;
     attempt.model_hash = session->lesson().model.hash;

@@ -196,6 +196,40 @@ TEST(Needle, TipPressesWithWhatHoldsItBackUntilThatGivesWay) {
   EXPECT_LT(most, 2.0);
 }
 
+/// Jaws that hold two places of the wire with 3 N together, drawn against a tip that yields nowhere.
+TEST(Needle, InJawsItIsHeldWithNoMoreThanTheyBearHoweverFarTheyGo) {  // [needle in jaws]
+  const NeedleModel m = half_circle();
+  constexpr double kBears = 3;
+  for (const double speed : {0.01, 0.5}) {
+    NeedleState s;
+    NeedleWork w = make_needle_work();
+    const Vec3d into = rotate(s.q, m.along(0)), start = needle_point(m, s, 0);
+    double most = 0;
+    bool slipped = false;
+    for (int i = 0; i < 100; ++i) {
+      clear(w);
+      for (const double side : {-1.0, 1.0}) {
+        NeedleHold hold;
+        hold.own = m.place(0.0) + Vec3d{0, 0, side * 0.0003};
+        hold.target = hold.own + (speed * kTick * i) * into;
+        hold.stiffness = kJaws, hold.damping = 0.5;
+        hold.bears = kBears;
+        add(w.holds, hold, w);
+      }
+      w.tip.there = true;
+      w.tip.dir = -into;
+      w.tip.gap = dot(needle_point(m, s, 0) - start, into);
+      w.tip.stiffness = 1e6;
+      ASSERT_TRUE(advance(m, {0, 0, 0}, kTick, s, w));
+      Vec3d pull;
+      for (const NeedleHold& h : w.holds) pull += h.force, slipped = slipped || h.slips;
+      most = std::max(most, length(pull));
+    }
+    EXPECT_TRUE(slipped) << speed;
+    EXPECT_NEAR(most, kBears, 0.01 * kBears) << speed;
+  }
+}
+
 TEST(Needle, PulledByAStiffThreadAtItsSwageStaysCalm) {
   const NeedleModel m = half_circle();
   NeedleState s;

@@ -221,4 +221,45 @@ TEST(ThreadKnots, AKnotOfThreeThrowsAtHalfItsLoadDoesNotCreep) {
   EXPECT_FALSE(rig.last.asleep);
 }
 
+/// Both ends drawn apart until it is overloaded.
+struct Overloaded {
+  double pull = 0;    ///< then [N]
+  double beside = 1;  ///< how near thread lies there that is 5 diameters on along it [m]
+};
+Overloaded overload(const std::vector<Vec3d>& path) {
+  const ThreadStuff stuff = find_thread("3-0", "PDS")->stuff;
+  const ThreadModel m = build({.stuff = stuff, .length = 0.15, .gravity = {0, 0, 0}, .most_solves = 32});
+  ThreadState s = laid(m, path);
+  ThreadWork w = make_work(m);
+  take_hold(m, s, 0, 0), take_hold(m, s, 1, m.length);
+  Hold holds[2];
+  HoldReaction pulls[2];
+  holds[0].x = s.x.front(), holds[1].x = s.x.back();
+  for (int k = 0; k < 12000; ++k) {
+    holds[0].x.x += 2e-5, holds[1].x.x -= 2e-5;
+    const ThreadReport report = advance(m, {.holds = holds}, {.holds = pulls}, s, w);
+    if (!(report.flags & ThreadReport::kOverloaded)) continue;
+    Overloaded found{std::fabs(pulls[0].force.x), 1};
+    const int at = place_at(m, report.weakest).element;
+    for (int i = 0; i < m.nodes; ++i)
+      if (std::abs(i - at) * m.spacing > 5 * stuff.diameter)
+        found.beside = std::min(found.beside, length(s.x[i] - s.x[at]));
+    return found;
+  }
+  return {};
+}
+
+TEST(ThreadKnots, AKnottedThreadIsOverloadedAtItsKnotPullAndInItsKnotAStraightOneAtItsOwn) {  // [knot pull]
+  const ThreadStuff stuff = find_thread("3-0", "PDS")->stuff;
+  const Overloaded knotted = overload(laid_overhand(1, 0.15, 0.012, stuff.diameter));
+  expect_ratio("pull that overloads an overhand knot, over the knot pull", knotted.pull, stuff.knotted_break_force,
+               0.05);
+  EXPECT_LT(knotted.beside, 2 * stuff.diameter) << "thread lies on thread there";
+  const std::vector<Vec3d> path{{0.15, 0, 0}, {0, 0, 0}};  // as the other lies: its first end is drawn to +x
+  const Overloaded straight = overload(path);
+  expect_ratio("pull that overloads a straight thread, over its breaking force", straight.pull, stuff.break_force,
+               0.05);
+  EXPECT_GT(straight.beside, 4 * stuff.diameter);
+}
+
 }  // namespace

@@ -27,8 +27,10 @@ PlungerPush push_plunger(const NeedleModel& needle, const AtTip& at, double want
       return out;
     }
   }
-  out.flow = std::clamp((most - opens) / in_needle, 0.0, wanted);
-  out.tip = opens;
+  const double both = 1 + at.gapes * at.fills, beyond = at.fills / both;  // [back flow]
+  out.flow = std::clamp((most - opens) / (in_needle + beyond), 0.0, wanted);
+  out.tip = opens + beyond * out.flow;
+  out.back = out.flow * (at.gapes * at.fills / both);
   out.force = std::min(needle.most_force, (out.tip + in_needle * out.flow) * needle.area());  // [plunger]
   return out;
 }

@@ -3,9 +3,12 @@
 //   p = p_tip + R Q,  R = 128 mu L / (pi d^4)                                                  [Poiseuille]
 //   F = p A                                                                                    [plunger]
 //   Q = (p_tip - p_pore) / R_seep below the pressure at which a cavity opens; there, whatever comes
+//   Q_in = (p_tip - p_open) / R_fill,  Q_back = (p_tip - p_open) C,  Q = Q_in + Q_back          [back flow]
 //
 // Below the opening pressure fluid seeps between cells, slowly; a thumb that wants more raises the pressure until a
-// cavity opens, and no further. A hand has a flow in mind and a force that it does not exceed.
+// cavity opens. No more is needed until the tissue around it fills: then it resists, and beyond the opening pressure
+// the hole around the needle gapes, so that more and more comes back along it. A hand has a flow in mind and a force
+// that it does not exceed.
 #pragma once
 
 #include <trocar/core/fields.hpp>
@@ -44,12 +47,15 @@ inline constexpr double kVacuum = 20e3;      ///< that a hand draws with [Pa].  
 struct AtTip {
   double pressure = 0;  ///< there, before anything flows [Pa]
   double opening = 0;   ///< of a cavity [Pa]; 0: it is open already: air, a vessel
+  double fills = 0;     ///< R_fill of the tissue around the cavity [Pa s/m^3]
+  double gapes = 0;     ///< C of the hole around the needle beyond the opening pressure [m^3/Pa s]
 };
 
 struct PlungerPush {
   double flow = 0;   ///< out of the needle [m^3/s]
   double tip = 0;    ///< pressure there [Pa]
   double force = 0;  ///< on the plunger [N]
+  double back = 0;   ///< of the flow: comes back along the needle [m^3/s]
 };
 /// @param wanted  flow that the hand has in mind [m^3/s]
 PlungerPush push_plunger(const NeedleModel& needle, const AtTip& at, double wanted) noexcept;

@@ -101,7 +101,8 @@ struct ToolState {
   double pull[3] = {0, 0, 0};                      ///< of the held tissue on the jaws, last tick [N]
   double closed_for = 0;                           ///< how long the jaws took from half to fully closed so far [s]
   std::int32_t clips_left = 0;
-  std::int16_t armed = 0;  ///< above 0: jaws have been open since the last clip or cut, so wide; below: see cut.hpp
+  std::int16_t armed = 0;  ///< above 0: jaws have been open since the last clip or cut, so wide; below: see cut.hpp;
+                           ///< of clip appliers 2: clips keep the jaws apart since then
   std::int16_t letting_go = 0;  ///< a grip is loose because the hand has opened it
   std::int32_t holds = 0;       ///< used entries of hold[]
   std::int32_t slipped = 0;     ///< slips so far

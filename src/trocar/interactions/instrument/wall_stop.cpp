@@ -8,16 +8,17 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kFromTrocar = 0.040;    // [m] of the shaft that no wall stops
-constexpr double kShaftSpacing = 0.020;  // [m] of the points along the shaft that are tested
-constexpr double kWallReach = 0.012;     // [m] further than this from its nearest vertex no wall touches a point
-constexpr double kBehindWall = 0.005;    // [m]
-constexpr double kBesideFoot = 0.0015;   // [m] off the foot of the normal: past the wall's rim
-constexpr double kPress = 500;           // [N/m]
-constexpr double kMostStop = 15;         // [N]
-constexpr double kQuickestTip = 0.0006;  // [m] that the tip moves in a tick: what hands do, no jumps
-constexpr double kWithdraws = 0.0005;    // [m] further out than it is: the hand draws back, and nothing holds it
-constexpr int kRounds = 4;
+constexpr double kFromTrocar = 0.040;          // [m] of the shaft that no wall stops
+constexpr double kShaftSpacing = 0.020;        // [m] of the points along the shaft that are tested
+constexpr double kWallReach = 0.012;           // [m] further than this from its nearest vertex no wall touches a point
+constexpr double kBehindWall = 0.005;          // [m]
+constexpr double kBesideFoot = 0.0015;         // [m] off the foot of the normal: past the wall's rim
+constexpr double kPress = 500;                 // [N/m]
+constexpr double kMostStop = 15;               // [N]
+constexpr double kQuickestTip = 0.0006;        // [m] that the tip moves in a tick: what hands do, no jumps
+constexpr double kWithdraws = 0.0005;          // [m] further out than it is: the hand draws back, and nothing holds it
+constexpr int kRounds = 4, kCornerRounds = 8;  // where one wall stops it; where several do
+constexpr double kOneWall = 0.9;               // cosine between normals above which it is the same wall
 
 /// A ball of an instrument that a wall may stop.
 struct Probe {
@@ -151,6 +152,61 @@ void slow_down(Vec3d port, const kinematics::FulcrumPose& before, ToolState& too
   tool.depth = before.depth + share * (tool.depth - before.depth);
 }
 
+/// Walls that stop an instrument in a tick, and where they want the point of its axis that they stop: in a corner two
+/// or three.
+class WallContacts {
+ public:
+  int count() const noexcept { return m_count; }
+
+  /// Where the point goes that a further contact stops: in front of that wall's plane and, where an earlier one stops
+  /// the same point, of that one's, by the shortest way:
+  ///   x' = x + b (m - (n m) n),  b = -(m (x - p)) / (1 - (n m)^2),  m the earlier normal, p its place    [wall corner]
+  Vec3d add(const Deepest& d) noexcept {
+    Vec3d to = d.probe.on_axis + d.depth * d.normal;
+    int place = m_count;
+    for (int i = 0; i < m_count; ++i) {
+      const Contact& other = m_list[size_t(i)];
+      const double c = dot(d.normal, other.normal);
+      if (c > kOneWall) {
+        place = i;
+        continue;
+      }
+      const bool same_point = d.probe.tip == other.tip && (d.probe.tip || d.probe.along == other.along);
+      const double in_front = dot(other.normal, to - other.place);
+      if (!same_point || in_front >= 0 || c < -kOneWall) continue;  // walls face to face: too narrow for it
+      to += (-in_front / (1 - c * c)) * (other.normal - c * d.normal);
+    }
+    if (place == kMost) return to;
+    m_list[size_t(place)] = {d.normal, to, d.probe.along, d.probe.tip};
+    m_count = std::max(m_count, place + 1);
+    return to;
+  }
+
+  /// What the walls press back with against `pull`, the hand's: each along its normal and none inwards. Their sum is
+  /// the part of it that they stop.                                                                       [wall corner]
+  Vec3d force_against(Vec3d pull) const noexcept {
+    std::array<double, kMost> force{};
+    Vec3d left = pull;
+    for (int sweep = 0; sweep < kSweeps; ++sweep)
+      for (int i = 0; i < m_count; ++i) {
+        const double more = std::max(dot(left, m_list[size_t(i)].normal), -force[size_t(i)]);
+        force[size_t(i)] += more;
+        left -= more * m_list[size_t(i)].normal;
+      }
+    return pull - left;
+  }
+
+ private:
+  static constexpr int kMost = 3, kSweeps = 32;
+  struct Contact {
+    Vec3d normal, place;
+    double along = 0;
+    bool tip = false;
+  };
+  std::array<Contact, kMost> m_list;
+  int m_count = 0;
+};
+
 }  // namespace
 
 WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wanted,
@@ -160,11 +216,12 @@ WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wa
   const Vec3d port = model.port + shift;
   if (tool.depth <= kFromTrocar || wanted.depth < tool.depth - kWithdraws) return stop;
   Deepest last;
-  for (int round = 0; round < kRounds; ++round) {
+  WallContacts contacts;
+  for (int round = 0; round < (contacts.count() > 1 ? kCornerRounds : kRounds); ++round) {
     const Deepest d = deepest_of(model, port, walls, tool.pose(), joints);
     if (d.depth <= 1e-9) break;
     last = d;
-    const Vec3d to = d.probe.on_axis + d.depth * d.normal;
+    const Vec3d to = contacts.add(d);
     kinematics::FulcrumPose pose = kinematics::inverse(port, to, tool.roll);
     if (!d.probe.tip) pose.depth = tool.depth;
     pose = kinematics::clamped(pose, model.limits);
@@ -182,7 +239,13 @@ WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wa
   const double along = at.tip ? tool.depth : at.along, goal_along = at.tip ? goal.depth : at.along;
   stop.at = port + along * axis_of(port, tool.pose());
   const Vec3d there = port + goal_along * axis_of(port, goal);
-  stop.force = std::clamp(kPress * dot(stop.at - there, stop.normal), 0.0, kMostStop);
+  if (contacts.count() == 1) {
+    stop.force = std::clamp(kPress * dot(stop.at - there, stop.normal), 0.0, kMostStop);
+    return stop;
+  }
+  const Vec3d force = kPress * contacts.force_against(stop.at - there);
+  stop.normal = normalised(force, stop.normal);
+  stop.force = std::min(length(force), kMostStop);
   return stop;
 }
 

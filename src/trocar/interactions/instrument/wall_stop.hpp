@@ -3,7 +3,8 @@
 // it came to be behind one, it comes out.
 //
 // The press is a spring from where the instrument is to where the hand wants it, along the wall's normal: 500 N/m, at
-// most 15 N (our choice: walls of flesh over bone are stiffer than any hand).
+// most 15 N (our choice: walls of flesh over bone are stiffer than any hand). In a corner it stays in front of all
+// walls there, and their forces add.
 #pragma once
 
 #include <span>
@@ -16,8 +17,8 @@ namespace trocar::interactions {
 struct WallStop {
   bool stopped = false;
   std::int32_t part = kShaft;
-  Vec3d at, normal;  ///< point of the instrument's axis; into the cavity
-  double force = 0;  ///< of the wall on the instrument, along the normal [N]
+  Vec3d at, normal;  ///< point of the instrument's axis; into the cavity, in a corner along the sum of forces
+  double force = 0;  ///< of the walls on the instrument, along the normal [N]
 };
 
 /// Moves the instrument back to the walls' inner side. Walls within 40 mm of the trocar do not count: it goes through

@@ -11,6 +11,7 @@ namespace {
 constexpr int kAroundWire = 4;          // places of the needle's surface that jaws hold, at each
 constexpr double kGripsApart = 0.0005;  // [m] along it
 constexpr double kSteelInJaws = 25;     // a needle between hard jaws gives so much less than tissue does
+constexpr double kJustHolds = 2;        // [N] of jaws that have closed on a needle and do not press yet. Our estimate
 constexpr double kGraspedThread = 0.7;  // of its diameter, by which it keeps jaws apart
 constexpr double kMostNear = 1e6;
 
@@ -72,26 +73,21 @@ void hold_from_start(const SutureModel& m, const SutureState& s, BodyId id, cons
   }
 }
 
-int cut_threads(const SutureModels& models, const ToolModel& tool, const ToolShape& shape,
-                std::vector<SutureState>& states) noexcept {
-  constexpr double kBetween = 0.0008;  // [m] from the middle, when they have closed
-  int parted = 0;
-  for (size_t i = 0; i < states.size(); ++i) {
-    const SutureModel& m = models.list[i];
-    const double near = tool.jaw_length + 0.005;
-    for (std::int32_t n = 0; n + 1 < m.thread.nodes; ++n) {
-      if (!states[i].thread.alive[size_t(n)]) continue;
-      const Vec3d a = states[i].thread.x[size_t(n)], b = states[i].thread.x[size_t(n) + 1], off = a - shape.pivot;
-      if (dot(off, off) > near * near) continue;
-      const Vec3d at = to_jaw(shape, 0.5 * (a + b));
-      if (at.z < 0 || at.z > tool.jaw_length || std::fabs(at.y) > 0.5 * tool.jaw_width) continue;
-      if (std::fabs(at.x) > shape.half_opening(at.z) + kBetween) continue;
-      suture::cut(m.thread, states[i].thread, (n + 0.5) * m.thread.spacing);
-      ++parted;
-      break;  // once a thread
-    }
+bool cut_thread(const SutureModel& m, const ToolModel& tool, const ToolShape& shape, SutureState& s) noexcept {
+  constexpr double kBetween = 0.0008;                        // [m] from the middle, when they have closed
+  if (m.sling.there() && !s.sling.computed()) return false;  // it is in its tube, or grows out of it
+  const double near = tool.jaw_length + 0.005;
+  for (std::int32_t n = 0; n + 1 < m.thread.nodes; ++n) {
+    if (!s.thread.alive[size_t(n)]) continue;
+    const Vec3d a = s.thread.x[size_t(n)], b = s.thread.x[size_t(n) + 1], off = a - shape.pivot;
+    if (dot(off, off) > near * near) continue;
+    const Vec3d at = to_jaw(shape, 0.5 * (a + b));
+    if (at.z < 0 || at.z > tool.jaw_length || std::fabs(at.y) > 0.5 * tool.jaw_width) continue;
+    if (std::fabs(at.x) > shape.half_opening(at.z) + kBetween) continue;
+    suture::cut(m.thread, s.thread, (n + 0.5) * m.thread.spacing);
+    return true;
   }
-  return parted;
+  return false;
 }
 
 Suture::States Suture::start(const Models& models) {
@@ -211,8 +207,9 @@ void Suture::pull(const Models& models, const States&, const Hold& hold, Vec3d t
       all.overflowed = true;
       return;
     }
-    w.needle.holds.push_back(
-        {grip_of(m, hold.element), target, kSteelInJaws * law.stiffness, law.damping, tag.index, {0, 0, 0}});
+    const bool by_hand = tag.index >= 0 && size_t(tag.index) < all.pinches.size();
+    w.needle.holds.push_back({grip_of(m, hold.element), target, kSteelInJaws * law.stiffness, law.damping, tag.index,
+                              Vec3d{}, by_hand ? std::max(kJustHolds, all.pinches[size_t(tag.index)].bears) : -1.0});
     w.hold_tags.push_back(tag);
     return;
   }

@@ -249,9 +249,8 @@ Vec3d suture_place(const SutureModel& m, const SutureState& s, std::int32_t plac
 /// Is the place one of the needle?
 inline bool on_needle(const SutureModel& m, std::int32_t place) noexcept { return place < m.grips; }
 
-/// Blades that have just closed part threads that lie between them. @return how many
-int cut_threads(const SutureModels& models, const ToolModel& tool, const ToolShape& shape,
-                std::vector<SutureState>& states) noexcept;
+/// Blades that have just closed part a thread that lies between them, once. @return did it?
+bool cut_thread(const SutureModel& m, const ToolModel& tool, const ToolShape& shape, SutureState& s) noexcept;
 /// Jaws that hold the needle from the start close on it in the first tick.
 void hold_from_start(const SutureModel& m, const SutureState& s, BodyId id, const ToolModel& tool,
                      const ToolShape& shape, ToolState& state) noexcept;

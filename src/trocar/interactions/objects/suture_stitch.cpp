@@ -60,7 +60,7 @@ class Sewing {
     m_work.needle.tail = {m_state.tail_force, std::min(kMostTail, length(m_state.tail_force) / kTailWay)};
     if (length(m_state.tail_force) < kTautAbove) m_work.needle.tail.stiffness = 0;
     const bool fine = suture::advance(m_model.needle, m_gravity, m_dt, m_state.needle, m_work.needle);
-    if (!fine && !m_report.bad.exists()) m_report.bad = BodyId(BodyKind::suture, size_t(m_index));
+    if (!fine && !m_report.bad.exists()) m_report.bad = id();
     keep_in_cavity();
     take_forces();
     if (m_state.touch.kind != SutureTouch::none) press_tip();
@@ -79,27 +79,33 @@ class Sewing {
         m_state.thread, m_work.thread);
     m_work.thread_report = r;
     m_state.strain = r.tension;
-    if (r.flags & suture::ThreadReport::kNonFinite && !m_report.bad.exists())
-      m_report.bad = BodyId(BodyKind::suture, size_t(m_index));
+    if (r.flags & suture::ThreadReport::kNonFinite && !m_report.bad.exists()) m_report.bad = id();
     part_thread(r);
     take_reactions();
     if (m_model.sling.there()) settle_sling(m_model, m_dt, m_state, m_work);
   }
 
  private:
+  BodyId id() const noexcept { return BodyId(BodyKind::suture, size_t(m_index)); }
+
   /// Where it is pulled apart, or crushed between steel and steel. A jerk that the solver shows for a tick or two parts
-  /// nothing.
+  /// nothing. A loop at the end of a tube has its knot always, which the thread runs through without touching itself.
   void part_thread(const suture::ThreadReport& r) noexcept {
     const double bears = m_model.thread.stuff.break_force;
     const auto touches = std::span(m_state.thread.touch).first(size_t(m_state.thread.touch_count));
     const auto hardest = std::max_element(touches.begin(), touches.end(),
                                           [](const auto& a, const auto& b) { return a.press < b.press; });
-    m_state.strained = r.tension > bears ? m_state.strained + 1 : 0;
+    const bool looped = m_model.sling.there();
+    const bool overloaded = (r.flags & suture::ThreadReport::kOverloaded) != 0 ||
+                            (looped && r.tension > m_model.thread.stuff.knotted_break_force);
+    m_state.strained = overloaded ? m_state.strained + 1 : 0;
     m_state.crushed = hardest != touches.end() && hardest->press > kCrushes * bears ? m_state.crushed + 1 : 0;
     const bool crushed = m_state.crushed >= kCrushedAfter;
     if (!crushed && m_state.strained < kPartsAfter) return;
-    suture::cut(m_model.thread, m_state.thread, crushed ? (hardest->a + 0.5) * m_model.thread.spacing : r.weakest);
+    const double pulled_apart = looped ? m_state.sling.knot : r.weakest;
+    suture::cut(m_model.thread, m_state.thread, crushed ? (hardest->a + 0.5) * m_model.thread.spacing : pulled_apart);
     m_state.broken = 1;
+    m_report.broken = id();
     m_state.strained = m_state.crushed = 0;
   }
 
@@ -445,6 +451,7 @@ class Sewing {
     SutureBite& bite = m_state.bites[size_t(number)];
     bite.stage = SutureBite::torn;
     m_report.torn = bite.body;
+    m_report.torn_by = id();
     ++m_state.torn;
   }
   void end_bites() noexcept {
@@ -533,6 +540,32 @@ void turn_in_jaws(const SutureWork& w, int hand, const ToolModel& model, const T
   }
 }
 
+/// Where the grip bears no more the needle slides: the jaws have it where it is now, strained by what they bear. One
+/// that is pushed against a jaw with more than the jaws' grip spreads them and comes out.                  [needle in
+/// jaws]
+void slide_in_jaws(const SutureModel& m, const SutureState& s, const SutureWork& w, int hand, const ToolShape& shape,
+                   ToolState& tool) noexcept {
+  constexpr double kSpread = 0.0015;  // [m] of the needle beside the jaws' mid-plane
+  double beside = 0;
+  bool slides = false;
+  for (size_t k = 0; k < w.needle.holds.size(); ++k) {
+    const suture::NeedleHold& held = w.needle.holds[k];
+    const Tag& tag = w.hold_tags[k];
+    if (tag.index != hand || tag.sub >= tool.holds) continue;
+    Hold& h = tool.hold[tag.sub];
+    if (held.slips) {
+      const Vec3d at = to_jaw(shape, suture_place(m, s, h.element) + (1 / held.stiffness) * held.force);
+      for (int n = 0; n < 3; ++n) h.local[n] = float(at[n]);
+      slides = true;
+    }
+    beside += double(h.local[0]) / tool.holds;
+  }
+  if (!slides || std::fabs(beside) < kSpread) return;
+  tool.holds = 0;
+  ++tool.slipped;
+  for (double& p : tool.pull) p = 0;
+}
+
 /// The thread has slipped through the jaws: other nodes are between them.
 void follow_thread(const SutureModel& m, const SutureState& s, int hand, ToolState& tool) noexcept {
   const size_t slot = size_t(kFirstHandSlot + hand);
@@ -588,10 +621,9 @@ void slip_in_jaws(const SutureModels& models, const Suture::States& states, cons
                   const ToolModel& model, const ToolShape& shape, ToolState& tool) noexcept {
   if (tool.holds == 0 || !tool.hold[0].body.is(BodyKind::suture)) return;
   const size_t i = tool.hold[0].body.index();
-  if (on_needle(models.list[i], tool.hold[0].element))
-    turn_in_jaws(work.list[i], hand, model, shape, tool);
-  else
-    follow_thread(models.list[i], states[i], hand, tool);
+  if (!on_needle(models.list[i], tool.hold[0].element)) return follow_thread(models.list[i], states[i], hand, tool);
+  slide_in_jaws(models.list[i], states[i], work.list[i], hand, shape, tool);
+  if (tool.holds > 0) turn_in_jaws(work.list[i], hand, model, shape, tool);
 }
 
 }  // namespace trocar::interactions

@@ -26,8 +26,9 @@ bool goes_through(const SutureModel& m, const SutureState& s, BodyId body, doubl
 
 /// What needs telling of a tick.
 struct SewnReport {
-  BodyId bad;   ///< a suture that is not finite any more
-  BodyId torn;  ///< a body that a stitch was torn out of
+  BodyId bad;            ///< a suture that is not finite any more
+  BodyId torn, torn_by;  ///< a body that a stitch was torn out of, and the suture
+  BodyId broken;         ///< a suture whose thread was pulled apart or crushed
   bool overflowed = false;
 };
 SewnReport sew(const SutureModels& models, const TissueBodies& bodies, Vec3d gravity, double dt,

@@ -133,6 +133,7 @@ double pinch_at(const ToolModel& model, double stop, double wanted) noexcept {
   return model.pinch_max * leverage_at(model.linkage, stop) * std::clamp(gone / std::max(left, 0.05), 0.0, 1.0);
 }
 
+constexpr double kSlides = 0.99;     // of what friction bears: what has slid up to there may have left the jaws
 constexpr float kCentring = 0.985f;  // per tick: closing jaws bring what lies between them to the middle
 
 /// Tissue gives way to the middle point by point, what is hard as a whole.
@@ -227,9 +228,9 @@ void slip(const ToolModel& model, const ToolShape& shape, const TissueView& view
   for (int k = 0; k < 3; ++k) tool.pull[k] = -pull[k];
   if (tool.holds == 0) return;
   const double force = length(pull), bears = model.friction * tool.pinch;
-  if (force <= bears) return;
+  if (force <= kSlides * bears) return;
   // The tissue slides between the jaws until friction bears the pull again; what slides out is lost.
-  const double give = std::min(0.5, 1.0 - bears / force);
+  const double give = std::clamp(1.0 - bears / force, 0.0, 0.5);
   int kept = 0;
   for (int i = 0; i < tool.holds; ++i) {
     Hold h = tool.hold[i];

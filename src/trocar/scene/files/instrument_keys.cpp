@@ -39,7 +39,7 @@ const Table<NeedleSetting>& needle() {
        R::number("bore_mm", units::mm, &N::bore, 0.1, 2.8, "inner diameter, default {}"),
        R::number("plunger_mm", units::mm, &N::plunger, 2, 50, "inner diameter of the syringe, default {}"),
        R::number("holds_mL", units::millilitre, &N::holds, 0.1, 100, "in the syringe at the start, default {}"),
-       R::number("flow_mL_min", units::millilitre, &N::flow, 0.1, 120,
+       R::number("flow_mL_min", units::millilitre, &N::flow, 0.1, 600,
                  "volume that a hand intends to inject, default {}"),
        R::number("most_force_N", units::one, &N::most_force, 1, 200, "force of the thumb on the plunger, default {}"),
        R::number("drug_IU_mL", units::one, &N::units, 0, 1000,

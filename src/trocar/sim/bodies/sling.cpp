@@ -103,16 +103,11 @@ void watch(StepContext& c, SlingState& g) noexcept {
 }
 
 /// Blades, or too much of a pull, have parted its thread: the rest goes back into the tube.
-void notice_cut(StepContext& c, std::size_t i) noexcept {
+void notice_parted(StepContext& c, std::size_t i) noexcept {
   const interactions::SutureModel& m = models_of(c).list[i];
   interactions::SutureState& s = states_of(c)[i];
   const int e = interactions::parted_element(m, s);
-  if (e < 0) return;
-  interactions::cut_sling(m, e, s);
-  int hand = std::max(0, s.sling.hand);
-  for (std::size_t t = 0; t < c.model.hands.size(); ++t)
-    if (c.model.tool(c.state, t).can().cut) hand = int(t);
-  emit_event(c, Event::thread_cut, hand, BodyId(BodyKind::suture, i));
+  if (e >= 0) interactions::cut_sling(m, e, s);
 }
 
 }  // namespace
@@ -132,7 +127,7 @@ void lead_slings(StepContext& c) noexcept {
   if (!has_slings(c.model)) return;
   for (std::size_t i = 0; i < states_of(c).size(); ++i) {
     if (!models_of(c).list[i].sling.there()) continue;
-    notice_cut(c, i);
+    notice_parted(c, i);
     const SlingState& g = states_of(c)[i].sling;
     const bool had = g.stage > SlingState::packed && g.stage < SlingState::left;
     if (had && !brings_slings(c, std::size_t(g.hand)))

@@ -4,6 +4,7 @@
 #include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/bodies/suture.hpp>
 #include <trocar/sim/bodies/views.hpp>
+#include <trocar/sim/model/culprit.hpp>
 
 namespace trocar::sim {
 namespace {
@@ -21,6 +22,12 @@ void see_again(StepContext& c) noexcept {
   for (int i = 0; i < c.model.organs(); ++i) c.work.surfaces[size_t(i)].nodes = nodes_of(c.model, c.state, i);
   for (size_t i = 0; i < c.model.membranes.size(); ++i)
     c.work.sheets[i].surface.nodes = view_of(c.model.membranes[i].sheet.network, c.state.membranes[i].network);
+}
+
+/// Whose pull it was: of a loop at the end of its tube that of the hand that has it.
+int breaker(const StepContext& c, BodyId broken) noexcept {
+  const std::int32_t leads = interactions::part_of<Suture>(c.state.objects)[broken.index()].sling.hand;
+  return leads >= 0 ? leads : culprit(c.model, c.state, {broken});
 }
 
 }  // namespace
@@ -42,7 +49,8 @@ void step_sutures(StepContext& c) noexcept {
       interactions::part_of<Suture>(c.model.objects), bodies_of(c), c.model.gravity, kTick, c.model.cavity,
       interactions::part_of<Suture>(c.state.objects), interactions::part_of<Suture>(c.work.objects));
   if (r.overflowed) c.report.flags |= StepReport::kTooManyLoads;
-  if (r.torn.exists()) emit_event(c, Event::torn, 0, r.torn);
+  if (r.torn.exists()) emit_torn(c, culprit(c.model, c.state, {r.torn_by, r.torn}), r.torn);
+  if (r.broken.exists()) emit_event(c, Event::thread_broken, breaker(c, r.broken), r.broken);
   watch_slings(c);
   if (!r.bad.exists() || c.report.first_bad_body.exists()) return;
   c.report.flags |= tissue::StepReport::kNonFinite;
@@ -50,10 +58,12 @@ void step_sutures(StepContext& c) noexcept {
   c.report.first_bad_index = 0;
 }
 
-bool cut_threads(StepContext& c, std::size_t hand) noexcept {
-  return has_sutures(c) &&
-         interactions::cut_threads(interactions::part_of<Suture>(c.model.objects), c.model.tool(c.state, hand),
-                                   c.work.shapes[hand], interactions::part_of<Suture>(c.state.objects)) > 0;
+void cut_threads(StepContext& c, std::size_t hand) noexcept {
+  const auto& list = interactions::part_of<Suture>(c.model.objects).list;
+  Suture::States& states = interactions::part_of<Suture>(c.state.objects);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (interactions::cut_thread(list[i], c.model.tool(c.state, hand), c.work.shapes[hand], states[i]))
+      emit_event(c, Event::thread_cut, int(hand), BodyId(BodyKind::suture, i));
 }
 
 void clip_threads(StepContext& c, std::size_t hand, int clip) noexcept {

@@ -9,8 +9,8 @@ namespace trocar::sim {
 void rest_sutures(StepContext& context) noexcept;
 /// Stage: needles and threads move, pierce, and go through tissue.
 void step_sutures(StepContext& context) noexcept;
-/// Blades that have just closed part the thread between them. @return was there one?
-bool cut_threads(StepContext& context, std::size_t hand) noexcept;
+/// Blades that have just closed part the threads between them: an event each.
+void cut_threads(StepContext& context, std::size_t hand) noexcept;
 /// A clip that has closed on nothing else: on thread?
 void clip_threads(StepContext& context, std::size_t hand, int clip) noexcept;
 /// After forces at instruments are known: a needle turns in jaws, a thread slips through them.

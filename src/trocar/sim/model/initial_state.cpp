@@ -121,6 +121,7 @@ State initial_state(const Model& model) {
   }
   if (model.injection.there()) {
     s.injection.hands.resize(model.hands.size());
+    s.injection.fills.resize(model.hands.size());
     s.injection.tracks.resize(size_t(kMaxTracks));
     s.injection.given.resize(size_t(model.organs()));
     for (const PiercedOrgan& o : model.injection.organs) s.injection.organs.push_back(tissue::dry(o.infusion));

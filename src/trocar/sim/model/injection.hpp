@@ -5,6 +5,7 @@
 // to the picolitre, at every tick. What leaks and spills passes into the fluids' account, where a scene has fluids.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -95,7 +96,7 @@ inline constexpr std::int32_t kMaxTracks = 16;  ///< the oldest is closed when t
 struct InjectionAccount {
   std::int64_t injected = 0;  ///< out of needles
   std::int64_t absorbed = 0;  ///< out of the tissue into vessels
-  std::int64_t leaked = 0;    ///< back along needles' ways
+  std::int64_t leaked = 0;    ///< back along needles and their ways, and out of tears
   std::int64_t vessel = 0;    ///< straight into vessels
   std::int64_t spilled = 0;   ///< into the open
   std::int64_t drugged = 0;   ///< of `injected`: with a drug
@@ -112,18 +113,24 @@ struct InjectionAccount {
 struct InjectionState {
   std::vector<NeedleHand> hands;              ///< (hands)
   std::vector<tissue::InfusionState> organs;  ///< (organs) empty ones where nothing is taken up
-  std::vector<std::int64_t> given;            ///< (organs) injected into each [pL]
-  std::vector<NeedleTrack> tracks;            ///< (kMaxTracks)
+  std::vector<std::int64_t> given;            ///< (organs) that has found room in each [pL]
+  std::vector<double> fills;        ///< (hands) how the tissue around a needle's point resists, as it is filled
+                                    ///< [Pa s/m^3]
+  std::vector<NeedleTrack> tracks;  ///< (kMaxTracks)
   std::int32_t track_count = 0;
   std::int32_t reserved = 0;
   InjectionAccount account;
 
   bool there() const noexcept { return !hands.empty(); }
+  /// Of any hand.
+  bool resists() const noexcept {
+    return std::any_of(fills.begin(), fills.end(), [](double r) { return r > 0; });
+  }
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("hands", s.hands), v("organs", s.organs), v("given", s.given), v("track_count", s.track_count),
-        v("tracks", s.tracks, core::FieldNote{.first = s.track_count}), v("account", s.account),
-        v("reserved", s.reserved, core::kNotHashed);
+    v("hands", s.hands), v("organs", s.organs), v("given", s.given), v("fills", s.fills, core::only_if(s.resists())),
+        v("track_count", s.track_count), v("tracks", s.tracks, core::FieldNote{.first = s.track_count}),
+        v("account", s.account), v("reserved", s.reserved, core::kNotHashed);
   }
 };
 

@@ -29,13 +29,16 @@ struct Event {
     loop_loosened,
     loop_slipped,
     loop_cut,
-    thread_cut
+    thread_cut,
+    thread_broken,
+    clip_blocked
   } kind = none;
-  std::int32_t tool = 0;
+  std::int32_t tool = 0;  ///< the hand; of torn and thread_broken -1: no hand caused it
   /// The clip's or the cut's number in the State's buffer; grasped: the body held (BodyId::code);
-  /// parted: the body that current has cut, likewise; torn: the body that tore, likewise, under the hand that pulls or
-  /// presses most; exchanged: the new instrument's number in the rack; released, slipped and declared: -1;
-  /// pierced, injected: the organ that a needle has gone into or is about to fill.
+  /// parted: the body that current has cut, likewise; torn, thread_broken: the body that gave way, likewise, under the
+  /// hand that pulls or presses most (culprit.hpp); exchanged: the new instrument's number in the rack;
+  /// released, slipped, declared and clip_blocked: -1; pierced, injected: the organ that a needle has gone into or is
+  /// about to fill.
   std::int32_t index = 0;
 
   /// The body that `index` says, of a kind of event that says one.
@@ -45,8 +48,8 @@ struct Event {
 /// A kind of event in words. A new kind of event is one line above and one here.
 struct EventWords {
   /// Without which it never happens: jaws that grip, a rack of several instruments, current, an injection needle, a
-  /// sling, a thread.
-  enum Needs { nothing, grip, choice, current, needle, sling, thread };
+  /// sling, a thread, a clip applier.
+  enum Needs { nothing, grip, choice, current, needle, sling, thread, applier };
 
   Event::Kind kind;
   const char* name;     ///< as lists of what happened have it
@@ -79,6 +82,10 @@ inline constexpr EventWords kEventWords[] = {
     {Event::loop_cut, "loop_cut", "a loop cut through {body}", "A ligature loop that was closed too hard cut through.",
      true, EventWords::sling},
     {Event::thread_cut, "thread_cut", "{tool} cut {body}", "Blades cut a thread.", true, EventWords::thread},
+    {Event::thread_broken, "thread_broken", "{body} broke",
+     "A thread broke under a hand's pull, or was crushed between instruments.", true, EventWords::thread},
+    {Event::clip_blocked, "clip_blocked", "{tool} cannot close: a clip lies between its jaws",
+     "A clip applier could not close because a clip lies between its jaws.", false, EventWords::applier},
 };
 /// Of a kind that is not Event::none.
 constexpr const EventWords& words_of(Event::Kind kind) noexcept { return kEventWords[std::size_t(kind) - 1]; }

@@ -37,7 +37,9 @@ struct NeedleOutlet {
   std::int64_t picolitres = 0;
   std::int32_t film = -1;  ///< >= 0: it runs out over the skin there
 };
-inline constexpr std::int32_t kMaxNeedleOutlets = 12;
+/// All that can be at once: every track, some organs that have torn, and of every hand what it leaves as it is drawn
+/// out, spills or leaks, and finds no room.
+inline constexpr std::int32_t kMaxNeedleOutlets = kMaxTracks + 4 + 3 * kMaxTools;
 
 struct Work {
   core::ThreadPool* pool = nullptr;             ///< may be null; never changes a bit of the result

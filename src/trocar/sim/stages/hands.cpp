@@ -4,6 +4,7 @@
 #include <trocar/interactions/instrument/lever.hpp>
 #include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/stages/hands.hpp>
+#include <trocar/sim/stages/posing.hpp>
 #include <trocar/sim/stages/stage.hpp>
 
 namespace trocar::sim {
@@ -51,16 +52,12 @@ void change_instrument(StepContext& c, size_t t, std::int32_t wanted) noexcept {
   emit_event(c, Event::exchanged, int(t), wanted);
 }
 
-/// What would go into a wall stays at it.
+/// What would go into walls stays at them.
 void stop_at_walls(StepContext& c, size_t t, const kinematics::FulcrumPose& wanted,
                    const kinematics::FulcrumPose& before) noexcept {
-  for (const WallModel& wall : c.model.walls) {
-    const interactions::Surface surface{&wall.skin, &wall.pose, {}};
-    const interactions::WallStop stop =
-        interactions::stop_at_walls(c.model.tool(c.state, t), wanted, before, joints_of(c.state, t), {&surface, 1},
-                                    c.state.tools[t], port_shift(c.state, t));
-    if (stop.stopped) c.work.wall_stops[t] = stop;
-  }
+  const std::span<const interactions::Surface> walls{c.work.surfaces.data() + c.model.organs(), c.model.walls.size()};
+  c.work.wall_stops[t] = interactions::stop_at_walls(c.model.tool(c.state, t), wanted, before, joints_of(c.state, t),
+                                                     walls, c.state.tools[t], port_shift(c.state, t));
 }
 
 bool holds_open_bag(const StepContext& c, size_t t) noexcept {
@@ -124,9 +121,6 @@ void move_hand(StepContext& c, size_t t) noexcept {
   stop_at_walls(c, t, wanted, before);
 }
 
-}  // namespace
-
-// Hands: instruments and scope follow the input, no faster than hands can.
 /// Once for as long as the key is held.
 void hear_declaration(StepContext& c) noexcept {
   const bool declares = (c.input.pedals & kDeclare) != 0;
@@ -134,9 +128,13 @@ void hear_declaration(StepContext& c) noexcept {
   c.state.declaring = declares;
 }
 
+}  // namespace
+
+// Hands: instruments and scope follow the input, no faster than hands can.
 void move_hands(StepContext& c) noexcept {
   hear_declaration(c);
   move_ports(c);
+  view_walls(c);
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     c.work.wall_stops[t] = {};
     if (finite(c.input.tools[t]) && finite(c.input.wrists[t]))

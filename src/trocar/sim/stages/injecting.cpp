@@ -2,6 +2,7 @@
 
 #include <trocar/fluids/mix.hpp>
 #include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/interactions/contact/nearest_skin.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
 #include <trocar/sim/bodies/static_organ.hpp>
@@ -25,6 +26,13 @@ constexpr double kTrackOver = 60;      // [s]
 constexpr double kTrackLeaks = 1e-12;  // [m^3/Pa s] when it has just been left: at 25 kPa 0.2 mL get out.  Our choice
 constexpr double kTrackWide = 0.004;   // [m] what is around it is what leaks
 constexpr double kTrackDeep = 0.003;   // [m] where its pressure is asked for
+constexpr double kFillsFrom = 0.6;     // share of what tissue can hold from which on it resists.          Our choice
+constexpr double kFillsAt =
+    10e-6 / 60;                   // [m^3/s] that take the opening pressure once more half way from there. Our choice
+constexpr double kGapes = 4e-11;  // [m^3/Pa s] around a needle beyond the opening pressure: 80 um wide, 3.5 mm long
+constexpr double kDrains = 0.01;  // of what lies at a tear, in kShareTicks.                                Our choice
+constexpr double kTearFound = 0.03;  // [m] how far from there skin is looked for
+constexpr double kTearArea = 1e-5;   // [m^2] of one that has no skin near it.                              Our choice
 
 NeedleLine line_of(const StepContext& c, size_t hand) noexcept {
   return interactions::needle_of(c.model.tool(c.state, hand), c.work.shapes[hand]);
@@ -35,6 +43,10 @@ bool takes_up(const StepContext& c, size_t organ) noexcept { return c.model.inje
 void let_into_open(StepContext& c, const NeedleOutlet& outlet) noexcept {
   if (c.work.needle_outlet_count < std::int32_t(c.work.needle_outlets.size()))
     c.work.needle_outlets[size_t(c.work.needle_outlet_count++)] = outlet;
+}
+
+bool is_full(const StepContext& c) noexcept {
+  return c.work.needle_outlet_count == std::int32_t(c.work.needle_outlets.size());
 }
 
 /// Out of the skin where a needle is or was in.
@@ -53,18 +65,29 @@ void leak_at(StepContext& c, const interactions::SkinPlace& at, std::int64_t pic
   let_into_open(c, out);
 }
 
+/// How tissue resists of which that share is full: 0 up to kFillsFrom, without a bound towards 1.          [back flow]
+double resistance_of(double opening, double filled) noexcept {
+  const double more = std::max(0.0, std::min(filled, 0.999) - kFillsFrom);
+  return opening / kFillsAt * more / (1 - kFillsFrom - more);
+}
+
 /// What has flowed since the last time finds its place; what finds none comes out beside the needle.
-void share_out_pending(StepContext& c, NeedleHand& n, bool drugged) noexcept {
+void share_out_pending(StepContext& c, size_t hand, NeedleHand& n, bool drugged) noexcept {
   if (n.pending == 0 || !n.in()) return;
   const size_t organ = n.entry.body.index();
   std::int64_t in = 0;
   if (takes_up(c, organ)) {
     visit_organ(c.model, organ, [&c](auto body) { switch_to_dynamic(c, body); });
+    const tissue::InfusionModel& infusion = c.model.injection.organs[organ].infusion;
+    tissue::InfusionState& fluid = c.state.injection.organs[organ];
     const double spread = tissue::spread_of(fluids::kM3PerPicolitre * double(n.here));
-    in = tissue::infuse(c.model.injection.organs[organ].infusion, c.work.nodes[organ], n.at, n.pending, spread, drugged,
-                        std::uint32_t(c.state.tick + 1), c.state.injection.organs[organ], c.work.infusion[organ]);
+    in = tissue::infuse(infusion, c.work.nodes[organ], n.at, n.pending, spread, drugged,
+                        std::uint32_t(c.state.tick + 1), fluid, c.work.infusion[organ]);
+    c.state.injection.fills[hand] =
+        resistance_of(infusion.opening, tissue::filled_about(infusion, c.work.nodes[organ], n.at, spread, fluid));
     loosen_bonds(c, n.at, fluids::kM3PerPicolitre * double(in), spread);
   }
+  c.state.injection.given[organ] -= n.pending - in;
   leak_at(c, n.entry, n.pending - in);
   n.pending = 0;
 }
@@ -78,9 +101,10 @@ void leave_track(StepContext& c, const NeedleHand& n) noexcept {
   s.tracks[size_t(s.track_count++)] = {n.entry, c.state.tick, 0, 0};
 }
 
-void draw_out(StepContext& c, NeedleHand& n, bool drugged) noexcept {
-  share_out_pending(c, n, drugged);
+void draw_out(StepContext& c, size_t hand, NeedleHand& n, bool drugged) noexcept {
+  share_out_pending(c, hand, n, drugged);
   leave_track(c, n);
+  c.state.injection.fills[hand] = 0;
   n.entry = {};
   n.anchor = n.depth = n.drawn_for = 0;
   n.here = n.blood = 0;
@@ -128,7 +152,7 @@ void pierce_with(StepContext& c, size_t hand) noexcept {
   const NeedleLine line = line_of(c, hand);
   n.at = line.point;
   if (n.in() && (!tool.can().inject || n.changes != c.state.tools[hand].changes || !still_in(c, n, line)))
-    draw_out(c, n, tool.needle.drugged());
+    draw_out(c, hand, n, tool.needle.drugged());
   n.changes = c.state.tools[hand].changes;
   if (!tool.can().inject) {
     n.touch = {};
@@ -157,7 +181,7 @@ std::int32_t vessel_around(StepContext& c, Vec3d place) noexcept {
   return -1;
 }
 
-interactions::AtTip at_tip(const StepContext& c, const NeedleHand& n) noexcept {
+interactions::AtTip at_tip(const StepContext& c, size_t hand, const NeedleHand& n) noexcept {
   interactions::AtTip at;
   if (!n.in()) return at;
   if (n.vessel >= 0) {
@@ -168,12 +192,14 @@ interactions::AtTip at_tip(const StepContext& c, const NeedleHand& n) noexcept {
   if (!takes_up(c, organ)) return at;
   at.opening = c.model.injection.organs[organ].infusion.opening;
   at.pressure = tissue::pressure_at(c.work.nodes[organ], n.at, c.state.injection.organs[organ]);
+  at.fills = c.state.injection.fills[hand];
+  at.gapes = kGapes;
   return at;
 }
 
-/// Picolitres that have left the needle go where its point is.
-void book(StepContext& c, size_t hand, std::int64_t picolitres, const interactions::NeedleModel& needle,
-          NeedleHand& n) noexcept {
+/// Picolitres that have left the needle go where its point is. @param back  of them: along the needle
+void book(StepContext& c, size_t hand, std::int64_t picolitres, std::int64_t back,
+          const interactions::NeedleModel& needle, NeedleHand& n) noexcept {
   InjectionState& s = c.state.injection;
   n.left -= picolitres;
   s.account.injected += picolitres;
@@ -181,9 +207,10 @@ void book(StepContext& c, size_t hand, std::int64_t picolitres, const interactio
   if (n.vessel >= 0) {
     s.account.vessel += picolitres;
   } else if (n.in()) {
-    n.pending += picolitres;
-    n.here += picolitres;
-    s.given[n.entry.body.index()] += picolitres;
+    n.pending += picolitres - back;
+    n.here += picolitres - back;
+    s.given[n.entry.body.index()] += picolitres - back;
+    leak_at(c, n.entry, back);
   } else if (picolitres > 0) {
     s.account.spilled += picolitres;
     NeedleOutlet out;
@@ -198,16 +225,17 @@ void book(StepContext& c, size_t hand, std::int64_t picolitres, const interactio
 void push(StepContext& c, size_t hand, const interactions::NeedleModel& needle, NeedleHand& n) noexcept {
   n.rate = std::min(needle.flow, n.rate + needle.flow * kTick / kPlungerRamp);
   if (n.left == 0) return;
-  const interactions::PlungerPush p = interactions::push_plunger(needle, at_tip(c, n), n.rate);
+  const interactions::PlungerPush p = interactions::push_plunger(needle, at_tip(c, hand, n), n.rate);
   n.flow = p.flow;
   n.tip_pressure = p.tip;
   n.plunger = p.force;
-  book(c, hand, std::min(n.left, fluids::whole_picolitres(p.flow, kTick, n.carry)), needle, n);
+  const std::int64_t out = std::min(n.left, fluids::whole_picolitres(p.flow, kTick, n.carry));
+  book(c, hand, out, p.back > 0 ? std::int64_t(double(out) * (p.back / p.flow)) : 0, needle, n);
   if (n.in() && p.flow > 0 && !n.pushing) emit_event(c, Event::injected, int(hand), n.entry.body);
   n.pushing = p.flow > 0 ? 1 : 0;
 }
 
-void draw(StepContext& c, const interactions::NeedleModel& needle, NeedleHand& n) noexcept {
+void draw(StepContext& c, size_t hand, const interactions::NeedleModel& needle, NeedleHand& n) noexcept {
   n.plunger = -interactions::kVacuum * needle.area();
   if (!n.in()) return;
   if (length(n.at - n.checked) > kSamePlace) {
@@ -216,7 +244,8 @@ void draw(StepContext& c, const interactions::NeedleModel& needle, NeedleHand& n
   }
   n.drawn_for += kTick;
   if (n.vessel >= 0)
-    n.blood += fluids::whole_picolitres(interactions::drawn_flow(needle, at_tip(c, n).pressure), kTick, n.carry_drawn);
+    n.blood +=
+        fluids::whole_picolitres(interactions::drawn_flow(needle, at_tip(c, hand, n).pressure), kTick, n.carry_drawn);
 }
 
 void work_plunger(StepContext& c, size_t hand) noexcept {
@@ -235,9 +264,9 @@ void work_plunger(StepContext& c, size_t hand) noexcept {
   if (n.vessel >= 0 && n.vessel != was) n.pushing = 0;  // to be reported again
   if (!pushes) n.rate = 0, n.pushing = 0;
   if (pushes) push(c, hand, tool.needle, n);
-  if (draws) draw(c, tool.needle, n);
+  if (draws) draw(c, hand, tool.needle, n);
   c.state.tools[hand].pinch = n.plunger < 0 ? -n.plunger : n.plunger;  // what the hand feels on its handle
-  if (c.state.tick % kShareTicks == 0) share_out_pending(c, n, tool.needle.drugged());
+  if (c.state.tick % kShareTicks == 0) share_out_pending(c, hand, n, tool.needle.drugged());
 }
 
 /// What runs back out of the ways that needles have left.
@@ -249,6 +278,10 @@ void leak_tracks(StepContext& c) noexcept {
     const double age = kTick * double(c.state.tick - track.tick);
     const size_t organ = track.at.body.index();
     if (age > kTrackOver || !takes_up(c, organ)) continue;
+    if (is_full(c)) {  // it leaks the next time
+      s.tracks[size_t(kept++)] = track;
+      continue;
+    }
     const interactions::Surface& surface = c.work.surfaces[organ];
     const Vec3d inside =
         interactions::place_on(surface, track.at) - kTrackDeep * interactions::normal_on(surface, track.at);
@@ -262,6 +295,38 @@ void leak_tracks(StepContext& c) noexcept {
     s.tracks[size_t(kept++)] = track;
   }
   s.track_count = kept;
+}
+
+/// Where a tear of an organ opens to the outside: the skin that is nearest to that node.
+NeedleOutlet tear_at(const StepContext& c, size_t organ, std::int32_t row) noexcept {
+  const tissue::NodeView& nodes = c.work.nodes[organ];
+  const tissue::NodeState& node = nodes.rows[size_t(row)];
+  NeedleOutlet out;
+  out.place = Vec3d{double(node.x), double(node.y), double(node.z)} + nodes.origin;
+  out.direction = normalised(-c.model.gravity, {0, 0, 1});
+  out.area = kTearArea;
+  const int vertex = interactions::nearest_vertex_near(c.work.surfaces[organ], out.place, kTearFound);
+  if (vertex < 0) return out;
+  out.place = c.work.surfaces[organ].position(vertex);
+  if (!c.model.wet.there) return out;
+  out.film = c.model.wet.film[organ] + vertex;
+  out.area = 0;
+  return out;
+}
+
+/// What lies where tissue has torn runs out of it.
+void drain_tears(StepContext& c) noexcept {
+  InjectionState& s = c.state.injection;
+  for (size_t organ = 0; organ < s.organs.size() && !is_full(c); ++organ) {
+    if (!takes_up(c, organ) || c.work.infusion[organ].tears == 0) continue;
+    std::int32_t row = -1;
+    const std::int64_t out = tissue::drain_tears(kDrains, c.work.infusion[organ], s.organs[organ], row);
+    if (row < 0) continue;
+    s.account.leaked += out;
+    NeedleOutlet tear = tear_at(c, organ, row);
+    tear.picolitres = out;
+    let_into_open(c, tear);
+  }
 }
 
 void absorb_all(StepContext& c) noexcept {
@@ -281,17 +346,20 @@ void swell_tissue(StepContext& c) noexcept {
   if (!c.model.injection.there()) return;
   visit_solids(c.model, [&c](SolidRef r) {
     const PiercedOrgan& organ = c.model.injection.organs[r.organ()];
-    c.work.infusion[r.organ()].pushes = 0;
-    if (organ.infusion.there())
-      tissue::swell(organ.infusion, model_of(c.model, r).network, c.state.solids[r.index].nodes, kTick,
-                    c.state.injection.organs[r.organ()], c.work.infusion[r.organ()]);
+    c.work.infusion[r.organ()].pushes = c.work.infusion[r.organ()].tears = 0;
+    if (!organ.infusion.there()) return;
+    const tissue::NetworkState& network = c.state.solids[r.index];
+    std::span<const std::uint8_t> phase;
+    if (network.version != 0) phase = network.tet_phase;
+    tissue::swell(organ.infusion, model_of(c.model, r).network, network.nodes, kTick,
+                  c.state.injection.organs[r.organ()], c.work.infusion[r.organ()], phase);
   });
 }
 
 void inject(StepContext& c) noexcept {
   if (!c.model.injection.there()) return;
   for (size_t t = 0; t < c.model.hands.size(); ++t) work_plunger(c, t);
-  if (c.state.tick % kShareTicks == 0) leak_tracks(c);
+  if (c.state.tick % kShareTicks == 0) leak_tracks(c), drain_tears(c);
   if (c.state.tick % kAbsorbTicks == 0) absorb_all(c);
 }
 

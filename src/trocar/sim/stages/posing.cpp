@@ -4,6 +4,12 @@
 
 namespace trocar::sim {
 
+void view_walls(StepContext& c) noexcept {
+  const size_t organs = size_t(c.model.organs());
+  for (size_t i = 0; i < c.model.walls.size(); ++i)
+    c.work.surfaces[organs + i] = {&c.model.walls[i].skin, &c.model.walls[i].pose, {}};
+}
+
 void view_organs(StepContext& c) noexcept {
   for (int i = 0; i < c.model.organs(); ++i) c.work.nodes[size_t(i)] = nodes_of(c.model, c.state, i);
 }
@@ -13,9 +19,6 @@ void pose_skins(StepContext& c) noexcept {
   view_organs(c);
   for_each(c.work.pool, c.work.skin_order,
            [&c](size_t i) noexcept { visit_skinned(c.model, i, [&c](auto body) { pose(c, body); }); });
-  const size_t organs = size_t(c.model.organs());
-  for (size_t i = 0; i < c.model.walls.size(); ++i)
-    c.work.surfaces[organs + i] = {&c.model.walls[i].skin, &c.model.walls[i].pose, {}};
 }
 
 }  // namespace trocar::sim

@@ -1,4 +1,4 @@
-// Stages: poses of skins, views of nodes.
+// Stages: poses of skins, views of nodes and walls.
 #pragma once
 
 #include <trocar/sim/model/step_context.hpp>
@@ -7,6 +7,9 @@ namespace trocar::sim {
 
 /// Skins: x = W q, boxes.
 void pose_skins(StepContext& context) noexcept;
+
+/// Walls, which never move: hands meet them before skins are posed.
+void view_walls(StepContext& context) noexcept;
 
 /// Where organs' nodes are: their States change places when they advance.
 void view_organs(StepContext& context) noexcept;

@@ -32,15 +32,22 @@ void lay_out_bleeding(StepContext& c) noexcept {
   }
 }
 
-// What follows are in the last places: with so many wounds that they are taken it leaves with those.
+// What follows are in the last places: with so many wounds that they are taken it leaves with those, and with more
+// outlets than places several share one. Nothing that is on its way is left out.
 
-/// What runs out of pouches by their walls and by their ducts, as bile. @return the next free place, counted down
+/// @param place  taken last, counted down
+fluids::Outlet& next_outlet(StepContext& c, size_t& place) noexcept {
+  if (place == 0) place = c.work.wounds.size();
+  return c.work.wounds[--place];
+}
+
+/// What runs out of pouches by their walls and by their ducts, as bile. @return the place taken last, counted down
 size_t lay_out_leaks(StepContext& c, size_t place) noexcept {
   const size_t membranes = c.model.membranes.size();
-  for (size_t i = 0; i < c.work.leaks.size() && place > 0; ++i) {
+  for (size_t i = 0; i < c.work.leaks.size(); ++i) {
     const MembraneBody& m = c.model.membranes[i % membranes];
     if (m.sheet.enclosure.kind == tissue::Enclosure::none || (i >= membranes && m.duct < 0)) continue;
-    fluids::Outlet& o = c.work.wounds[--place];
+    fluids::Outlet& o = next_outlet(c, place);
     const tissue::Leak& leak = c.work.leaks[i];
     if (leak.picolitres == 0 || m.sheet.enclosure.kind == tissue::Enclosure::gas) continue;
     o.flow.bile += leak.picolitres;
@@ -54,9 +61,9 @@ size_t lay_out_leaks(StepContext& c, size_t place) noexcept {
 
 /// What oozes where bonds were. @return as above
 size_t lay_out_oozing(StepContext& c, size_t place) noexcept {
-  for (size_t i = 0; i < c.model.bonds.size() && place > 0; ++i) {
+  for (size_t i = 0; i < c.model.bonds.size(); ++i) {
     if (!(c.model.bonds[i].oozes > 0) && !(c.model.bonds[i].bleeds > 0)) continue;
-    fluids::Outlet& o = c.work.wounds[--place];
+    fluids::Outlet& o = next_outlet(c, place);
     const Ooze ooze = ooze_from_bonds(c, i);
     if (ooze.picolitres == 0) continue;
     o.flow.blood += ooze.picolitres;
@@ -71,9 +78,9 @@ size_t lay_out_oozing(StepContext& c, size_t place) noexcept {
 /// What needles spill and what runs back along their ways.
 void lay_out_needles(StepContext& c, size_t place) noexcept {
   if (!c.model.injection.there()) return;
-  for (std::int32_t i = 0; i < c.work.needle_outlet_count && place > 0; ++i) {
+  for (std::int32_t i = 0; i < c.work.needle_outlet_count; ++i) {
     const NeedleOutlet& needle = c.work.needle_outlets[size_t(i)];
-    fluids::Outlet& o = c.work.wounds[--place];
+    fluids::Outlet& o = next_outlet(c, place);
     o.flow.saline += needle.picolitres;
     if (o.area > 0) continue;  // it leaves with a wound
     o.source = fluids::Source::kIrrigated;

@@ -54,11 +54,12 @@ void cut_cuttables(StepContext& c, size_t t, const geometry::Blade& blade) noexc
   });
 }
 
-/// Index in the buffer of these blades' cut of a membrane's strand in this tick; else the buffer's end.
+/// Index in the buffer of these blades' cut of a fold's strand in this tick, where no other fold is recorded with it;
+/// else the buffer's end: an organ, a closed wall and a fold without a strand have records of their own.
 int place_in_buffer(const State& s, size_t t, std::int32_t strand) noexcept {
-  for (int i = 0; i < s.cut_count; ++i) {
+  for (int i = 0; strand >= 0 && i < s.cut_count; ++i) {
     const interactions::Cut& cut = s.cuts[size_t(i)];
-    if (cut.tick == s.tick && cut.tool == std::int32_t(t) && cut.strand == strand) return i;
+    if (cut.tick == s.tick && cut.tool == std::int32_t(t) && cut.strand == strand && cut.membrane < 0) return i;
   }
   return s.cut_count;
 }

@@ -86,16 +86,35 @@ class Springs {
   double strain(int i) const noexcept { return at(i).force / at(i).stiffness; }
 
  private:
+  /// Of a spring without a bound [N].
+  double whole_of(const NeedleSpring& s, const Motion& u) const noexcept {
+    const double apart = s.drive - product(s.row, u);
+    return s.stiffness * (s.gap + m_tick * apart) + s.damping * apart;
+  }
+  /// What the springs of a grip, from `first` on, bear of their force together.
+  double grip_share(std::size_t first, const Motion& u) const noexcept {
+    Vec3d force;
+    for (std::size_t i = first; i < m_list.size() && std::size_t(m_list[i].normal) == first; ++i)
+      if (m_list[i].bound == NeedleSpring::grips) force[int((i - first) % 3)] += whole_of(m_list[i], u);
+    const double bears = m_list[first].bears, pull = length(force);
+    return pull > bears ? bears / pull : 1;
+  }
+
   /// Forces at that motion and the shares that their bounds leave them. @return the greatest change of a share
   double share(const Motion& u) noexcept {
-    double most = 0;
-    for (NeedleSpring& s : m_list) {
-      const double apart = s.drive - product(s.row, u);
-      const double whole = s.stiffness * (s.gap + m_tick * apart) + s.damping * apart;
+    double most = 0, grip = 1;
+    for (std::size_t i = 0; i < m_list.size(); ++i) {
+      NeedleSpring& s = m_list[i];
+      const double whole = whole_of(s, u);
       double share = 1;
+      if (s.bound == NeedleSpring::grips) {
+        if (std::size_t(s.normal) == i) grip = grip_share(i, u);
+        share = grip;
+      }
       if (s.bound == NeedleSpring::push) share = whole > 0 ? 1 : 0;
       const double bears = s.bound == NeedleSpring::rubs ? s.bears * std::max(0.0, at(s.normal).force) : s.bears;
-      if (s.bound >= NeedleSpring::most) share = std::fabs(whole) > bears ? bears / std::fabs(whole) : 1;
+      if (s.bound == NeedleSpring::most || s.bound == NeedleSpring::rubs)
+        share = std::fabs(whole) > bears ? bears / std::fabs(whole) : 1;
       most = std::max(most, std::fabs(share - s.share));
       s.share = share;
       s.force = share * whole;
@@ -178,12 +197,16 @@ bool advance(const NeedleModel& m, Vec3d gravity, double h, NeedleState& s, Need
     number += 3;
   }
   const int first_hold = number;
-  for (const NeedleHold& hold : w.holds) {
+  int grip = number;  // where the holds of this owner begin
+  for (std::size_t i = 0; i < w.holds.size(); ++i) {
+    const NeedleHold& hold = w.holds[i];
+    if (i > 0 && hold.owner != w.holds[i - 1].owner) grip = number;
     const Vec3d arm = rotate(s.q, hold.own), off = hold.target - (s.x + arm);
     for (int k = 0; k < 3; ++k) {
       Vec3d axis;
       axis[k] = 1;
-      all.add(arm, axis, hold.stiffness, hold.damping, off[k], {0, 0, 0}, NeedleSpring::both);
+      all.add(arm, axis, hold.stiffness, hold.damping, off[k], {0, 0, 0},
+              hold.bears >= 0 ? NeedleSpring::grips : NeedleSpring::both, hold.bears, grip);
     }
     number += 3;
   }
@@ -232,6 +255,7 @@ bool advance(const NeedleModel& m, Vec3d gravity, double h, NeedleState& s, Need
   number = first_hold;
   for (NeedleHold& hold : w.holds) {
     hold.force = {all.at(number).force, all.at(number + 1).force, all.at(number + 2).force};
+    hold.slips = all.at(number).share < 1;
     number += 3;
   }
   number = first_pin;

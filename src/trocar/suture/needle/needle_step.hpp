@@ -30,12 +30,15 @@ struct NeedleContact {
   std::int32_t owner = -1;  ///< the caller's
   Vec3d force{0, 0, 0};     ///< out: on the needle [N]
 };
-/// A place of the wire that is pulled to a point.
+/// A place of the wire that is pulled to a point. Those of one owner, one after the other, pull together with no more
+/// than it bears.                                                                                     [needle in jaws]
 struct NeedleHold {
   Vec3d own, target;  ///< [m] own frame; the scene's
   double stiffness = 0, damping = 0;
   std::int32_t owner = -1;
   Vec3d force{0, 0, 0};  ///< out: on the needle [N]
+  double bears = -1;     ///< of all of the owner's [N]; below 0: whatever comes
+  bool slips = false;    ///< out: they bear no more, the wire slides there
 };
 /// A place of tissue that the wire goes through.
 struct NeedlePin {
@@ -68,12 +71,13 @@ struct NeedleTail {
 
 /// Along one direction, as the solver has it.
 struct NeedleSpring {
-  enum Bound : std::int32_t { both, push, most, rubs };
+  /// `grips`: threes along the axes, one after the other, whose force together is bounded.
+  enum Bound : std::int32_t { both, push, most, rubs, grips };
   std::array<double, 6> row{};  ///< dot motion: the speed along it
   double stiffness = 0, damping = 0, gap = 0, drive = 0;
-  double bears = 0;  ///< `most`: [N]; `rubs`: coefficient
+  double bears = 0;  ///< `most`, `grips`: [N]; `rubs`: coefficient
   Bound bound = both;
-  std::int32_t normal = -1;  ///< `rubs`: number of the spring that presses
+  std::int32_t normal = -1;  ///< `rubs`: number of the spring that presses; `grips`: of the first of those
   double share = 1, force = 0;
 };
 

@@ -15,6 +15,8 @@ constexpr double kMostTurn = 0.5;     ///< that a solve may turn an element, abo
 constexpr int kCalmTicks = 200;       ///< after which a thread that is still sleeps
 constexpr double kStillSpeed = 1e-6;  ///< [m/s]
 constexpr double kForgotten = 0.02;   ///< share of a tick that is not worth another solve
+constexpr double kKnotPress =
+    0.25;  ///< of its pull: where thread presses harder on itself, it is knotted. Our estimate
 
 /// The share of what is left that the next solve takes.
 void choose_part(Tick& t) {
@@ -117,6 +119,26 @@ void clear(const ThreadReactions& out) {
   std::fill(out.passages.begin(), out.passages.end(), PassageReaction{});
 }
 
+/// Where it is knotted: two of its places are tied, or it is bent about itself and pressed there; below 0: nowhere.
+/// Stretches that lie on each other without a load weaken neither.                                              [m]
+double knot_of(const Tick& t, double pull) {
+  for (const TieState& tie : t.s.ties)
+    if (tie.active) return tie.t;
+  const auto end = t.w.self.begin() + t.self;
+  const auto hardest =
+      std::max_element(t.w.self.begin(), end, [](const Touch& a, const Touch& b) { return a.press < b.press; });
+  return hardest != end && hardest->press > kKnotPress * pull ? (hardest->a + 0.5) * t.m.spacing : -1;
+}
+
+/// A straight thread bears its breaking force, a knotted one its knot pull strength, and parts at the knot. [knot pull]
+void report_weakest(const Tick& t, ThreadReport& report) {
+  if (!(report.tension > t.m.stuff.knotted_break_force)) return;
+  const double knot = knot_of(t, report.tension);
+  if (knot < 0 && !(report.tension > t.m.stuff.break_force)) return;
+  report.flags |= ThreadReport::kOverloaded;
+  if (knot >= 0) report.weakest = knot;
+}
+
 void report_loads(const Tick& t, ThreadReport& report) {
   for (int e = 0; e + 1 < t.m.nodes; ++e) {
     const double pull = tension(t.m, t.s, e);
@@ -124,8 +146,7 @@ void report_loads(const Tick& t, ThreadReport& report) {
   }
   const double closest = std::min(t.closest, closest_of(t.s, t.self, t.w));
   report.sunk = std::max(0.0, 1 - closest / t.m.stuff.diameter);
-  const double bears = t.self > 0 ? t.m.stuff.knotted_break_force : t.m.stuff.break_force;
-  if (report.tension > bears) report.flags |= ThreadReport::kOverloaded;
+  report_weakest(t, report);
   report.contacts = t.self;
   report.coupled = report.asleep ? 0 : t.w.system.coupled();
   report.lag = motion_left(t);

@@ -229,7 +229,7 @@ struct ThreadReport {
     kFull = 2,         ///< more pairs touch than are remembered: build with more `contacts`
     kIndefinite = 4,   ///< the system could not be solved: the tick was left out
     kNonFinite = 8,    ///< something that came in is not a number: the tick was left out
-    kOverloaded = 16,  ///< pulled beyond what it bears: the caller may part it at `weakest`
+    kOverloaded = 16,  ///< pulled beyond what it bears, straight or with a knot: the caller may part it at `weakest`
   };
   std::uint32_t flags = 0;
   int solves = 0;
@@ -238,7 +238,7 @@ struct ThreadReport {
   double lag = 0;      ///< how far a hold or an obstacle is ahead of what the thread takes it to be [m]
   double sunk = 0;     ///< of the deepest contact of thread on thread in any solve, as a share of the diameter
   double tension = 0;  ///< largest [N]
-  double weakest = 0;  ///< where that is [m]
+  double weakest = 0;  ///< where that is; of a knotted thread that is overloaded, its knot [m]
   bool asleep = false;
 };
 

@@ -13,6 +13,8 @@ constexpr double kReach = 3;             // of sigma: beyond it a Gaussian is no
 constexpr double kFollows = 0.1;         // [s] tau.                                           Our choice
 constexpr float kMostPerTheta = 4;       // times E theta: no pressure that so little fluid could not account for
 constexpr double kLookedFor = 0.02;      // [m] how far the pressure of a place is looked for
+constexpr float kNoPressure = 1;         // [Pa] less is none where it has torn
+constexpr float kRelieves = 0.98f;       // per tick, of a pressure at a cell that has torn.   Our choice
 
 /// Six times the volume of a cell, and its derivatives with the corners.
 struct CellShape {
@@ -88,6 +90,7 @@ InfusionWork make_work(const InfusionModel& m) {
   w.weight.resize(m.room.size());
   w.now.resize(m.room.size());
   w.force.resize(m.room.size());
+  w.torn.resize(m.room.size());
   return w;
 }
 
@@ -121,6 +124,16 @@ std::int64_t infuse(const InfusionModel& m, const NodeView& nodes, Vec3d tip, st
   s.total += goes;
   s.stirred = 1;
   return goes;
+}
+
+double filled_about(const InfusionModel& m, const NodeView& nodes, Vec3d place, double sigma,
+                    const InfusionState& s) noexcept {
+  double taken = 0, full = 0;
+  for_bell(m, nodes, place, std::max(sigma, m.finest), [&](std::size_t r, double bell) {
+    taken += bell * double(s.volume[r]) * kOnePicolitre;
+    full += bell * kFullest * double(m.room[r]);
+  });
+  return full > 0 ? std::min(1.0, taken / full) : 1.0;
 }
 
 std::int64_t let_out(const InfusionModel& m, const NodeView& nodes, Vec3d place, std::int64_t amount, double sigma,
@@ -159,18 +172,63 @@ std::int64_t absorb(double share, InfusionState& s) noexcept {
   return out;
 }
 
+std::int64_t drain_tears(double share, const InfusionWork& w, InfusionState& s, std::int32_t& most) noexcept {
+  std::int64_t out = 0, largest = 0;
+  most = -1;
+  for (std::size_t r = 0; r < s.volume.size(); ++r) {
+    std::int64_t& v = s.volume[r];
+    if (v == 0 || w.torn[r] == 0) continue;
+    if (v > largest) largest = v, most = std::int32_t(r);
+    const std::int64_t goes = std::max(std::int64_t(1), std::int64_t(double(v) * share));
+    v -= goes;
+    out += goes;
+  }
+  s.total -= out;
+  return out;
+}
+
+namespace {
+
+/// g of a cell that is stretched beyond what its fluid accounts for.                                     [torn cell]
+float relieved(float six, float rest6) noexcept {
+  const float whole = (1 + float(kFullest)) * rest6, burst = kBursts * rest6;
+  return six > whole ? std::max(0.0f, (burst - six) / (burst - whole)) : 1.0f;
+}
+
+/// Marks rows at cells that have torn.
+void find_tears(const NetworkModel& network, std::span<const std::uint8_t> phase, const InfusionState& s,
+                InfusionWork& w) noexcept {
+  w.tears = 0;
+  std::fill(w.torn.begin(), w.torn.end(), std::uint8_t(0));
+  for (std::size_t t = 0; t < phase.size(); ++t) {
+    if (phase[t] != kGone) continue;
+    for (const int row : network.tets[t].row) {
+      w.torn[std::size_t(row)] = 1;
+      if (s.volume[std::size_t(row)] > 0) w.tears = 1;
+    }
+  }
+}
+
+}  // namespace
+
 void swell(const InfusionModel& m, const NetworkModel& network, const std::vector<NodeState>& rows, double dt,
-           InfusionState& s, InfusionWork& w) noexcept {
-  w.pushes = 0;
+           InfusionState& s, InfusionWork& w, std::span<const std::uint8_t> phase) noexcept {
+  w.pushes = w.tears = 0;
   if (!s.stirred) return;
+  find_tears(network, phase, s, w);
   const std::size_t n = m.room.size();
   std::fill(w.now.begin(), w.now.end(), 0.0f);
   std::fill(w.force.begin(), w.force.end(), Vec3f{0, 0, 0});
   for (std::size_t r = 0; r < n; ++r) w.weight[r] = s.volume[r] > 0 || s.pressure[r] > 0 ? 1 : 0;
-  for (const TetRest& cell : network.tets) {
+  for (std::size_t t = 0; t < network.tets.size(); ++t) {
+    const TetRest& cell = network.tets[t];
     double active = 0;
     for (const int row : cell.row) active += w.weight[std::size_t(row)];
     if (active == 0) continue;
+    if (t < phase.size() && phase[t] == kGone) {  // counts as it was drawn, and holds nothing
+      for (const int row : cell.row) w.now[std::size_t(row)] += cell.rest6 / 24;
+      continue;
+    }
     const CellShape shape(rows, cell);
     float p = 0;
     for (const int row : cell.row) {
@@ -178,6 +236,7 @@ void swell(const InfusionModel& m, const NetworkModel& network, const std::vecto
       p += 0.25f * s.pressure[std::size_t(row)];
     }
     if (p == 0 || shape.six <= 0.1f * cell.rest6) continue;  // one that has collapsed is the guard's
+    p *= relieved(shape.six, cell.rest6);
     const Vec3f fa = (p / 6) * cross(shape.b, shape.c), fb = (p / 6) * cross(shape.c, shape.a),
                 fc = (p / 6) * cross(shape.a, shape.b);
     w.force[std::size_t(cell.row[0])] -= fa + fb + fc;
@@ -191,8 +250,10 @@ void swell(const InfusionModel& m, const NetworkModel& network, const std::vecto
     if (w.weight[r] == 0) continue;
     const float theta = float(double(s.volume[r]) * kOnePicolitre / double(m.room[r]));
     const float stands = w.now[r] / m.room[r] - 1;
+    const float before = s.pressure[r];
     const float most = std::min(float(m.opening), kMostPerTheta * float(m.modulus) * theta);
     s.pressure[r] = std::clamp(s.pressure[r] + gain * (theta - stands), 0.0f, most);
+    if (w.torn[r] != 0) s.pressure[r] = before > kNoPressure ? kRelieves * before : 0;
     any = any || s.pressure[r] > 0 || s.volume[r] > 0;
   }
   s.stirred = any ? 1 : 0;

@@ -3,12 +3,15 @@
 //   v_i  whole picolitres at node i, V_i its share of the cells: wanted dilation theta_i = v_i / V_i
 //   J_i  dilation of the cells around node i as they stand
 //   dP_i/dt = (E / tau) (theta_i - J_i),  0 <= P_i <= least(opening, 4 E theta_i)          [injected volume]
-//   f_j  = sum over cells c of mean(P of its corners) dV_c/dx_j                              [pore pressure]
+//   f_j  = sum over cells c of g_c mean(P of its corners) dV_c/dx_j                          [pore pressure]
+//   g_c  = 1 up to J_c = 1 + kFullest, falls to 0 at kBursts; 0 of a cell that has torn       [torn cell]
 //
 // The tissue is a drained skeleton, its springs, and fluid that does not give: P is the pressure that makes just as
 // much room as has flowed in, whatever the law of the springs and however near the surface. It follows with tau, as the
 // body's own motion is far quicker than a syringe. Infinite linear tissue: P = (K + 4 G / 3) theta.
 // A cavity opens in soft tissue at 5 E / 6 [Gent & Lindley 1959]; no pressure is higher.
+// No cell is stretched by more than its fluid could account for, whatever holds it back; one that has torn is open, and
+// what lies at its corners has no pressure and runs out.
 // What goes in spreads as a Gaussian about the tip whose width grows with what is there, so that no more than a third
 // of the tissue's own volume lies in it; a node that is full takes none. All amounts are integers: none is lost.
 //
@@ -61,14 +64,17 @@ struct InfusionState {
 InfusionState dry(const InfusionModel& model);
 
 struct InfusionWork {
-  std::vector<double> weight;  ///< (rows)
-  std::vector<float> now;      ///< (rows) sum of the cells' volumes around a node [m^3]
-  std::vector<Vec3f> force;    ///< (rows) [N]
-  std::int32_t pushes = 0;     ///< 1: `force` is of this tick
+  std::vector<double> weight;      ///< (rows)
+  std::vector<float> now;          ///< (rows) sum of the cells' volumes around a node [m^3]
+  std::vector<Vec3f> force;        ///< (rows) [N]
+  std::vector<std::uint8_t> torn;  ///< (rows) 1: at a cell that has torn
+  std::int32_t pushes = 0;         ///< 1: `force` is of this tick
+  std::int32_t tears = 0;          ///< 1: there is fluid at cells that have torn
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("weight", s.weight), v("now", s.now), v("force", s.force), v("pushes", s.pushes);
+    v("weight", s.weight), v("now", s.now), v("force", s.force), v("torn", s.torn), v("pushes", s.pushes),
+        v("tears", s.tears);
   }
 };
 InfusionWork make_work(const InfusionModel& model);
@@ -76,6 +82,7 @@ InfusionWork make_work(const InfusionModel& model);
 inline constexpr double kFullest = 0.5;     ///< a node holds so much of its room.                 Our choice
 inline constexpr double kMeant = 0.3;       ///< the middle of a fresh Gaussian.                   Our choice
 inline constexpr double kNarrowest = 3e-3;  ///< sigma of what little has flowed [m].            Our choice
+inline constexpr float kBursts = 3;         ///< J of a cell on which fluid presses no more.      Our choice
 
 /// sigma of the Gaussian that holds `volume` [m^3] with kMeant in its middle, at least kNarrowest.         [m]
 double spread_of(double volume) noexcept;
@@ -86,6 +93,10 @@ double spread_of(double volume) noexcept;
 std::int64_t infuse(const InfusionModel& model, const NodeView& nodes, Vec3d tip, std::int64_t amount, double sigma,
                     bool drugged, std::uint32_t tick, InfusionState& state, InfusionWork& work) noexcept;
 
+/// The share that is taken of all that the tissue about a place can hold, 0 .. 1.
+double filled_about(const InfusionModel& model, const NodeView& nodes, Vec3d place, double sigma,
+                    const InfusionState& state) noexcept;
+
 /// Takes up to `amount` [pL] from what lies within a few sigma of `place`.
 /// @return what was there [pL]
 std::int64_t let_out(const InfusionModel& model, const NodeView& nodes, Vec3d place, std::int64_t amount, double sigma,
@@ -95,9 +106,14 @@ std::int64_t let_out(const InfusionModel& model, const NodeView& nodes, Vec3d pl
 /// @return how much that was [pL]
 std::int64_t absorb(double share, InfusionState& state) noexcept;
 
+/// Takes the `share` of what lies at cells that have torn, as the last swell() has found them.
+/// @param most  out: the row where most of it lay; -1: nothing did  @return how much that was [pL]
+std::int64_t drain_tears(double share, const InfusionWork& work, InfusionState& state, std::int32_t& most) noexcept;
+
 /// One tick: pressures follow what lies there, and push.
+/// @param phase  (cells) as NetworkState::tet_phase; empty: all are whole
 void swell(const InfusionModel& model, const NetworkModel& network, const std::vector<NodeState>& rows, double dt,
-           InfusionState& state, InfusionWork& work) noexcept;
+           InfusionState& state, InfusionWork& work, std::span<const std::uint8_t> phase = {}) noexcept;
 
 /// P at the node nearest to a place, of those that hold any fluid.                                        [Pa]
 double pressure_at(const NodeView& nodes, Vec3d place, const InfusionState& state) noexcept;

@@ -18,7 +18,7 @@ class Reported final : public EventDetector {
   void tick(const Snapshot& snapshot, const sim::StepReport& report, EventInstances& out) override {
     for (int i = 0; i < report.event_count; ++i) {
       const sim::Event& e = report.events[i];
-      if (e.kind != kind) continue;
+      if (e.kind != kind || e.tool < 0) continue;  // no hand did it
       const Vec3d tip = tip_of(snapshot.model, snapshot.state, size_t(e.tool));
       const BodyId body = has_body ? e.body() : kNoBody;
       out.add({e.tool, body, -1, name_of_body(snapshot.model, body), tip, tip});
@@ -69,6 +69,8 @@ constexpr Lacks lacks_for(sim::EventWords::Needs needs) {
       return needs_sling;
     case sim::EventWords::thread:
       return needs_thread;
+    case sim::EventWords::applier:
+      return needs_applier;
     case sim::EventWords::nothing:
       break;
   }
@@ -94,9 +96,10 @@ std::span<const EventKind> reported_events() {
   return all;
 }
 
-const EventKind kTorn{"torn",   {},
-                      {},       "Tissue tore under a pull or a pressure; reported once per body while the tear grows.",
-                      anywhere, &make_detector<Torn>,
-                      false,    EventKind::Hold::now};
+const EventKind kTorn{
+    "torn",   {},
+    {},       "Tissue tore under a hand's pull or pressure; reported once per body while the tear grows.",
+    anywhere, &make_detector<Torn>,
+    false,    EventKind::Hold::now};
 
 }  // namespace trocar::training

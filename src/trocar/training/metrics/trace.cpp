@@ -85,7 +85,8 @@ void TraceRecorder::update(const sim::Model& model, const sim::State& state, con
   if (m_full) return;
   for (int e = 0; e < report.event_count && m_trace.marks.size() < kMaxTraceMarks; ++e) {
     const TraceMark::Kind kind = mark_of(report.events[e].kind);
-    if (kind != TraceMark::kinds) m_trace.marks.push_back({kind, report.events[e].tool, std::uint32_t(m_trace.size())});
+    const std::int32_t hand = report.events[e].tool;
+    if (kind != TraceMark::kinds && hand >= 0) m_trace.marks.push_back({kind, hand, std::uint32_t(m_trace.size())});
   }
   if (state.tick % kTraceEvery != 0) return;
   const bool first = m_trace.size() == 0;

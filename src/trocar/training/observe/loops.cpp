@@ -4,6 +4,15 @@
 #include <trocar/training/observe/loops.hpp>
 
 namespace trocar::training {
+namespace {
+
+/// A thread that broke has been cut by nobody.
+bool has_cut_tail(const sim::State& state, const sim::LoopClosure& loop) {
+  const interactions::SutureState& s = state.objects.sutures[size_t(loop.suture)];
+  return s.sling.stage == interactions::SlingState::left && s.broken == 0;
+}
+
+}  // namespace
 
 std::optional<LoopSeen> loop_on(const sim::Model& model, const sim::State& state, int strand, double s) {
   std::optional<LoopSeen> nearest;
@@ -15,8 +24,8 @@ std::optional<LoopSeen> loop_on(const sim::Model& model, const sim::State& state
     seen.closure = loop;
     const interactions::SlingState& g = state.objects.sutures[size_t(loop.suture)].sling;
     seen.tension = g.tension;
-    seen.off = g.stage == interactions::SlingState::left;
-    seen.pull = seen.off ? 0 : std::max(0.0, g.pulled);
+    seen.off = has_cut_tail(state, loop);
+    seen.pull = g.stage == interactions::SlingState::left ? 0 : std::max(0.0, g.pulled);
     seen.stump = interactions::free_end(body, state.strands[size_t(strand)], interactions::place_at(body, loop.s)).away;
     nearest = seen;
   });
@@ -26,8 +35,7 @@ std::optional<LoopSeen> loop_on(const sim::Model& model, const sim::State& state
 SecuredLoops secured_loops(const sim::Model& model, const sim::State& state, int strand) {
   SecuredLoops found;
   sim::visit_loops(model, state, [&](const sim::LoopClosure& loop) {
-    const interactions::SlingState& g = state.objects.sutures[size_t(loop.suture)].sling;
-    const bool counts = loop.strand == strand && g.stage == interactions::SlingState::left;
+    const bool counts = loop.strand == strand && has_cut_tail(state, loop);
     if (!counts || loop.cover < LoopSeen::kCloses || found.count == sim::kMostLoops) return;
     found.at[size_t(found.count++)] = loop.s;
   });

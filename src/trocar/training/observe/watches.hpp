@@ -66,7 +66,7 @@ class PullWatch {
   std::array<double, sim::kMaxTools> m_over_for{};
 };
 
-/// Tissue that tears, once a body for as long as it continues tearing.
+/// Tissue that tears by a hand, once a body for as long as it continues tearing.
 class TearWatch {
  public:
   void update(const sim::Model& model, const sim::State& state, const sim::StepReport& report, Incidents& out);

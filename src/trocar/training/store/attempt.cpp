@@ -12,7 +12,7 @@ namespace trocar::training {
 namespace {
 
 constexpr const char* kModes[] = {"assessed", "familiarisation", "demonstration", "free practice"};
-constexpr const char* kStates[] = {"running", "finished", "aborted", "interrupted"};
+constexpr const char* kStates[] = {"running", "finished", "aborted", "interrupted", "not assessed"};
 
 template <class Enum, std::size_t N>
 std::optional<Enum> named(const char* const (&names)[N], const std::string& name) {

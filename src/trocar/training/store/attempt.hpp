@@ -18,9 +18,10 @@ enum class AttemptMode {
 
 enum class AttemptState {
   running,
-  finished,     ///< the exercise, or what led the instruments, came to its end
-  aborted,      ///< somebody ended it before
-  interrupted,  ///< the program ended without saying so: killed, or the power went
+  finished,      ///< the exercise, or what led the instruments, came to its end
+  aborted,       ///< somebody ended it before
+  interrupted,   ///< the program ended without saying so: killed, or the power went
+  not_assessed,  ///< the simulation failed: neither score nor verdict
 };
 
 const char* name_of(AttemptMode mode);
@@ -68,6 +69,8 @@ AttemptMode mode_in_header(const std::string& metadata_json);
 /// Score, verdict and length from the result that an attempt ended with; a familiarisation has neither of the first
 /// two.
 void fill_from_result(const std::string& result, Attempt& attempt);
+/// How an attempt with that result ended: finished, aborted or not assessed.
+AttemptState state_in_result(const std::string& result);
 
 /// The attempt without its trace as a JSON object, and back; nothing for a text that is not one.
 std::string to_json(const Attempt& attempt);

@@ -24,6 +24,13 @@ void fill_from_result(const std::string& result, Attempt& a) {
   if (a.mode == AttemptMode::familiarisation) a.score.reset(), a.passed.reset();
 }
 
+AttemptState state_in_result(const std::string& result) {
+  const Json in = Json::parse(result, nullptr, false);
+  if (!in.is_object()) return AttemptState::finished;
+  if (in.contains("failure")) return AttemptState::not_assessed;
+  return in.contains("interrupted") ? AttemptState::aborted : AttemptState::finished;
+}
+
 AttemptMode mode_in_header(const std::string& metadata_json) {
   const Json note = Json::parse(metadata_json, nullptr, false);
   if (!note.is_object()) return AttemptMode::assessed;
@@ -62,9 +69,8 @@ bool fill_from_recording(const fs::path& file, Attempt& a) {
   a.state = AttemptState::interrupted;
   if (r.complete) {
     fill_from_result(r.result_json, a);
+    a.state = state_in_result(r.result_json);
     const Json result = Json::parse(r.result_json, nullptr, false);
-    const bool aborted = result.is_object() && result.contains("interrupted");
-    a.state = aborted ? AttemptState::aborted : AttemptState::finished;
     if (result.is_object() && a.ended.empty()) a.ended = bounded(text_in(result, "ended"));
   }
   return true;

@@ -14,43 +14,32 @@ using interactions::Clip;
 
 namespace {
 
-Vec3d in_world(const double (&v)[3], const interactions::StrandFrame& f) {
-  return v[0] * f.tangent + v[1] * f.normal + v[2] * f.binormal;
-}
-
 // Shares of a tube's radius, our choice: how far it bulges and gathers beside a clip. What is pressed flat keeps its
 // girth: it spreads between the legs, and a stump beyond them stays half flat.
 constexpr double kPinchBulge = 0.2, kGathers = 0.1, kPinchSpreads = 0.42, kStumpFlat = 0.62;
-
-double leg_length(const Clip& clip) { return clip.length > 0 ? clip.length : kClipLength; }
 
 bool holds(const interactions::ToolState& tool, BodyId body) {
   const int n = std::min(tool.holds, interactions::kMaxHolds);
   return std::any_of(tool.hold, tool.hold + std::max(0, n), [body](const auto& h) { return h.body == body; });
 }
 
-struct ClipSeat {
-  Vec3d centre;
-  interactions::StrandFrame frame;
-  double radius = 0;
-};
-ClipSeat seat_on_strand(const Clip& clip, const sim::Model& model, const sim::State& state) {
-  const std::size_t strand = std::size_t(clip.strand);
-  const interactions::StrandBody& body = model.strand_bodies[strand];
-  const interactions::StrandPlace place = place_at(body, clip.s);
-  return {point_at(body, state.strands[strand], place), frame_at(body, state.strands[strand], place),
-          body.model.radius[std::size_t(place.element)]};
-}
-ClipSeat seat_on_vessel(const Clip& clip, const sim::Model& model, const sim::State& state) {
-  const int vessel = clip.vessel - 1;
-  const interactions::VesselPath& path = model.vessels.list[std::size_t(vessel)].path;
+sim::ClipSeat seat_of(const Clip& clip, const sim::Model& model, const sim::State& state) {
+  if (clip.strand >= 0) return sim::seat_on_strand(clip, model, state);
+  const interactions::VesselPath& path = model.vessels.list[std::size_t(clip.vessel - 1)].path;
   sim::HostViews views = sim::make_host_views(model);
   std::vector<Vec3d> points(path.points.size());
   pose_vessel(path, sim::look_at_hosts(model, state, views), points);
-  std::array<double, interactions::kMaxOpenings> cuts;
-  const double s = std::clamp(clip.s / path.length, 0.0, 1.0);
-  const interactions::VesselSpot spot = vessel_spot(path, points, sim::cuts_of(state, vessel, cuts), s);
-  return {spot.place, vessel_frame(path, spot), vessel_radius(path, s)};
+  return sim::seat_on_vessel(clip, model, state, points);
+}
+
+ClipPress press_with(const sim::ClipLegs& legs, double radius, double s) {
+  ClipPress press;
+  press.centre = legs.centre, press.axis = legs.axis, press.open = legs.open;
+  press.normal = cross(press.axis, press.open);
+  press.radius = radius;
+  press.low = legs.low, press.high = legs.high;
+  press.s = s;
+  return press;
 }
 
 void find_stumps(const Clip& clip, bool normal_along, const sim::State& state, ClipPress& press) {
@@ -71,36 +60,16 @@ bool closes_end(const Clip& clip, double end) {
 }
 
 ClipPress press_of(const Clip& clip, const sim::Model& model, const sim::State& state) {
-  const auto [centre, frame, radius] =
-      clip.strand >= 0 ? seat_on_strand(clip, model, state) : seat_on_vessel(clip, model, state);
-  ClipPress press;
-  press.centre = centre;
-  press.axis = normalised(in_world(clip.axis, frame), frame.binormal);
-  const Vec3d open = in_world(clip.opening, frame);
-  press.open = normalised(open - dot(open, press.axis) * press.axis, any_perpendicular(press.axis));
-  press.normal = cross(press.axis, press.open);
-  press.radius = radius;
+  const sim::ClipSeat seat = seat_of(clip, model, state);
+  ClipPress press = press_with(sim::legs_on(clip, seat), seat.radius, clip.s);
   press.flat = kClipHalfGap / press.radius;
-  press.low = -clip.reach;
-  press.high = leg_length(clip) - clip.reach;
-  press.s = clip.s;
-  if (clip.strand >= 0) find_stumps(clip, dot(press.normal, frame.tangent) > 0, state, press);
+  if (clip.strand >= 0) find_stumps(clip, dot(press.normal, seat.frame.tangent) > 0, state, press);
   return press;
 }
 
 ClipPress press_on_thread(const Clip& clip, int number, const sim::State& state) {
   const suture::ThreadClip* sits = interactions::thread_clip(state.objects.sutures, clip, number);
-  ClipPress press;
-  if (!sits) return press;
-  press.centre = sits->at;
-  press.axis = normalised(sits->axis_now);
-  press.open = normalised(sits->open_now - dot(sits->open_now, press.axis) * press.axis, any_perpendicular(press.axis));
-  press.normal = cross(press.axis, press.open);
-  press.radius = kClipHalfGap;
-  press.low = -clip.reach;
-  press.high = leg_length(clip) - clip.reach;
-  press.s = sits->s[0];
-  return press;
+  return sits ? press_with(sim::legs_on_thread(clip, *sits), kClipHalfGap, sits->s[0]) : ClipPress{};
 }
 
 std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::State& state) {

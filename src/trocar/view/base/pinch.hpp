@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include <trocar/sim/model/state.hpp>
+#include <trocar/sim/model/clip_seat.hpp>
 
 namespace trocar::view {
 
@@ -33,12 +33,9 @@ struct JawPress {
   double length = 0, half_width = 0;  ///< of the jaws [m]
 };
 
-/// Half the clear space between the legs of a closed clip, and how wide and thick a leg is [m].
-inline constexpr double kClipHalfGap = 0.00025, kClipLegWidth = 0.0011, kClipLegThickness = 0.00085;
+using sim::kClipHalfGap, sim::kClipLegWidth, sim::kClipLegThickness, sim::kClipLength;
 /// A cut end that is no further from a clip is closed by it: it cannot open to a round tube again [m].
 inline constexpr double kSealedWithin = 0.008;
-/// Legs of clips whose applier does not say how long they are [m].
-inline constexpr double kClipLength = 0.0085;
 
 /// Does that clip close a cut end of its strand there, at arc length `end` [m]?
 bool closes_end(const interactions::Clip& clip, double end);
