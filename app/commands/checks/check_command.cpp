@@ -103,7 +103,7 @@ Json check_one(const fs::path& path, double unit) {
   if (is_room_file(document.root)) return describe_room(path);
   if (is_rules_file(document.root)) return describe_rules(path);
   if (is_inputs_file(document.root)) return describe_inputs(path, document.root);
-  if (attempt::is_exercise(path)) {
+  if (attempt::is_exercise(document.root)) {
     out["kind"] = "exercise";
     out.update(describe_exercise(path));
     return out;

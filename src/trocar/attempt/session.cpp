@@ -13,6 +13,7 @@
 #include <trocar/core/text.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
+#include <trocar/training/exercise/exercise_hash.hpp>
 #include <trocar/training/observe/hands.hpp>
 
 namespace trocar::attempt {
@@ -28,7 +29,7 @@ constexpr FlagName kFlags[] = {
     {sim::StepReport::kTooManyLoads, "too_many_loads"},   {sim::StepReport::kBadInput, "bad_input"},
     {sim::StepReport::kRecordsFull, "book_full"},         {sim::StepReport::kHeatFull, "heat_full"},
     {sim::StepReport::kDropsFull, "drops_full"},          {sim::StepReport::kBloodFlow, "blood_flow"},
-    {tissue::StepReport::kBeyondLinear, "beyond_linear"},
+    {tissue::StepReport::kBeyondLinear, "beyond_linear"}, {sim::StepReport::kEventsFull, "events_full"},
 };
 
 }  // namespace
@@ -71,10 +72,11 @@ void Session::record(const std::filesystem::path& path, const training::Attempt&
   header.seed = m_lesson.seed;
   header.exercise = m_lesson.name;
   header.program_version = TROCAR_VERSION;
-  header.metadata_json = Json{{"trainee", attempt.trainee}, {"input", attempt.input},   {"started", attempt.started},
-                              {"uuid", attempt.uuid},       {"number", attempt.number}, {"mode", name_of(attempt.mode)},
-                              {"title", attempt.title}}
-                             .dump(-1, ' ', false, Json::error_handler_t::replace);
+  Json note{{"trainee", attempt.trainee}, {"input", attempt.input},   {"started", attempt.started},
+            {"uuid", attempt.uuid},       {"number", attempt.number}, {"mode", name_of(attempt.mode)},
+            {"title", attempt.title}};
+  if (m_lesson.exercise) note[training::kExerciseHash] = core::hex(training::judgement_hash(*m_lesson.exercise));
+  header.metadata_json = note.dump(-1, ' ', false, Json::error_handler_t::replace);
   m_writer = std::make_unique<sim::RecordingWriter>(path, header);
   m_recording = path;
   m_writer->hash(m_state.tick, mark());
@@ -99,6 +101,7 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
     m_tip[t] = tip;
   }
   if (m_monitor) m_monitor->update(m_lesson.model, m_state, m_report);
+  if (m_monitor && m_monitor->rules().events().lost()) m_flags |= sim::StepReport::kEventsFull;
   m_trace.update(m_lesson.model, m_state, m_report);
   if (m_exercise_from < 0 && m_monitor && m_monitor->seconds() > 0)
     m_exercise_from = double(m_state.tick) * sim::kTick - m_monitor->seconds();

@@ -130,6 +130,7 @@ Json attempts_json(const std::vector<Attempt>& attempts, bool names) {
              {"program_version", a.program_version},
              {"model_hash", core::hex(a.model_hash)},
              {"has_trace", a.has_trace}};
+    if (is_unverified(a)) one["unverified"] = true;
     one["result"] = result_of(a);
     list.push_back(std::move(one));
   }

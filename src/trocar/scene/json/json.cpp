@@ -62,8 +62,8 @@ std::string shortened(std::string_view text) {
 /// Recursion is bounded by kMaxJsonDepth, so the depth of the input never meets the depth of the machine's stack.
 class Parser {
  public:
-  Parser(std::string_view text, const std::string& file, std::vector<core::Fault>& faults)
-      : m_text(text), m_file(file), m_faults(faults) {}
+  Parser(std::string_view text, const std::string& file, std::vector<core::Fault>& faults, const JsonLimits& limits)
+      : m_text(text), m_file(file), m_faults(faults), m_limits(limits) {}
 
   JsonValue document() {
     JsonValue root = broken({1, 1});
@@ -81,11 +81,13 @@ class Parser {
     return root;
   }
   bool is_lost() const { return m_lost; }
+  int values() const { return m_values; }
 
  private:
   std::string_view m_text;
   const std::string& m_file;
   std::vector<core::Fault>& m_faults;
+  const JsonLimits& m_limits;
   std::size_t m_at = 0;
   Place m_place;
   int m_values = 0;
@@ -179,8 +181,8 @@ class Parser {
 
   JsonValue value_here(int depth) {
     const Place at = m_place;
-    if (++m_values > kMaxJsonValues) {
-      lost(at, tr("expected at most {} values in a file, got more", kMaxJsonValues));
+    if (++m_values > m_limits.values) {
+      lost(at, tr("expected at most {} values in a file, got more", m_limits.values));
       return broken(at);
     }
     const char c = peek();
@@ -236,6 +238,8 @@ class Parser {
       if (at_end() || peek() == '\n') {
         const char* what = at_end() ? "the end of the file" : "the end of the line";
         lost(m_place, tr("expected '\"' to close the string that began at {}:{}, got {}", at.line, at.column, what));
+      } else if (v.text.size() > m_limits.text_bytes) {
+        lost(at, tr("expected a text of at most {} bytes, got a longer one", m_limits.text_bytes));
       } else if (peek() == '"') {
         next();
         return std::exchange(m_has_nul, false) ? broken(at) : v;
@@ -403,25 +407,28 @@ const std::string* MemoryFiles::text_of(const std::filesystem::path& path) const
   return found == end() ? nullptr : &found->second;
 }
 
-JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults) {
+JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults,
+                        const JsonLimits& limits) {
   JsonDocument document{std::move(file), {}};
-  Parser parser(text, document.file, faults);
+  Parser parser(text, document.file, faults, limits);
   document.root = parser.document();
+  document.values = parser.values();
   if (parser.is_lost()) document.root.kind = Kind::broken;  // its members still tell the file's kind
   return document;
 }
 
-JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults, const MemoryFiles* memory) {
+JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults, const MemoryFiles* memory,
+                       const JsonLimits& limits) {
   JsonDocument document{path.generic_string(), {}};
   document.root.kind = Kind::broken;
   if (const std::string* text = memory ? memory->text_of(path) : nullptr)
-    return parse_json(*text, document.file, faults);
+    return parse_json(*text, document.file, faults, limits);
   if (!MemoryFiles::disk_too(memory)) {
     tell(faults, {{document.file, 0, 0}, "expected a file, got none of this name"});
     return document;
   }
   try {
-    return parse_json(core::read_file(path, kMaxJsonBytes), document.file, faults);
+    return parse_json(core::read_file(path, kMaxJsonBytes), document.file, faults, limits);
   } catch (const core::BadInput& e) {
     tell(faults, e.faults().front());
     return document;

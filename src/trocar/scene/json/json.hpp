@@ -4,7 +4,7 @@
 // one pass. Event interfaces of JSON libraries stop at the first bad number; this reader continues after every fault
 // that leaves the structure readable (a number that is not finite, a bad word, a key given twice, a comma too many) and
 // stops only where the structure itself is lost. Grammar: RFC 8259, and comments as in C++. Limits: 16 MiB, 64 levels
-// of nesting, a million values, 256 keys in one object.
+// of nesting, half a million values, 256 keys in one object; a kind of file may have less (JsonLimits).
 //
 //   std::vector<core::Fault> faults;
 //   const JsonDocument document = load_json("scenes/tissues.json", faults);
@@ -51,19 +51,27 @@ struct JsonMember {
 struct JsonDocument {
   std::string file;  ///< as faults show it
   JsonValue root;    ///< broken where the text has no readable value
+  int values = 0;    ///< read
 };
 
 inline constexpr std::size_t kMaxJsonBytes = 16u << 20;
 inline constexpr int kMaxJsonDepth = 64;
-inline constexpr int kMaxJsonValues = 1'000'000;
+inline constexpr int kMaxJsonValues = 500'000;
 inline constexpr std::size_t kMaxJsonKeys = 256;  ///< in one object
 inline constexpr std::size_t kMaxFaults = 1000;   ///< told of one reading
+
+/// How much a text may hold: asked while it is read, so that what is refused takes neither time nor memory.
+struct JsonLimits {
+  int values = kMaxJsonValues;
+  std::size_t text_bytes = kMaxJsonBytes;  ///< of one string
+};
 
 /// Appends a fault; where there are kMaxFaults already, only that not all are reported.
 void tell(std::vector<core::Fault>& faults, core::Fault fault);
 
 /// Reads `text`; what is wrong with it is appended to `faults`. Never throws on bad text.
-JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults);
+JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults,
+                        const JsonLimits& limits = {});
 
 /// Texts that stand in for files, by path as given: lets tests feed readers without a disk, and editors read what is
 /// not saved yet.
@@ -78,7 +86,7 @@ struct MemoryFiles : std::map<std::filesystem::path, std::string> {
 
 /// The same for a file; one that cannot be read is a fault at line 0. With `memory` files are looked up there first.
 JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults,
-                       const MemoryFiles* memory = nullptr);
+                       const MemoryFiles* memory = nullptr, const JsonLimits& limits = {});
 
 /// How a fault names a value: `"text"`, `-3`, `an array`, `null` (long strings are shortened).
 std::string shown(const JsonValue& value);

@@ -24,10 +24,32 @@ void fill_from_result(const std::string& result, Attempt& a) {
   if (a.mode == AttemptMode::familiarisation) a.score.reset(), a.passed.reset();
 }
 
+namespace {
+
+constexpr const char* kFromRecording = "from_recording";
+
+}  // namespace
+
+void mark_unverified(Attempt& a) {
+  const Json in = Json::parse(a.result, nullptr, false);
+  if (!in.is_object()) return;
+  Json out{{kFromRecording, true}};  // first, so that is_unverified() finds it
+  for (const auto& [key, value] : in.items())
+    if (key != kFromRecording) out[key] = value;
+  a.result = out.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+bool is_unverified(const Attempt& a) { return a.result.rfind(fmt::format("{{\"{}\":true", kFromRecording), 0) == 0; }
+
 AttemptMode mode_in_header(const std::string& metadata_json) {
   const Json note = Json::parse(metadata_json, nullptr, false);
   if (!note.is_object()) return AttemptMode::assessed;
   return mode_named(text_in(note, "mode")).value_or(AttemptMode::assessed);
+}
+
+std::string exercise_hash_in(const std::string& metadata_json) {
+  const Json note = Json::parse(metadata_json, nullptr, false);
+  return note.is_object() ? text_in(note, kExerciseHash) : std::string();
 }
 
 bool fill_from_recording(const fs::path& file, Attempt& a) {
