@@ -47,7 +47,7 @@ std::vector<Seed> exercise_seeds() {
                      bytes_of(packed({{kMainFile, R"({"format": 3, "name": "n", "title": "t", "scene": "s.json",
       "score": {"quality": 60, "time": 25, "motion": 15, "source": "s"}, "hold_s": 0.2, "expert_s": 1, "longest_s": 9,
       "pass_mark": 50, "sets": {"a": [{"name": "x", "m": ["$b"]}, {"name": "y", "m": "z"}], "b": {"marks": "*i*o*"}},
-      "demonstration": [{"for_each": "a", "goals": [{"goal": "{n}", "do": [{"skill": "wait", "for_s": 1}]}]}],
+      "demonstration": [{"for_each": "a", "goals": [{"goal": "{n}", "do": [{"skill": "hold", "for_s": 1}]}]}],
       "rehearsed": [{"seed": 1, "choices": [[1, 2], [3, 4]]}], "steps": [{"step": "a", "title": "{title}", "when": )" +
                                                       std::string(condition) + "}]}"}}))});
   return seeds;

@@ -66,7 +66,7 @@ std::string demonstration(const std::string& goals) { return R"(, "demonstration
 
 TEST(ExerciseBounds, AFileWithinThemIsGood) {
   EXPECT_TRUE(faults_of(text_of(step_when(nested(2)), kSet)).empty());
-  EXPECT_TRUE(faults_of(text_of(kStep, kSet, demonstration(R"({"goal": "g", "do": [{"skill": "wait"}]})"))).empty());
+  EXPECT_TRUE(faults_of(text_of(kStep, kSet, demonstration(R"({"goal": "g", "do": [{"skill": "hold"}]})"))).empty());
 }
 
 TEST(ExerciseBounds, ConditionsWithinEachOtherAreCountedOnceForEachElement) {
@@ -74,7 +74,7 @@ TEST(ExerciseBounds, ConditionsWithinEachOtherAreCountedOnceForEachElement) {
     expect_refused(text_of(step_when(nested(levels)), kSet), "at most 100000 conditions, names and skills");
   expect_refused(text_of(kStep, kSet,
                          demonstration(R"({"for_each": "g", "goals": [{"goal": "x", "until": )" + nested(3) +
-                                       R"(, "do": [{"skill": "wait"}]}]})")),
+                                       R"(, "do": [{"skill": "hold"}]}]})")),
                  "at most 100000 conditions, names and skills");
 }
 
@@ -110,13 +110,13 @@ TEST(ExerciseBounds, NamesThatStandForManyAreCounted) {
 }
 
 TEST(ExerciseBounds, SkillsAreCountedOnceForEachElement) {
-  const std::string goal = R"({"goal": "x", "do": [)" + repeated(R"({"skill": "wait"})", 1000) + "]}";
+  const std::string goal = R"({"goal": "x", "do": [)" + repeated(R"({"skill": "hold"})", 1000) + "]}";
   expect_refused(text_of(kStep, kSet, demonstration(R"({"for_each": "g", "goals": [)" + repeated(goal, 20) + "]}")),
                  "at most 100000 conditions, names and skills");
 }
 
 TEST(ExerciseBounds, AFileOfVeryManyValuesIsRefusedWhileItIsRead) {
-  const std::string goal = R"({"goal": "x", "do": [)" + repeated(R"({"skill": "wait"})", 1000) + "]}";
+  const std::string goal = R"({"goal": "x", "do": [)" + repeated(R"({"skill": "hold"})", 1000) + "]}";
   expect_refused(text_of(kStep, kSet, demonstration(repeated(goal, 100))), "at most 100000 values in a file");
   expect_refused(
       text_of(kStep, "",
@@ -183,7 +183,7 @@ TEST(ExerciseBounds, ManyFaultsCostNoMoreThanTheirWords) {
   for (int i = 0; i < 500; ++i)
     errors += (i > 0 ? "," : "") + (R"({"code": "E)" + std::to_string(i)) +
               R"(", "name": "n", "points": 1, "source": "s", "meaning": "m", "when": )" + kNow + R"(, "implies": [)" +
-              numbered(("\"" + std::string(55, 'x')).c_str(), 60, "\"") + "]}";
+              numbered("\"", 60, (std::string(55, 'x') + "\"").c_str()) + "]}";
   EXPECT_EQ(faults_of(text_of(kStep, "", R"(, "errors": [)" + errors + "]")).size(), scene::kMaxFaults + 1);
 }
 

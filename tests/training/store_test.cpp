@@ -210,7 +210,7 @@ TEST_F(StoreTest, KilledBetweenRecordingAndRowItHasEndedAllTheSame) {
   const Attempt a = store.list().front();
   EXPECT_EQ(a.state, AttemptState::finished);
   EXPECT_EQ(a.score, 87.5);
-  EXPECT_EQ(a.result, kResult);
+  EXPECT_TRUE(is_unverified(a)) << "only its recording says so";
 }
 
 TEST_F(StoreTest, AnothersRecordingUnderTheSameNameIsNotTaken) {
@@ -780,7 +780,7 @@ TEST_F(StoreTest, ScoresFromRecordingsAreMarkedAsNotVerified) {
 /// A store of some attempts, and what is done to its file.
 class DamagedStore : public StoreTest {
  protected:
-  static constexpr int kRows = 30;
+  static constexpr int kRows = 12;
   void SetUp() override {
     StoreTest::SetUp();
     Store store(folder());

@@ -107,7 +107,10 @@ class Parser {
     }
   }
 
-  void fault(Place at, std::string message) { tell(m_faults, {{m_file, at.line, at.column}, std::move(message)}); }
+  void fault(Place at, std::string message) {
+    tell(m_faults, {{m_file, at.line, at.column}, std::move(message)});
+    m_lost = m_lost || m_faults.size() > kMaxFaults;  // nothing more is reported
+  }
   void lost(Place at, std::string message) {
     if (!m_lost) fault(at, std::move(message));
     m_lost = true;

@@ -190,13 +190,15 @@ class Check {
   template <class Item>
   bool list(const JsonValue& value, std::size_t at_least, Item&& item) const {
     if (value.kind != Kind::array) return wrong(value, "an array");
-    const bool few = value.items.size()<at_least, many = value.items.size()> m_key.max_count;
+    const std::size_t count = value.items.size();
+    const bool few = count < at_least;
+    const bool many = count > m_key.max_count;
     bool good = true;
-    for (std::size_t i = 0; i < value.items.size() && !many; ++i) good = item(value.items[i]) && good;
+    for (std::size_t i = 0; i < count && !many; ++i) good = item(value.items[i]) && good;
     if (!few && !many) return good;
     tell(m_faults, {{m_file, value.line, value.column},
                     tr("expected at {} {} items for \"{}\", got {}", few ? "least" : "most",
-                       few ? at_least : m_key.max_count, m_key.name, value.items.size())});
+                       few ? at_least : m_key.max_count, m_key.name, count)});
     return false;
   }
   bool lines(const JsonValue& value) const {

@@ -81,6 +81,7 @@ int Store::salvage(Database& db, const fs::path& damaged) {
   int saved = 0;
   readable([&] {
     Database old(damaged, Database::Access::salvage);
+    const Query there(old, "SELECT number FROM attempt NOT INDEXED LIMIT 0");  // else no number is worth a try
     int lost = 0;
     for (std::int64_t number = 0; lost < kMostLost;) {
       Attempt a;
