@@ -547,6 +547,17 @@ TEST_F(StoreTest, FilesThatAreNoResultsAreLeftAlone) {
   EXPECT_TRUE(fs::exists(folder() / "waiting" / "a.attempt.json"));
 }
 
+TEST_F(StoreTest, AResultOfAnyDepthIsNoHarm) {
+  constexpr std::size_t kDeep = 2'000'000;
+  fs::create_directories(folder() / "waiting");
+  std::ofstream(folder() / "waiting" / "deep.attempt.json")
+      << R"({"trocar_attempt":1,"uuid":"0123456789abcdef","result":{"passed":true,"x":)" << std::string(kDeep, '[')
+      << std::string(kDeep, ']') << "}}";
+  const Store store(folder());
+  ASSERT_EQ(store.list().size(), 1u);
+  EXPECT_NE(store.list()[0].result.find("\"passed\":true"), std::string::npos);
+}
+
 TEST_F(StoreTest, StrangeResultsAndNumbersAreNoHarm) {
   Store store(folder());
   for (const char* result :

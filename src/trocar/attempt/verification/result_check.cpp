@@ -10,6 +10,7 @@
 #include <trocar/core/text.hpp>
 #include <trocar/training/exercise/exercise_hash.hpp>
 #include <trocar/training/store/attempt.hpp>
+#include <trocar/training/store/json_fields.hpp>
 
 namespace trocar::attempt {
 namespace {
@@ -86,7 +87,7 @@ std::string first_difference(const Json& a, const Json& b) {
 }
 
 bool was_aborted(const sim::Recording& recording) {
-  const Json result = Json::parse(recording.result_json, nullptr, false);
+  const Json result = training::json_in(recording.result_json);
   return result.is_object() && result.contains("interrupted");
 }
 
@@ -97,7 +98,7 @@ ResultCheck check_result(const sim::Recording& recording, const Lesson& lesson, 
   if (made_with.empty()) return {"", tr("the recording does not say which exercise file it was made with")};
   if (made_with != core::hex(training::judgement_hash(*lesson.exercise)))
     return {"", tr("the exercise has changed since")};
-  const Json recorded = Json::parse(recording.result_json, nullptr, false);
+  const Json recorded = training::json_in(recording.result_json);
   if (!recorded.is_object()) return {tr("the recording's result cannot be read"), ""};
   const std::string difference = first_difference(recorded, judged);
   return {difference.empty() ? "" : difference_in_words(recording, difference), ""};

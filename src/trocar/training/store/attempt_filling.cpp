@@ -13,7 +13,7 @@ namespace trocar::training {
 namespace fs = std::filesystem;
 
 void fill_from_result(const std::string& result, Attempt& a) {
-  const Json in = Json::parse(result, nullptr, false);
+  const Json in = json_in(result);
   if (!in.is_object()) return;
   a.result = result;
   if (in.contains("passed") && in["passed"].is_boolean()) a.passed = in["passed"].get<bool>();
@@ -31,7 +31,7 @@ constexpr const char* kFromRecording = "from_recording";
 }  // namespace
 
 void mark_unverified(Attempt& a) {
-  const Json in = Json::parse(a.result, nullptr, false);
+  const Json in = json_in(a.result);
   if (!in.is_object()) return;
   Json out{{kFromRecording, true}};  // first, so that is_unverified() finds it
   for (const auto& [key, value] : in.items())
@@ -42,13 +42,13 @@ void mark_unverified(Attempt& a) {
 bool is_unverified(const Attempt& a) { return a.result.rfind(fmt::format("{{\"{}\":true", kFromRecording), 0) == 0; }
 
 AttemptMode mode_in_header(const std::string& metadata_json) {
-  const Json note = Json::parse(metadata_json, nullptr, false);
+  const Json note = json_in(metadata_json);
   if (!note.is_object()) return AttemptMode::assessed;
   return mode_named(text_in(note, "mode")).value_or(AttemptMode::assessed);
 }
 
 std::string exercise_hash_in(const std::string& metadata_json) {
-  const Json note = Json::parse(metadata_json, nullptr, false);
+  const Json note = json_in(metadata_json);
   return note.is_object() ? text_in(note, kExerciseHash) : std::string();
 }
 
@@ -59,7 +59,7 @@ bool fill_from_recording(const fs::path& file, Attempt& a) {
   } catch (const std::exception&) {
     return false;
   }
-  const Json note = Json::parse(r.header.metadata_json, nullptr, false);
+  const Json note = json_in(r.header.metadata_json);
   a.recording = fs::absolute(file).string();
   a.exercise = bounded(r.header.exercise);
   a.seed = r.header.seed;
@@ -84,7 +84,7 @@ bool fill_from_recording(const fs::path& file, Attempt& a) {
   a.state = AttemptState::interrupted;
   if (r.complete) {
     fill_from_result(r.result_json, a);
-    const Json result = Json::parse(r.result_json, nullptr, false);
+    const Json result = json_in(r.result_json);
     const bool aborted = result.is_object() && result.contains("interrupted");
     a.state = aborted ? AttemptState::aborted : AttemptState::finished;
     if (result.is_object() && a.ended.empty()) a.ended = bounded(text_in(result, "ended"));
