@@ -36,7 +36,7 @@ std::string verified_text(const Json& result) {
   const auto hashes = result["hashes_compared"].get<std::size_t>();
   const auto keyframes = result["keyframes_compared"].get<std::size_t>();
   if (result["score_compared"].get<bool>())
-    return tr("verified: {} hashes, {} keyframes; score, errors and steps", hashes, keyframes);
+    return tr("verified: {} hashes, {} keyframes; score, errors and steps agree", hashes, keyframes);
   return tr("verified: {} hashes, {} keyframes; score not compared: {}", hashes, keyframes,
             result["score_not_compared"].get<std::string>());
 }

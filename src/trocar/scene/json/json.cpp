@@ -1,5 +1,6 @@
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -357,12 +358,23 @@ class Parser {
       next();
       return v;
     }
-    do member(v, begin, depth);
+    Keys keys;
+    do member(v, keys, begin, depth);
     while (!m_lost && more('}', begin, "object"));
     return v;
   }
 
-  void member(JsonValue& object, Place begin, int depth) {
+  /// Of an object, once it has many.
+  using Keys = std::set<std::string>;
+  static const JsonMember* known(const JsonValue& object, Keys& keys, const std::string& key) {
+    constexpr std::size_t kFew = 16;
+    if (object.members.size() < kFew) return object.find(key);
+    if (keys.empty())
+      for (const JsonMember& m : object.members) keys.insert(m.key);
+    return keys.insert(key).second ? nullptr : object.find(key);
+  }
+
+  void member(JsonValue& object, Keys& keys, Place begin, int depth) {
     const Place at = m_place;
     if (at_end())
       return lost(at, tr("expected '}}' to close the object that began at {}:{}, got the end of the file", begin.line,
@@ -382,7 +394,7 @@ class Parser {
     if (at_end())
       return lost(m_place, tr("expected a value for the key \"{}\", got the end of the file", shortened(m.key)));
     m.value = value(depth + 1);
-    if (const JsonMember* earlier = object.find(m.key))
+    if (const JsonMember* earlier = known(object, keys, m.key))
       return fault(at, tr("expected every key once, got \"{}\" again (first at {}:{})", shortened(m.key), earlier->line,
                           earlier->column));
     if (object.members.size() >= kMaxJsonKeys)

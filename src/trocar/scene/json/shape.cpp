@@ -429,9 +429,8 @@ std::vector<JsonObject> JsonObject::objects(std::string_view key) const {
     if (v.kind == Kind::object) all.emplace_back(v, k->shape(), *m_file, *m_faults);
     return all;
   }
-  if (v.items.size() > k->max_count) return all;  // told
-  for (const JsonValue& item : v.items)
-    if (item.kind == Kind::object) all.emplace_back(item, k->shape(), *m_file, *m_faults);
+  for (std::size_t i = 0; i < std::min(v.items.size(), k->max_count); ++i)
+    if (v.items[i].kind == Kind::object) all.emplace_back(v.items[i], k->shape(), *m_file, *m_faults);
   return all;
 }
 

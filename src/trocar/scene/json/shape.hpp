@@ -124,8 +124,9 @@ class JsonObject {
   std::vector<double> numbers(std::string_view key) const;
   NumberTable table(std::string_view key) const;
 
-  /// The objects of an `objects` key, or the one of an `object` key: checked by the row's table. None of a list with
-  /// more than its row allows. Values of an `includes` key that are file names are left out; see values().
+  /// The objects of an `objects` key, or the one of an `object` key: checked by the row's table. Of a list that is
+  /// longer than its row allows, which is a fault, the first so many. Values of an `includes` key that are file names
+  /// are left out; see values().
   std::vector<JsonObject> objects(std::string_view key) const;
   /// The raw values of an array key (empty where it is not there or broken).
   const std::vector<JsonValue>& values(std::string_view key) const;
