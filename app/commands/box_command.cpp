@@ -271,12 +271,12 @@ void add_simulate(CLI::App& box, Chosen& chosen) {
   c->add_option("--baud", o->baud, tr("speed of the line [baud]; default: the wiring's"))
       ->check(CLI::Range(300, 4'000'000));
   c->add_option("--hz", o->hz, tr("blocks a second that it sends by itself; default: only on request"))
-      ->check(CLI::Range(0.0, 5000.0));
+      ->check(number_between(0, 5000, "blocks a second"));
   c->add_option("--noise", o->noise, tr("noise of every channel, standard deviation [codes]"))
-      ->check(CLI::Range(0.0, 1000.0));
-  c->add_option("--drop", o->drop, tr("share of blocks that are lost"))->check(CLI::Range(0.0, 1.0));
-  c->add_option("--corrupt", o->corrupt, tr("share of bytes that are changed"))->check(CLI::Range(0.0, 1.0));
-  c->add_option("--latency", o->latency_ms, tr("delay of the line [ms]"))->check(CLI::Range(0.0, 1000.0));
+      ->check(number_between(0, 1000, "codes"));
+  c->add_option("--drop", o->drop, tr("share of blocks that are lost"))->check(number_between(0, 1, ""));
+  c->add_option("--corrupt", o->corrupt, tr("share of bytes that are changed"))->check(number_between(0, 1, ""));
+  c->add_option("--latency", o->latency_ms, tr("delay of the line [ms]"))->check(number_between(0, 1000, "ms"));
   c->add_option("--port-drift", o->port_drift_mm, tr("drift of its rubber ports [mm]; default: none"))
       ->check(number_between(0, 20, "mm"));
   c->add_option("--port-stiffness", o->port_stiffness, tr("stiffness of its rubber ports [N/mm]; default: rigid"))
@@ -286,7 +286,7 @@ void add_simulate(CLI::App& box, Chosen& chosen) {
       ->check(CLI::IsMember({"real", "requests"}));
   c->add_option("--lead-in", o->lead_in, tr("time before its hands move [s]"))
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 60.0));
+      ->check(number_between(0, 60, "s"));
   c->add_option("--seconds", o->seconds, tr("stop after this time [s]"))->check(number_above(0, kLongestRun, "s"));
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return simulate(*o, chosen.json); }; });
 }
@@ -304,7 +304,7 @@ void add_monitor(CLI::App& box, Chosen& chosen) {
       ->check(CLI::Range(300, 4'000'000));
   c->add_flag("--all", o->all, tr("show all 48 channels, not only those that are wired"));
   c->add_option("--hz", o->hz, tr("blocks a second that are requested; default: the wiring's"))
-      ->check(CLI::Range(attempt::kLeastBoxRate, attempt::kMostBoxRate));
+      ->check(number_between(attempt::kLeastBoxRate, attempt::kMostBoxRate, "blocks a second"));
   c->add_option("--seconds", o->seconds, tr("stop after this time [s]"))->check(number_above(0, kLongestRun, "s"));
   c->callback([o, &chosen] { chosen.run = [o, &chosen] { return monitor(*o, chosen.json); }; });
 }

@@ -57,10 +57,10 @@ void add_rehearse(CLI::App& program, Chosen& chosen) {
   c->add_option("exercise", o->exercise, tr("a name that `trocar list` shows, or a file"))->required();
   c->add_option("--seed", o->seed, tr("number of a random patient; 0: the standard patient"))
       ->capture_default_str()
-      ->transform(whole_number(0, kLargestSeed));
+      ->transform(whole_number(0, std::int64_t(training::kLargestRehearsedSeed)));
   c->add_option("--points", o->patience.points, tr("most points that errors may cost in all"))
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(number_between(0, 100, "points"));
   c->add_option("--most-seconds", o->patience.seconds, tr("most simulated time of all attempts together [s]"))
       ->capture_default_str()
       ->check(number_above(0, kLongestRun, "s"));

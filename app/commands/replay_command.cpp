@@ -31,14 +31,23 @@ Json head(const sim::Recording& recording, const ReplayOptions& o) {
   return out;
 }
 
+/// What was compared, and what was not.
+std::string verified_text(const Json& result) {
+  const auto hashes = result["hashes_compared"].get<std::size_t>();
+  const auto keyframes = result["keyframes_compared"].get<std::size_t>();
+  if (result["score_compared"].get<bool>())
+    return tr("verified: {} hashes, {} keyframes; score, errors and steps agree", hashes, keyframes);
+  return tr("verified: {} hashes, {} keyframes; score not compared: {}", hashes, keyframes,
+            result["score_not_compared"].get<std::string>());
+}
+
 int say(const ReplayOptions& o, const Json& result, bool json) {
   const bool failed = o.verify && !result.value("verified", false);
   if (json) {
     print(result);
   } else if (o.verify) {
     fmt::print("{}: {}\n", o.file,
-               failed ? result.value("difference", std::string("not verified"))
-                      : tr("verified, {} hashes", result["hashes_compared"].get<std::size_t>()));
+               failed ? result.value("difference", std::string("not verified")) : verified_text(result));
   } else if (result.value("played", std::string()) == "keyframes") {
     fmt::print("{}: {} keyframes\n", o.file, result["keyframes"].get<std::size_t>());
   } else {
@@ -88,8 +97,8 @@ void add_replay(CLI::App& program, Chosen& chosen) {
                   "  trocar replay a.rec --video a.mp4 --camera free:120,30,250 --from 12 --to 20 --slow 0.25");
   c->add_option("recording", o->replay.file, tr("a recording (train --record)"))->required();
   c->add_flag("--verify", o->replay.verify,
-              tr("compare the hashes of the model and of every state; exit 1 where they differ or the recording has no "
-                 "end"));
+              tr("compare model, states and keyframes, and judge the attempt again; exit 1 where something differs or "
+                 "the recording has no end"));
   c->add_option("--exercise", o->exercise, tr("the recording's exercise, where its file has moved"));
   c->add_flag("--headless", o->headless, tr("no window"));
   c->add_option("--size", o->size, tr("WIDTHxHEIGHT of pictures (default: 800x600) or of the window"));

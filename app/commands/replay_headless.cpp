@@ -8,6 +8,8 @@
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/attempt/progress.hpp>
 #include <trocar/attempt/session.hpp>
+#include <trocar/attempt/verification/result_check.hpp>
+#include <trocar/attempt/verification/state_check.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/log.hpp>
@@ -15,7 +17,6 @@
 #include <trocar/core/tick.hpp>
 #include <trocar/pictures/pictures.hpp>
 #include <trocar/pictures/shot_moments.hpp>
-#include <trocar/sim/recording/shown_difference.hpp>
 
 #include "commands/command.hpp"
 
@@ -23,52 +24,6 @@ namespace trocar::app {
 namespace {
 
 constexpr std::size_t kKeyframesPerShot = 50;
-
-/// Compares the session with the recording's hashes as it passes them.
-class Verifier {
- public:
-  Verifier(const sim::Model& model, const sim::Recording& recording)
-      : m_model(model), m_recording(recording), m_marks(recording.hashes) {}
-
-  /// False at the first difference.
-  bool check(const attempt::Session& session) {
-    const std::uint64_t tick = session.state().tick;
-    while (m_next < m_marks.size() && m_marks[m_next].tick < tick) ++m_next;
-    if (m_next == m_marks.size() || m_marks[m_next].tick != tick) return true;
-    if (session.mark() != m_marks[m_next].hash) {
-      m_differs_at = tick;
-      m_told = sim::told_difference(m_model, m_recording, session.state());
-      return false;
-    }
-    ++m_agreed;
-    m_last_good = tick;
-    return true;
-  }
-
-  std::size_t agreed() const { return m_agreed; }
-  bool differs() const { return m_differs_at != kNever; }
-  std::string difference() const {
-    const std::string told = m_told.empty() ? "" : "; " + m_told;
-    if (m_differs_at == 0) return "the first state differs before any tick" + told;
-    return tr("the state differs after tick {}; it agreed until tick {}{}", m_differs_at, m_last_good, told);
-  }
-  std::uint64_t last_good() const { return m_last_good; }
-  void describe(Json& out) const {
-    out["hashes_compared"] = m_agreed + (differs() ? 1 : 0);
-    if (m_agreed > 0) out["verified_until_tick"] = m_last_good;
-    if (!differs()) return;
-    out["differs_between_ticks"] = {m_last_good, m_differs_at};
-  }
-
- private:
-  static constexpr std::uint64_t kNever = ~std::uint64_t(0);
-  const sim::Model& m_model;
-  const sim::Recording& m_recording;
-  const std::vector<sim::HashMark>& m_marks;
-  std::string m_told;
-  std::size_t m_next = 0, m_agreed = 0;
-  std::uint64_t m_last_good = 0, m_differs_at = kNever;
-};
 
 /// Pictures and a film of a part of the recording, as its States come by.
 class Camera {
@@ -144,19 +99,34 @@ void take_shots(Camera& camera, const attempt::Session& session, const pictures:
   if (tick == plan.to) camera.shot(session.state(), "end", "the end");
 }
 
-void judge(const Verifier& verifier, const attempt::Session& session, const sim::Recording& recording, bool good,
-           Json& out) {
-  out["verified"] = good && session.broken().empty() && verifier.agreed() > 0 && recording.complete;
-  verifier.describe(out);
-  if (!good) out["difference"] = verifier.difference();
-  if (good && verifier.agreed() == 0) out["difference"] = "the recording holds no state hash to compare";
-  if (!good || verifier.agreed() == 0 || recording.complete) return;
+/// Empty, or why a recording whose States agree is not verified all the same.
+std::string unfinished(const attempt::StateCheck& states, const attempt::Session& session,
+                       const sim::Recording& recording) {
+  if (!session.broken().empty())
+    return tr("{}; the recording ends there. All {} state hashes until then agree", session.broken(), states.hashes());
+  const std::uint64_t tick = session.state().tick, last = recording.inputs.size();
+  if (tick < last) return tr("stopped at tick {} of {}; what was compared until then agrees", tick, last);
+  if (recording.complete) return {};
   // Killed, or cut off between two blocks by somebody: nothing tells which, nor what is missing.
-  out["difference"] =
-      recording.interrupted
-          ? tr("verified up to tick {}; the recording ends early, without an end mark", verifier.last_good())
-          : tr("the file is damaged ({}); what could be read, until tick {}, agrees", recording.damage,
-               recording.inputs.size());
+  if (recording.interrupted)
+    return tr("verified up to tick {}; the recording ends early, without an end mark", states.last_good());
+  return tr("the file is damaged ({}); what could be read, until tick {}, agrees", recording.damage, last);
+}
+
+void judge(const attempt::StateCheck& states, const attempt::Session& session, const sim::Recording& recording,
+           Json& out) {
+  states.describe(out);
+  std::string fault = states.fault();
+  if (fault.empty()) fault = unfinished(states, session, recording);
+  if (fault.empty()) {
+    const attempt::ResultCheck result =
+        attempt::check_result(recording, session.lesson(), session.result(attempt::was_aborted(recording)));
+    fault = result.difference;
+    out["score_compared"] = result.not_compared.empty();
+    if (!result.not_compared.empty()) out["score_not_compared"] = result.not_compared;
+  }
+  out["verified"] = fault.empty();
+  if (!fault.empty()) out["difference"] = fault;
 }
 
 /// The inputs again. With --verify all of them, otherwise as far as pictures are wanted.
@@ -166,10 +136,10 @@ Json play_inputs(const attempt::Lesson& lesson, const sim::Recording& recording,
   attempt::Session session(lesson);
   session.set_scored(training::mode_in_header(recording.header.metadata_json) !=
                      training::AttemptMode::familiarisation);
-  Verifier verifier(lesson.model, recording);
+  attempt::StateCheck states(lesson.model, recording);
   attempt::Progress progress(0, recording.inputs.size());
   const bool to_the_end = o.verify || o.to < 0;
-  bool good = !o.verify || verifier.check(session);
+  bool good = !o.verify || states.check(session);
   attempt::catch_interrupts();
   for (;;) {
     take_shots(camera, session, plan);
@@ -180,12 +150,12 @@ Json play_inputs(const attempt::Lesson& lesson, const sim::Recording& recording,
     if (!good || enough || tick >= recording.inputs.size() || !session.broken().empty() || attempt::interrupted())
       break;
     session.advance(recording.inputs[tick]);
-    good = !o.verify || verifier.check(session);
+    good = !o.verify || states.check(session);
     progress.at(tick);
   }
   Json out = session.result(false);
   out["played"] = "inputs";
-  if (o.verify) judge(verifier, session, recording, good, out);
+  if (o.verify) judge(states, session, recording, out);
   camera.finish(out);
   return out;
 }

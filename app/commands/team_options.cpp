@@ -48,9 +48,12 @@ attempt::TeamPlan team_plan(const TeamChoice& choice) {
 
 std::string how_to_join(const attempt::TeamHost& team, const TeamChoice& choice) {
   std::string text;
-  for (const attempt::TeamSeat& seat : team.seats())
-    text += tr("\n  {}={} trocar join {}:{} --role {}", kTokenVariable, team.token(),
-               parse_place(choice.at, "--team-at").address, team.port(), seat.role);
+  const std::string address = parse_place(choice.at, "--team-at").address;
+  for (const attempt::TeamSeat& seat : team.seats()) {
+    // Messages end up in logs: a token that was chosen is known to those who need it.
+    const std::string token = choice.token.empty() ? team.token() : tr("YOUR_TOKEN");
+    text += tr("\n  {}={} trocar join {}:{} --role {}", kTokenVariable, token, address, team.port(), seat.role);
+  }
   return text;
 }
 

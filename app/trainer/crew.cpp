@@ -59,7 +59,8 @@ void Crew::join_in() {
   if (!m_stage.options.team || m_stage.options.member) return;
   m_team = std::make_unique<attempt::TeamHost>(m_lesson, *m_stage.options.team);
   m_hosted = std::make_unique<attempt::HostedSource>(*m_team, source());
-  for (const std::string& line : how_to_join()) core::log::info("{}", line);
+  const bool chosen = !m_stage.options.team->token.empty();  // then it is known, and stays out of logs
+  for (const std::string& line : how_to_join(!chosen)) core::log::info("{}", line);
 }
 
 attempt::InputSource& Crew::source() const {
@@ -100,13 +101,13 @@ std::vector<std::string> Crew::in_words() const {
   return lines;
 }
 
-std::vector<std::string> Crew::how_to_join() const {
+std::vector<std::string> Crew::how_to_join(bool with_token) const {
   std::vector<std::string> lines;
   if (!m_team) return lines;
   for (const attempt::TeamSeat& seat : m_team->seats())
     if (!seat.here)
       lines.push_back(tr("trocar join {}:{} --role {} --token {}", m_stage.options.team->address, m_team->port(),
-                         seat.role, m_team->token()));
+                         seat.role, with_token ? m_team->token() : tr("YOUR_TOKEN")));
   return lines;
 }
 

@@ -48,7 +48,7 @@ class Crew {
   /// Who takes part, and how old what comes from them is.
   std::vector<std::string> in_words() const;
   /// What those who are away have to type.
-  std::vector<std::string> how_to_join() const;
+  std::vector<std::string> how_to_join(bool with_token = true) const;
 
  private:
   void give_parts();

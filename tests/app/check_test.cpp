@@ -140,7 +140,7 @@ TEST_F(Check, AHeavySceneIsLookedAtForAShorterTimeAndSaysSo) {
   replace("tissues.json", "\"young_Pa\": 30000,", "\"young_Pa\": 3e6,");
   const Outcome o = trocar({"check", scenes("gynaecology/scene.json").string()});
   EXPECT_NE(o.out.find(" s only, as the scene is heavy"), std::string::npos) << o.out;
-  EXPECT_NE(o.out.find("Too heavy for training: it runs at 0."), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("Here and now it would run in slow motion: 0."), std::string::npos) << o.out;
   EXPECT_NE(o.err.find("scene.json: "), std::string::npos) << "what it is at: " << o.err;
   EXPECT_NE(o.err.find(" s so far)"), std::string::npos) << o.err;
 }

@@ -242,6 +242,30 @@ TEST_F(Program, AMotionFileIsPerformedToItsLengthAndTheRecordingVerifies) {
   EXPECT_EQ(verified.exit, core::kDone) << verified.err;
   EXPECT_TRUE(verified.json()["verified"].get<bool>());
   EXPECT_EQ(verified.json()["state_hash"], result["state_hash"]);
+  EXPECT_TRUE(verified.json()["score_compared"].get<bool>()) << verified.out;
+
+  // Another result, sealed as any is.
+  const sim::Recording honest = sim::read_recording(recording);
+  {
+    sim::RecordingWriter writer(file("forged.rec"), honest.header);
+    for (std::size_t tick = 0; tick <= honest.inputs.size(); ++tick) {
+      for (const sim::HashMark& mark : honest.hashes)
+        if (mark.tick == tick) writer.hash(tick, mark.hash);
+      for (const sim::Keyframe& key : honest.keyframes)
+        if (key.tick == tick) writer.keyframe(tick, key.bytes);
+      if (tick < honest.inputs.size()) writer.tick(tick, honest.inputs[tick]);
+    }
+    Json better = Json::parse(honest.result_json);
+    better["passed"] = true;
+    better["assessment"]["score"]["total"] = 100;
+    writer.finish(better.dump());
+  }
+  const Outcome forged = trocar({"replay", file("forged.rec"), "--verify"});
+  EXPECT_EQ(forged.exit, core::kGoalNotReached);
+  EXPECT_NE(
+      forged.out.find("the result differs from what its inputs give, recorded value first: passed: true and false"),
+      std::string::npos)
+      << forged.out;
 
   // One bit of one input, which leaves no trace in the State a tick later: does not verify, and says where.
   // (The instrument is where it is commanded to be and touches nothing.)

@@ -287,6 +287,17 @@ TEST(Team, AMemberLeadsItsPartAndComesToTheSameBitsAsTheHost) {
   EXPECT_EQ(camera.hash(), sim::hash_of(host.session.state()));
 }
 
+TEST(Team, TheHostKnowsTheLatencyOfAMemberThatHasLeft) {
+  Hosting host({"camera"});
+  auto camera = std::make_unique<Mate>(host.team, "camera", "token");
+  camera->member().put(lesson().model.start);
+  ASSERT_EQ(make(host.session, host.source, 600), 600u);
+  EXPECT_TRUE(soon([&] { return host.team.seats().front().latency > 0; }));
+  camera.reset();
+  EXPECT_TRUE(soon([&] { return !host.team.seats().front().here; }));
+  EXPECT_GT(host.team.seats().front().latency, 0) << "it stands in the result";
+}
+
 TEST(Team, PausesWhileAParticipantIsDisconnectedAndSendsWhatWasMissed) {
   Hosting host({"camera"});
   auto camera = std::make_unique<Mate>(host.team, "camera", "token");

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include <trocar/attempt/verification/result_check.hpp>
+#include <trocar/attempt/verification/state_check.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/random.hpp>
@@ -60,7 +62,9 @@ std::vector<std::uint8_t> sample(int ticks, bool finished) {
       }
       writer.tick(std::uint64_t(t), input);
     }
-    if (finished) writer.finish("{\"score\": 90}");
+    if (finished)
+      writer.finish(
+          R"({"passed":true,"ticks":1,"assessment":{"score":{"total":90},"steps":[],"errors":[{"code":"E"}]}})");
   }
   std::stringstream bytes;
   bytes << std::ifstream(path, std::ios::binary).rdbuf();
@@ -81,6 +85,12 @@ void recording_file(Bytes bytes) {
       require(k.tick <= r.inputs.size(), "a keyframe is of a tick that is there");
     require(r.complete == r.damage.empty(), "what is not complete is said");
     require(!(r.complete && r.interrupted), "complete is not interrupted");
+    const bool marked = attempt::fault_of_hashes(r).empty();
+    static_cast<void>(attempt::fault_of_keyframes(r));
+    require(!marked || !r.complete || (!r.hashes.empty() && r.hashes.back().tick == r.inputs.size()),
+            "a recording without a fault of its marks is covered to its end");
+    static_cast<void>(attempt::was_aborted(r)), static_cast<void>(training::exercise_hash_in(r.header.metadata_json));
+    static_cast<void>(attempt::first_difference(Json::parse(r.result_json, nullptr, false), Json::object()));
   } catch (const core::BadInput& bad) {
     require(!bad.faults().empty() && !bad.faults().front().message.empty(), "a refusal has a reason");
   }

@@ -12,6 +12,7 @@ std::span<const Target> targets() {
       {"compile", scene_compiled, 12'000, compile_seeds, json_words, mutate_json, cross_json},
       {"exercise", exercise_file, 8'000, exercise_seeds, json_words, mutate_json, cross_json},
       {"recording", recording_file, 20'000, recording_seeds, nullptr, mutate_recording},
+      {"waiting", waiting_file, 8'000, waiting_seeds, json_words, mutate_json, cross_json},
       {"motion", motion_file, 4'000, motion_seeds, motion_words},
       {"box", box_line, 4'000, box_seeds},
       {"box_file", box_file, 8'000, box_file_seeds, json_words, mutate_json, cross_json},

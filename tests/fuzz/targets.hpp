@@ -17,6 +17,8 @@ std::vector<Seed> exercise_seeds();
 void recording_file(Bytes bytes);
 std::vector<Seed> recording_seeds();
 std::size_t mutate_recording(std::uint8_t* data, std::size_t size, std::size_t capacity, unsigned seed);
+void waiting_file(Bytes bytes);
+std::vector<Seed> waiting_seeds();
 void motion_file(Bytes bytes);
 std::vector<Seed> motion_seeds();
 std::vector<std::string> motion_words();

@@ -1,10 +1,15 @@
 // Compliances kept on disk: what is read is what was made, and what is damaged, foreign or cannot be written does no
 // harm.
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
+#include <functional>
+#include <limits>
 
 #include <gtest/gtest.h>
 
+#include <trocar/core/hash.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/compile/compliance_cache.hpp>
 
@@ -105,6 +110,58 @@ TEST(ComplianceCache, AFlippedByteAnywhereIsFoundAndTheFileMadeAnew) {
     EXPECT_EQ(again.model.hash, made.model.hash) << at;
     EXPECT_FALSE(compiled().report.computed) << at << ": the new file is sound";
   }
+}
+
+/// Another figure for one of the file's, with its checksum made again: as somebody would hand it in.
+void change_figures(const fs::path& path, const std::function<void(std::vector<float>&)>& change) {
+  constexpr std::size_t kHeader = 48, kKept = 32, kSum = 40;
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  in.close();
+  std::uint32_t kept = 0;
+  std::memcpy(&kept, bytes.data() + kKept, sizeof kept);
+  const std::size_t count = 9 * std::size_t(kept) * kept;
+  std::vector<float> columns(count), fields((bytes.size() - kHeader) / sizeof(float) - count);
+  std::memcpy(columns.data(), bytes.data() + kHeader, count * sizeof(float));
+  if (!fields.empty())
+    std::memcpy(fields.data(), bytes.data() + kHeader + count * sizeof(float), fields.size() * sizeof(float));
+  change(columns);
+  core::Hasher sum;
+  sum.add(columns);
+  sum.add(fields);
+  const std::uint64_t value = sum.value();
+  std::memcpy(bytes.data() + kHeader, columns.data(), count * sizeof(float));
+  std::memcpy(bytes.data() + kSum, &value, sizeof value);
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+TEST(ComplianceCache, WhatIsNotTheBodysIsFoundHoweverItIsSealed) {
+  const Cache cache;
+  const std::uint64_t made = compiled().model.hash;
+  const fs::path file = cache.files().at(0);
+  const auto expect_found = [&](const char* says, const std::function<void(std::vector<float>&)>& change) {
+    change_figures(file, change);
+    const Compiled again = compiled();
+    EXPECT_TRUE(again.report.computed) << says;
+    EXPECT_NE(again.report.note.find(says), std::string::npos) << again.report.note;
+    EXPECT_EQ(again.model.hash, made) << says;
+    EXPECT_FALSE(compiled().report.computed) << "it was made again: " << says;
+  };
+  const auto row = [](const std::vector<float>& c) { return std::size_t(std::sqrt(double(c.size()))); };
+  expect_found("not the compliance of this body", [](std::vector<float>& c) {
+    for (float& v : c) v *= 10;
+  });
+  expect_found("diagonal is not positive", [](std::vector<float>& c) {
+    for (float& v : c) v = -v;
+  });
+  expect_found("not finite", [](std::vector<float>& c) { c[7] = std::numeric_limits<float>::quiet_NaN(); });
+  expect_found("not symmetric", [](std::vector<float>& c) { c[1] += 0.1f * c[0]; });
+  expect_found("not the compliance of this body", [&row](std::vector<float>& c) {
+    const std::size_t n = row(c), i = n / 2, j = i + 1;  // two figures that agree with each other
+    c[i * n + j] = c[j * n + i] = c[i * n + j] + 0.5f * c[i * n + i];
+  });
+  change_figures(file, [](std::vector<float>&) {});
+  EXPECT_FALSE(compiled().report.computed) << "unchanged it is taken";
 }
 
 TEST(ComplianceCache, AFileThatEndsEarlyOrIsSomethingElseCountsAsNone) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <trocar/tissue/elastostatic/compliance_check.hpp>
 #include <trocar/tissue/elastostatic/dense_kernels.hpp>
 #include <trocar/tissue/elastostatic/front.hpp>
 
@@ -343,6 +344,17 @@ TEST(Condensation, ASphereIsBorneAsHertzSays) {  // [Hertz 1882]
   const double radius = 0.03, deep = 0.0006;  // a contact of 4.2 mm
   const double theory = 4.0 / 3 * q.contact_modulus() * std::sqrt(radius) * deep * std::sqrt(deep);
   EXPECT_NEAR(sphere_force(q, radius, deep) / theory, 1, 0.1);
+}
+
+TEST(Condensation, IsFoundToBeTheBodysAlsoWithFieldsAndHeldAxes) {
+  const Organ organ = test::wobbly_organ(6, 6, 7);
+  const std::vector<double> loads = test::random_numbers(15 * 3 * organ.k.points.size(), 3);
+  const Condensed c = condense(organ.k, organ.kept, loads);
+  const std::vector<float> columns(c.compliance.begin(), c.compliance.end());
+  std::vector<float> fields(c.fields.begin(), c.fields.end());
+  EXPECT_EQ(fault_of_compliance(organ.k, organ.kept, loads, columns, fields), "");
+  for (float& v : fields) v *= 1.1f;
+  EXPECT_NE(fault_of_compliance(organ.k, organ.kept, loads, columns, fields), "");
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ TEST(Rules, StepsBeyondWhatIsShownAreAFault) {
     exercise_of(steps);
     FAIL();
   } catch (const core::BadInput& bad) {
-    EXPECT_NE(std::string(bad.what()).find("at most 64 steps"), std::string::npos) << bad.what();
+    EXPECT_NE(std::string(bad.what()).find("at most 64 items for \"steps\""), std::string::npos) << bad.what();
   }
 }
 

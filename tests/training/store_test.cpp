@@ -210,7 +210,7 @@ TEST_F(StoreTest, KilledBetweenRecordingAndRowItHasEndedAllTheSame) {
   const Attempt a = store.list().front();
   EXPECT_EQ(a.state, AttemptState::finished);
   EXPECT_EQ(a.score, 87.5);
-  EXPECT_EQ(a.result, kResult);
+  EXPECT_TRUE(is_unverified(a)) << "only its recording says so";
 }
 
 TEST_F(StoreTest, AnothersRecordingUnderTheSameNameIsNotTaken) {
@@ -547,6 +547,17 @@ TEST_F(StoreTest, FilesThatAreNoResultsAreLeftAlone) {
   EXPECT_TRUE(fs::exists(folder() / "waiting" / "a.attempt.json"));
 }
 
+TEST_F(StoreTest, AResultOfAnyDepthIsNoHarm) {
+  constexpr std::size_t kDeep = 2'000'000;
+  fs::create_directories(folder() / "waiting");
+  std::ofstream(folder() / "waiting" / "deep.attempt.json")
+      << R"({"trocar_attempt":1,"uuid":"0123456789abcdef","result":{"passed":true,"x":)" << std::string(kDeep, '[')
+      << std::string(kDeep, ']') << "}}";
+  const Store store(folder());
+  ASSERT_EQ(store.list().size(), 1u);
+  EXPECT_NE(store.list()[0].result.find("\"passed\":true"), std::string::npos);
+}
+
 TEST_F(StoreTest, StrangeResultsAndNumbersAreNoHarm) {
   Store store(folder());
   for (const char* result :
@@ -645,10 +656,193 @@ TEST_F(StoreTest, AnAttemptThatNeverBeganLeavesNothing) {
 TEST_F(StoreTest, AResultOfAnotherStoreWaitsForItsOwn) {
   Attempt a = attempt();
   a.uuid = new_uuid();
-  a.store = "/another/store";
+  a.store = (folder().parent_path() / "another").string();
+  fs::create_directories(a.store);
+  const fs::path file = own_temporary_folder() / (a.uuid + ".attempt.json");
+  std::ofstream(file) << to_json(a);
+  {
+    const Store store(folder());
+    EXPECT_TRUE(store.list().empty());
+    EXPECT_TRUE(store.notices().empty());
+  }
+  fs::remove(a.store);
+  const Store store(folder());
+  EXPECT_TRUE(store.list().empty());
+  ASSERT_EQ(store.notices().size(), 1u) << "its store is gone";
+  EXPECT_NE(store.notices()[0].find("move it to"), std::string::npos);
+  EXPECT_TRUE(fs::exists(file));
+}
+
+/// A store whose database takes nothing, so that a result waits in its folder.
+class WaitingResult : public StoreTest {
+ protected:
+  void SetUp() override {
+    StoreTest::SetUp();
+    Store store(folder());
+    m_attempt = attempt();
+    AttemptLock lock = store.begin(m_attempt);
+    {
+      Database db(database(), Database::Access::write);
+      db.run("PRAGMA user_version = 99");
+    }
+    finish(m_attempt);
+    m_attempt.trace = {1, 2, 3};
+    ASSERT_EQ(store.end(m_attempt, lock).file.parent_path(), folder() / "waiting");
+    Database db(database(), Database::Access::write);
+    db.run("PRAGMA user_version = 1");
+  }
+  void expect_taken_in(const fs::path& by) const {
+    Store store(by);
+    const std::optional<Attempt> a = store.find(m_attempt.uuid);
+    ASSERT_TRUE(a.has_value()) << by;
+    EXPECT_EQ(a->state, AttemptState::finished) << by;
+    EXPECT_EQ(a->score, 87.5) << by;
+    EXPECT_EQ(a->trace.size(), 3u) << by;
+  }
+  Attempt m_attempt;
+};
+
+TEST_F(WaitingResult, IsTakenInUnderAnotherSpellingOfTheFolder) { expect_taken_in(folder() / ""); }
+
+TEST_F(WaitingResult, IsTakenInThroughALink) {
+  const fs::path link = folder().parent_path() / "link";
+  fs::create_directory_symlink(folder(), link);
+  expect_taken_in(link);
+}
+
+TEST_F(WaitingResult, IsTakenInWhereTheFolderWasMoved) {
+  const fs::path moved = folder().parent_path() / "moved";
+  fs::rename(folder(), moved);
+  expect_taken_in(moved);
+}
+
+TEST_F(StoreTest, AFileNeverRewritesAnAttemptThatHasEnded) {
+  Attempt a = attempt();
+  {
+    Store store(folder());
+    a.trace = {1, 2, 3};
+    make(store, a);
+  }
+  Attempt forged = a;
+  forged.trainee = "eve";
+  forged.score = 100;
+  forged.trace.clear();
   fs::create_directories(folder() / "waiting");
-  std::ofstream(folder() / "waiting" / (a.uuid + ".attempt.json")) << to_json(a);
-  EXPECT_TRUE(Store(folder()).list().empty());
+  const std::string file = (folder() / "waiting" / (a.uuid + ".attempt.json")).string();
+  std::ofstream(file) << to_json(forged);
+  Store store(folder());
+  ASSERT_EQ(store.notices().size(), 1u);
+  EXPECT_NE(store.notices()[0].find("has ended already"), std::string::npos) << store.notices()[0];
+  EXPECT_TRUE(fs::exists(file + ".refused"));
+  EXPECT_FALSE(fs::exists(file));
+  const Attempt kept = store.find(a.uuid).value();
+  EXPECT_EQ(kept.trainee, "ada");
+  EXPECT_EQ(kept.score, 87.5);
+  EXPECT_EQ(kept.trace.size(), 3u);
+  EXPECT_TRUE(Store(folder()).notices().empty()) << "told once";
+}
+
+TEST_F(StoreTest, AFileThatWasTakenInAlreadyIsRemovedWithoutAWord) {
+  Attempt a = attempt();
+  {
+    Store store(folder());
+    make(store, a);
+  }
+  fs::create_directories(folder() / "waiting");
+  const fs::path file = folder() / "waiting" / (a.uuid + ".attempt.json");
+  std::ofstream(file) << to_json(a);
+  const Store store(folder());
+  EXPECT_TRUE(store.notices().empty());
+  EXPECT_FALSE(fs::exists(file));
+}
+
+TEST_F(StoreTest, AFileNeverChangesWhoseAnInterruptedAttemptIs) {
+  Attempt a = attempt();
+  {
+    Store store(folder());
+    const AttemptLock lock = store.begin(a);
+  }
+  EXPECT_EQ(Store(folder()).find(a.uuid)->state, AttemptState::interrupted);
+  Attempt other = a;
+  other.trainee = "eve";
+  finish(other);
+  fs::create_directories(folder() / "waiting");
+  const fs::path file = folder() / "waiting" / (a.uuid + ".attempt.json");
+  std::ofstream(file) << to_json(other);
+  EXPECT_EQ(Store(folder()).find(a.uuid)->trainee, "ada");
+  other.trainee = "ada";
+  std::ofstream(file) << to_json(other);
+  EXPECT_EQ(Store(folder()).find(a.uuid)->score, 87.5) << "it may be completed";
+}
+
+TEST_F(StoreTest, ScoresFromRecordingsAreMarkedAsNotVerified) {
+  Attempt a = attempt(), b = attempt("bob");
+  {
+    Store store(folder());
+    make(store, a);
+    record(a, 100, R"({"from_recording":false,"passed":true})");
+    make(store, b);
+  }
+  EXPECT_FALSE(is_unverified(Store(folder()).find(a.uuid).value()));
+  fs::remove(database());
+  EXPECT_TRUE(is_unverified(Store(folder()).find(a.uuid).value()));
+}
+
+/// A store of some attempts, and what is done to its file.
+class DamagedStore : public StoreTest {
+ protected:
+  static constexpr int kRows = 12;
+  void SetUp() override {
+    StoreTest::SetUp();
+    Store store(folder());
+    for (int i = 0; i < kRows; ++i) {
+      Attempt a = attempt("trainee " + std::to_string(i));
+      make(store, a);
+    }
+  }
+  void write_at(std::streamoff at, const std::string& bytes) const {
+    std::fstream file(database(), std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(at);
+    file << bytes;
+  }
+  void expect_saved(std::size_t at_least) const {
+    Store store(folder());
+    EXPECT_FALSE(store.notices().empty());
+    EXPECT_GE(store.list().size(), at_least);
+    EXPECT_TRUE(fs::exists(folder() / "sessions.sqlite.damaged-1"));
+    EXPECT_FALSE(fs::exists(folder() / "sessions.sqlite.damaged-1.mended"));
+    Attempt a = attempt();
+    EXPECT_TRUE(make(store, a).in_database);
+    EXPECT_TRUE(Store(folder()).notices().empty());
+  }
+};
+
+TEST_F(DamagedStore, ThatLacksItsLastPageIsReadAllTheSame) {
+  fs::resize_file(database(), fs::file_size(database()) - 4096);
+  expect_saved(kRows / 2);
+}
+
+TEST_F(DamagedStore, WhoseHeaderIsGoneIsReadAllTheSame) {
+  write_at(0, std::string(60, 'x'));
+  expect_saved(kRows);
+}
+
+TEST_F(DamagedStore, OfVersion0IsReadAllTheSame) {
+  Database(database(), Database::Access::write).run("PRAGMA user_version = 0");
+  expect_saved(kRows);
+}
+
+TEST_F(DamagedStore, OfAVersionBelowAnyIsReadAllTheSame) {
+  Database(database(), Database::Access::write).run("PRAGMA user_version = -3");
+  expect_saved(kRows);
+}
+
+TEST_F(DamagedStore, WithoutItsTableIsBuiltAgain) {
+  {
+    Database db(database(), Database::Access::write);
+    db.run("DROP TABLE attempt");
+  }
+  expect_saved(0);
 }
 
 TEST_F(StoreTest, AFolderThatCannotBeMadeIsTold) {

@@ -109,3 +109,17 @@ TEST(Study, JsonLeavesOutWhatNobodyHasAndStaysValidWithStrangeNames) {
   EXPECT_TRUE(json["metrics"][0]["trend"]["spearman_pooled"]["value"].is_null());
   EXPECT_NO_THROW(study_json(study_of({})));
 }
+
+TEST(Study, LeavingOutEachOfManyPeopleIsAffordable) {
+  constexpr int kPeople = 1500;  // cubic in them this takes minutes
+  trocar::core::Random random(3);
+  std::vector<StudyAttempt> all;
+  for (int p = 0; p < kPeople; ++p)
+    for (int r = 1; r <= 3; ++r) all.push_back(attempt(numbered('P', p), r, 100 - 5 * r + random.uniform(-1, 1)));
+  const Trend& trend = durations(study_of(all)).trend;
+  EXPECT_NEAR(trend.slope.value, -5, 0.1);
+  EXPECT_LE(trend.slope.low, trend.slope.value);
+  EXPECT_GE(trend.slope.high, trend.slope.value);
+  EXPECT_NEAR(trend.within.value, -1, 1e-12);
+  EXPECT_LT(trend.pooled.high, -0.9);
+}

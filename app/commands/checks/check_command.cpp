@@ -73,12 +73,6 @@ void print_tissues(const Json& tissues) {
   }
 }
 
-bool is_mechanism_file(const fs::path& path) {
-  if (scene::is_robot_file(path)) return true;
-  std::vector<core::Fault> ignored;
-  return path.extension() == ".json" && scene::load_json(path, ignored).root.find("links") != nullptr;
-}
-
 Json describe_mechanism(const fs::path& path) {
   const kinematics::Mechanism m = kinematics::build(scene::read_mechanism(path));
   std::vector<double> u = m.start_u();
@@ -99,9 +93,10 @@ Json describe_mechanism(const fs::path& path) {
 /// @throws core::BadInput with all faults of the file
 Json check_one(const fs::path& path, std::optional<double> unit) {
   if (is_mesh_file(path)) return describe_mesh(path, unit);
-  if (is_mechanism_file(path)) return describe_mechanism(path);
+  if (scene::is_robot_file(path)) return describe_mechanism(path);
   std::vector<core::Fault> faults;
   const scene::JsonDocument document = scene::load_json(path, faults);
+  if (path.extension() == ".json" && document.root.find("links")) return describe_mechanism(path);
   const bool lost = document.root.kind == scene::JsonValue::Kind::broken;  // what follows from that is no fault
   if (!faults.empty()) throw core::BadInput(lost ? faults : scene::check_file(path));
   Json out{{"file", path.string()}};
@@ -110,7 +105,7 @@ Json check_one(const fs::path& path, std::optional<double> unit) {
   if (is_room_file(document.root)) return describe_room(path);
   if (is_rules_file(document.root)) return describe_rules(path);
   if (is_inputs_file(document.root)) return describe_inputs(path, document.root);
-  if (attempt::is_exercise(path)) {
+  if (attempt::is_exercise(document.root)) {
     out["kind"] = "exercise";
     out.update(describe_exercise(path));
     return out;

@@ -11,8 +11,8 @@
 
 namespace trocar::app {
 
-/// Takes at most some ten seconds, however heavy the scene: what does not fit in is simulated for a shorter time, and
-/// the result says for how long.
+/// Some ten seconds at most on a quiet machine: of a heavy scene less is simulated, as follows from its counts, and the
+/// result says how much. Times that are measured are notes beside the verdict.
 /// @param only  names of the bodies to list; empty: all
 /// @param fits  asked with the compiled scene: throws core::BadInput where something else is wrong with it
 /// @throws core::BadInput

@@ -7,6 +7,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/reports/export.hpp>
 #include <trocar/reports/report.hpp>
@@ -54,13 +55,19 @@ int list(const Store& store, const Options& o, bool json) {
   }
   fmt::print("{:>5}  {:16}  {:16}  {:28}  {:14}  {:12}  {:>5}  {:>8}\n", "", tr("started (UTC)"), tr("trainee"),
              tr("exercise"), tr("mode"), tr("state"), tr("score"), tr("seconds"));
+  bool all_verified = true;
   for (const Attempt& a : attempts) {
-    std::string begun = a.started.substr(0, std::min<std::size_t>(16, a.started.size()));
+    std::string begun = core::printable(a.started.substr(0, std::min<std::size_t>(16, a.started.size())));
     std::replace(begun.begin(), begun.end(), 'T', ' ');
-    fmt::print("{:>5}  {:16}  {:16}  {:28}  {:14}  {:12}  {:>5}  {:8.1f}\n", a.number, begun, cut_to(a.trainee, 16),
-               cut_to(a.exercise, 28), name_of(a.mode), name_of(a.state),
-               a.score ? fmt::format("{:.0f}", *a.score) : "", a.seconds);
+    const bool marked = a.score && is_unverified(a);
+    all_verified = all_verified && !marked;
+    fmt::print("{:>5}  {:16}  {:16}  {:28}  {:14}  {:12}  {:>5}  {:8.1f}\n", a.number, begun,
+               cut_to(core::printable(a.trainee), 16), cut_to(core::printable(a.exercise), 28), name_of(a.mode),
+               name_of(a.state), a.score ? fmt::format("{:.0f}{}", *a.score, marked ? "*" : "") : "", a.seconds);
   }
+  if (!all_verified)
+    fmt::print("{}\n",
+               tr("* imported from a recording and not verified: trocar replay RECORDING --verify judges again"));
   return core::kDone;
 }
 
@@ -77,7 +84,10 @@ Attempt from_recording(const Store& store, const std::string& file) {
   } catch (const core::EnvironmentLacks& lacks) {
     core::log::warn("{}", lacks.what());
   }
-  if (!kept || kept->uuid != there.uuid) return there;  // another one's, whose uuid begins alike
+  if (!kept || kept->uuid != there.uuid) {  // another one's, whose uuid begins alike
+    mark_unverified(there);
+    return there;
+  }
   kept->recording = there.recording;
   return *kept;
 }
@@ -110,6 +120,11 @@ Json summary(const reports::Report& r) {
   return out;
 }
 
+/// Of its page. A row may say anything of its uuid, which must not lead elsewhere.
+fs::path folder_of(const Store& store, const Attempt& a) {
+  return store.folder() / "reports" / (training::is_uuid(a.uuid) ? a.uuid : fmt::format("attempt-{}", a.number));
+}
+
 int report(Store& store, const Options& o, bool json) {
   Attempt attempt = chosen(store, o);
   if (!o.compare.empty()) {
@@ -118,6 +133,10 @@ int report(Store& store, const Options& o, bool json) {
   }
   reports::Report r = reports::gather(&store, std::move(attempt));
   r.names = o.names;
+  if (training::is_unverified(r.attempt))
+    core::log::warn("{}",
+                    tr("this result is as its recording has it and is not verified: trocar replay RECORDING --verify "
+                       "judges again"));
   if (r.attempt.state != training::AttemptState::finished)
     core::log::warn("attempt {}: {}", r.attempt.uuid, name_of(r.attempt.state));
   Json result = summary(r);
@@ -131,7 +150,7 @@ int report(Store& store, const Options& o, bool json) {
   }
   const bool page = !o.out.empty() || (!json && o.csv.empty() && o.trace.empty());
   if (page) {
-    const fs::path folder = o.out.empty() ? store.folder() / "reports" / r.attempt.uuid : fs::path(o.out);
+    const fs::path folder = o.out.empty() ? folder_of(store, r.attempt) : fs::path(o.out);
     attempt::make_folder(folder);
     if (!o.no_pictures && !r.attempt.recording.empty()) reports::add_pictures(r, r.attempt.recording, folder);
     result["report"] = reports::write_report(folder, r);

@@ -42,8 +42,7 @@ std::vector<fs::path> pages_of(const Store& store, const std::string& trainee) {
   for (const Attempt& a : store.list({.trainee = trainee})) {
     std::error_code error;
     const fs::path page = store.folder() / "reports" / a.uuid;
-    const bool named = !a.uuid.empty() && a.uuid.find('/') == std::string::npos && a.uuid[0] != '.';
-    if (named && fs::exists(page, error)) pages.push_back(page);
+    if (training::is_uuid(a.uuid) && fs::exists(page, error)) pages.push_back(page);
   }
   return pages;
 }

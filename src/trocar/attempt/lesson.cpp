@@ -29,8 +29,11 @@ std::unique_ptr<InputSource> Lesson::surgeon() const {
 
 bool is_exercise(const std::filesystem::path& path) {
   std::vector<core::Fault> faults;
-  const scene::JsonDocument document = scene::load_json(path, faults);
-  const scene::JsonMember* scene = document.root.find("scene");
+  return is_exercise(scene::load_json(path, faults).root);
+}
+
+bool is_exercise(const scene::JsonValue& root) {
+  const scene::JsonMember* scene = root.find("scene");
   return scene && scene->value.kind == scene::JsonValue::Kind::string;
 }
 

@@ -59,6 +59,7 @@ struct Lesson {
 
 /// Exercise files name a scene; scene files do not. False also for what cannot be read.
 bool is_exercise(const std::filesystem::path& path);
+bool is_exercise(const scene::JsonValue& root);
 
 /// Reads and compiles what EXERCISE names; reports on stderr when that takes a while.
 /// @param seed varies the anatomy within its healthy range; 0: the standard patient. A recording's header holds it.

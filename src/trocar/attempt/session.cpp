@@ -14,6 +14,7 @@
 #include <trocar/core/tick.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
+#include <trocar/training/exercise/exercise_hash.hpp>
 #include <trocar/training/observe/hands.hpp>
 
 namespace trocar::attempt {
@@ -43,6 +44,8 @@ constexpr FlagName kFlags[] = {
     {sim::StepReport::kBloodFlow, "blood_flow", "The blood flow has no solution and stopped. Restart the exercise."},
     {tissue::StepReport::kBeyondLinear, "beyond_linear",
      "An organ has turned further than its model allows: its forces and its shape are inaccurate."},
+    {sim::StepReport::kEventsFull, "events_full",
+     "More has happened than the record of events holds: further events are not counted. Restart the exercise."},
 };
 
 }  // namespace
@@ -85,10 +88,11 @@ void Session::record(const std::filesystem::path& path, const training::Attempt&
   header.seed = m_lesson.seed;
   header.exercise = m_lesson.name;
   header.program_version = TROCAR_VERSION;
-  header.metadata_json = Json{{"trainee", attempt.trainee}, {"input", attempt.input},   {"started", attempt.started},
-                              {"uuid", attempt.uuid},       {"number", attempt.number}, {"mode", name_of(attempt.mode)},
-                              {"title", attempt.title}}
-                             .dump(-1, ' ', false, Json::error_handler_t::replace);
+  Json note{{"trainee", attempt.trainee}, {"input", attempt.input},   {"started", attempt.started},
+            {"uuid", attempt.uuid},       {"number", attempt.number}, {"mode", name_of(attempt.mode)},
+            {"title", attempt.title}};
+  if (m_lesson.exercise) note[training::kExerciseHash] = core::hex(training::judgement_hash(*m_lesson.exercise));
+  header.metadata_json = note.dump(-1, ' ', false, Json::error_handler_t::replace);
   m_writer = std::make_unique<sim::RecordingWriter>(path, header);
   m_recording = path;
   m_writer->hash(m_state.tick, mark());
@@ -132,6 +136,7 @@ void Session::watch_tick() {
     m_tip[t] = tip;
   }
   if (m_monitor) m_monitor->update(m_lesson.model, m_state, m_report);
+  if (m_monitor && m_monitor->rules().events().lost()) m_flags |= sim::StepReport::kEventsFull;
   m_trace.update(m_lesson.model, m_state, m_report);
   if (m_exercise_from < 0 && m_monitor && m_monitor->seconds() > 0)
     m_exercise_from = double(m_state.tick) * sim::kTick - m_monitor->seconds();

@@ -304,6 +304,9 @@ MotionTrial read_motion_trial(const std::string& argument) {
   const bool whole = mark == std::string::npos || std::filesystem::exists(argument, error);
   const std::string path = whole ? argument : argument.substr(0, mark);
   const std::string name = whole ? "" : argument.substr(mark + 1);
+  if (path.empty())
+    throw core::BadInput({core::Fault{core::Location{"motion:" + argument, 0, 0},
+                                      "expected motion:FILE or motion:FILE#OPERATOR/TRIAL, got no file"}});
   std::vector<MotionTrial> trials = read_motion_file(path);
   if (name.empty()) return std::move(trials.front());
   std::string names;

@@ -5,6 +5,7 @@
 
 #include <trocar/core/hash.hpp>
 #include <trocar/reports/export.hpp>
+#include <trocar/training/store/json_fields.hpp>
 
 namespace trocar::reports {
 namespace {
@@ -52,7 +53,7 @@ constexpr const char* kFirst[] = {"number",      "uuid",        "trainee",   "ex
 }  // namespace
 
 Json result_of(const Attempt& a) {
-  Json r = Json::parse(a.result, nullptr, false);
+  Json r = training::json_in(a.result);
   return r.is_object() ? r : Json::object();
 }
 
@@ -130,6 +131,7 @@ Json attempts_json(const std::vector<Attempt>& attempts, bool names) {
              {"program_version", a.program_version},
              {"model_hash", core::hex(a.model_hash)},
              {"has_trace", a.has_trace}};
+    if (is_unverified(a)) one["unverified"] = true;
     one["result"] = result_of(a);
     list.push_back(std::move(one));
   }

@@ -198,7 +198,6 @@ struct TeamHost::Desk {
     if (!seat.link->open() || Clock::now() - seat.heard > kSilent) {
       seat.link.reset();
       seat.shown.here = false;
-      seat.shown.latency = 0;
     }
   }
 
@@ -206,7 +205,7 @@ struct TeamHost::Desk {
   void note(Seat& seat, const message::Done& done) {
     if (done.ticks > made) return seat.link->close("it counts ticks that do not exist");
     seat.shown.ticks = std::max(seat.shown.ticks, done.ticks);
-    seat.shown.latency = 1e-6 * double(done.latency_us);
+    if (done.latency_us > 0) seat.shown.latency = 1e-6 * double(done.latency_us);  // the result needs it afterwards
     const auto known = std::find_if(hashes.begin(), hashes.end(), [&](const Hash& h) { return h.tick == done.hashed; });
     if (done.hash == 0 || known == hashes.end() || known->hash == done.hash) return;
     seat.link->send(message::coded(message::End{"its simulation differs from the host's"}));

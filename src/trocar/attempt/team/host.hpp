@@ -34,7 +34,7 @@ struct TeamSeat {
   Duty duty;
   bool here = false;
   std::uint64_t ticks = 0;  ///< made there
-  double latency = 0;       ///< [s] from a hand's motion there to the tick there that has it; 0: none yet
+  double latency = 0;       ///< [s] from a hand's motion there to the tick there that has it, last known; 0: none yet
 };
 
 class TeamHost {

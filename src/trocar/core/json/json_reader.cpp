@@ -1,4 +1,5 @@
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -59,8 +60,8 @@ std::string shortened(std::string_view text) {
 /// Recursion is bounded by kMaxJsonDepth, so the depth of the input never meets the depth of the machine's stack.
 class Parser {
  public:
-  Parser(std::string_view text, const std::string& file, std::vector<Fault>& faults)
-      : m_text(text), m_file(file), m_faults(faults) {}
+  Parser(std::string_view text, const std::string& file, std::vector<Fault>& faults, const JsonLimits& limits)
+      : m_text(text), m_file(file), m_faults(faults), m_limits(limits) {}
 
   JsonValue document() {
     JsonValue root = broken({1, 1});
@@ -78,11 +79,13 @@ class Parser {
     return root;
   }
   bool is_lost() const { return m_lost; }
+  int values() const { return m_values; }
 
  private:
   std::string_view m_text;
   const std::string& m_file;
   std::vector<Fault>& m_faults;
+  const JsonLimits& m_limits;
   std::size_t m_at = 0;
   Place m_place;
   int m_values = 0;
@@ -102,7 +105,10 @@ class Parser {
     }
   }
 
-  void fault(Place at, std::string message) { tell(m_faults, {{m_file, at.line, at.column}, std::move(message)}); }
+  void fault(Place at, std::string message) {
+    tell(m_faults, {{m_file, at.line, at.column}, std::move(message)});
+    m_lost = m_lost || m_faults.size() > kMaxFaults;  // nothing more is reported
+  }
   void lost(Place at, std::string message) {
     if (!m_lost) fault(at, std::move(message));
     m_lost = true;
@@ -176,8 +182,8 @@ class Parser {
 
   JsonValue value_here(int depth) {
     const Place at = m_place;
-    if (++m_values > kMaxJsonValues) {
-      lost(at, tr("expected at most {} values in a file, got more", kMaxJsonValues));
+    if (++m_values > m_limits.values) {
+      lost(at, tr("expected at most {} values in a file, got more", m_limits.values));
       return broken(at);
     }
     const char c = peek();
@@ -233,6 +239,8 @@ class Parser {
       if (at_end() || peek() == '\n') {
         const char* what = at_end() ? "the end of the file" : "the end of the line";
         lost(m_place, tr("expected '\"' to close the string that began at {}:{}, got {}", at.line, at.column, what));
+      } else if (v.text.size() > m_limits.text_bytes) {
+        lost(at, tr("expected a text of at most {} bytes, got a longer one", m_limits.text_bytes));
       } else if (peek() == '"') {
         next();
         return std::exchange(m_has_nul, false) ? broken(at) : v;
@@ -357,12 +365,23 @@ class Parser {
       next();
       return v;
     }
-    do member(v, begin, depth);
+    Keys keys;
+    do member(v, keys, begin, depth);
     while (!m_lost && more('}', begin, "object"));
     return v;
   }
 
-  void member(JsonValue& object, Place begin, int depth) {
+  /// Of an object, once it has many.
+  using Keys = std::set<std::string>;
+  static const JsonMember* known(const JsonValue& object, Keys& keys, const std::string& key) {
+    constexpr std::size_t kFew = 16;
+    if (object.members.size() < kFew) return object.find(key);
+    if (keys.empty())
+      for (const JsonMember& m : object.members) keys.insert(m.key);
+    return keys.insert(key).second ? nullptr : object.find(key);
+  }
+
+  void member(JsonValue& object, Keys& keys, Place begin, int depth) {
     const Place at = m_place;
     if (at_end())
       return lost(at, tr("expected '}}' to close the object that began at {}:{}, got the end of the file", begin.line,
@@ -382,7 +401,7 @@ class Parser {
     if (at_end())
       return lost(m_place, tr("expected a value for the key \"{}\", got the end of the file", shortened(m.key)));
     m.value = value(depth + 1);
-    if (const JsonMember* earlier = object.find(m.key))
+    if (const JsonMember* earlier = known(object, keys, m.key))
       return fault(at, tr("expected every key once, got \"{}\" again (first at {}:{})", shortened(m.key), earlier->line,
                           earlier->column));
     if (object.members.size() >= kMaxJsonKeys)
@@ -404,15 +423,17 @@ const JsonMember* JsonValue::find(std::string_view key) const {
   return nullptr;
 }
 
-JsonDocument parse_json(std::string_view text, std::string file, std::vector<Fault>& faults) {
+JsonDocument parse_json(std::string_view text, std::string file, std::vector<Fault>& faults,
+                        const JsonLimits& limits) {
   JsonDocument document{std::move(file), {}};
   if (std::string foreign = foreign_text(text); !foreign.empty()) {
     document.root.kind = Kind::broken;
     tell(faults, {{document.file, 1, 1}, std::move(foreign)});
     return document;
   }
-  Parser parser(text, document.file, faults);
+  Parser parser(text, document.file, faults, limits);
   document.root = parser.document();
+  document.values = parser.values();
   if (parser.is_lost()) document.root.kind = Kind::broken;  // its members still tell the file's kind
   return document;
 }

@@ -5,7 +5,8 @@
 // one pass. Event interfaces of JSON libraries stop at the first bad number; this reader continues after every fault
 // that leaves the structure readable (a number that is not finite, a bad word, a key given twice, a comma too many) and
 // stops only where the structure itself is lost. Grammar: RFC 8259, and comments as in C++. Limits: 64 levels of
-// nesting, a million values, 256 keys in one object. What Trocar itself writes and reads back: core/json.hpp.
+// nesting, half a million values, 256 keys in one object; a kind of file may have less (JsonLimits). What Trocar itself
+// writes and reads back: core/json.hpp.
 //
 //   std::vector<Fault> faults;
 //   const JsonDocument document = parse_json(text, "tissues.json", faults);
@@ -50,18 +51,26 @@ struct JsonMember {
 struct JsonDocument {
   std::string file;  ///< as faults show it
   JsonValue root;    ///< broken where the text has no readable value
+  int values = 0;    ///< read
 };
 
 inline constexpr int kMaxJsonDepth = 64;
-inline constexpr int kMaxJsonValues = 1'000'000;
+inline constexpr int kMaxJsonValues = 500'000;
 inline constexpr std::size_t kMaxJsonKeys = 256;  ///< in one object
 inline constexpr std::size_t kMaxFaults = 1000;   ///< told of one reading
+
+/// How much a text may hold: asked while it is read, so that what is refused takes neither time nor memory.
+struct JsonLimits {
+  int values = kMaxJsonValues;
+  std::size_t text_bytes = std::string::npos;  ///< of one string
+};
 
 /// Appends a fault; where there are kMaxFaults already, only that not all are reported.
 void tell(std::vector<Fault>& faults, Fault fault);
 
 /// Reads `text`; what is wrong with it is appended to `faults`. Never throws on bad text.
-JsonDocument parse_json(std::string_view text, std::string file, std::vector<Fault>& faults);
+JsonDocument parse_json(std::string_view text, std::string file, std::vector<Fault>& faults,
+                        const JsonLimits& limits = {});
 
 /// How a fault names a value: `"text"`, `-3`, `an array`, `null` (long strings are shortened).
 std::string shown(const JsonValue& value);

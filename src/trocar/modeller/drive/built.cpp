@@ -5,6 +5,7 @@
 #include <trocar/modeller/drive/body_memory.hpp>
 #include <trocar/modeller/drive/built.hpp>
 #include <trocar/scene/checks/equilibrium_check.hpp>
+#include <trocar/scene/checks/predicted_cost.hpp>
 
 namespace trocar::modeller {
 namespace {
@@ -48,24 +49,15 @@ Built build(const Document& document) {
   return out;
 }
 
-double predicted_us(const scene::BodyReport& b) {
-  if (b.kind == "strand") return 0.16 * b.springs;
-  const double ns = b.kind == "solid"                           ? 1.7
-                    : b.kind == "cuttable"                      ? 2.9
-                    : b.kind == "membrane" || b.kind == "pouch" ? 3.5
-                                                                : 0;
-  return 1e-3 * ns * b.springs * std::max(1, b.substeps);
-}
-
 std::vector<ReadOut> read_outs(const Built& built, std::uint64_t standing_ticks) {
   std::vector<ReadOut> out;
   if (!built.good()) return out;
   scene::EquilibriumCheck equilibrium;
-  if (standing_ticks > 0) equilibrium = scene::check_equilibrium(*built.model, standing_ticks, [] { return true; });
+  if (standing_ticks > 0) equilibrium = scene::check_equilibrium(*built.model, standing_ticks);
   const std::vector<std::size_t> bytes = memory_of_bodies(*built.model, built.report);
   for (const scene::BodyReport& b : built.report.bodies) {
     ReadOut r{b.name, b.kind, b.nodes, b.springs, b.substeps, b.volume * 1e6, b.mass * 1e3, b.dt_limit * 1e3};
-    r.predicted_us = predicted_us(b);
+    r.predicted_us = scene::predicted_us(b);
     r.bytes = bytes[out.size()];
     for (const scene::EquilibriumCheck::Organ& o : equilibrium.organs)
       if (o.name == b.name) r.off_mm = o.off * 1e3;

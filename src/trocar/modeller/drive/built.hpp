@@ -39,9 +39,4 @@ struct ReadOut {
 /// @param standing_ticks  simulated to check the equilibrium; 0: not checked
 std::vector<ReadOut> read_outs(const Built& built, std::uint64_t standing_ticks);
 
-/// About what a tick of a body costs at rest, contacts and loads beside [us], on one core of an Intel Xeon at 2.6
-/// GHz: 1.7 ns a spring and sub-step of a lattice, 2.9 of a body that can be cut (docs/developers/computation.md), 3.5
-/// of a fold, 0.16 us an element of a strand (as `trocar check` measures them).
-double predicted_us(const scene::BodyReport& body);
-
 }  // namespace trocar::modeller

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,11 +6,14 @@
 #include <trocar/core/log.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/scene/checks/equilibrium_check.hpp>
+#include <trocar/scene/checks/predicted_cost.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/step.hpp>
 
 namespace trocar::scene {
 namespace {
+
+constexpr double kLeastTicks = 20;
 
 EquilibriumCheck::Organ look_at(const sim::Model& model, const sim::State& state, int organ) {
   const std::span<const Vec3d> rest = sim::drawn_nodes(model, organ);
@@ -33,7 +35,7 @@ bool EquilibriumCheck::is_stable() const {
   return std::none_of(organs.begin(), organs.end(), [](const Organ& o) { return o.is_unstable(); });
 }
 
-EquilibriumCheck check_equilibrium(const sim::Model& scene, std::uint64_t ticks, const std::function<bool()>& go_on) {
+EquilibriumCheck check_equilibrium(const sim::Model& scene, std::uint64_t ticks, double most) {
   sim::Model model = scene;
   model.motion = {};
   model.vessels.bleeder.vessel = -1;
@@ -42,7 +44,9 @@ EquilibriumCheck check_equilibrium(const sim::Model& scene, std::uint64_t ticks,
   EquilibriumCheck out;
   out.state = sim::initial_state(model);
   sim::Work work = sim::make_work(model);
-  while (out.state.tick < ticks && go_on()) sim::step(model, model.start, out.state, work);
+  const double affordable = std::max(1e6 * most / predicted_us(model), kLeastTicks);
+  const auto last = std::min(ticks, std::uint64_t(std::min(affordable, 1e9)));
+  while (out.state.tick < last) sim::step(model, model.start, out.state, work);
   out.seconds = double(out.state.tick) * sim::kTick;
   for (int organ = 0; organ < model.organs(); ++organ) out.organs.push_back(look_at(model, out.state, organ));
   return out;
@@ -56,9 +60,7 @@ std::string in_words(const EquilibriumCheck& equilibrium, const EquilibriumCheck
 }
 
 void warn_if_unstable(const sim::Model& model) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point until = Clock::now() + std::chrono::seconds(1);
-  const EquilibriumCheck equilibrium = check_equilibrium(model, 500, [&] { return Clock::now() < until; });
+  const EquilibriumCheck equilibrium = check_equilibrium(model, 500, kMostBeforeTraining);
   for (const EquilibriumCheck::Organ& o : equilibrium.organs)
     if (o.is_unstable()) core::log::warn("{}", in_words(equilibrium, o));
 }

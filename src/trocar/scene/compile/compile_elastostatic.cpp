@@ -9,6 +9,7 @@
 #include <trocar/scene/compile/compliance_cache.hpp>
 #include <trocar/scene/description/fibres.hpp>
 #include <trocar/sim/model/bodies.hpp>
+#include <trocar/tissue/elastostatic/compliance_check.hpp>
 #include <trocar/tissue/elastostatic/condense.hpp>
 #include <trocar/tissue/elastostatic/drawn_springs.hpp>
 #include <trocar/tissue/network/volume_force.hpp>
@@ -152,8 +153,10 @@ Compliance compliance_of(const tissue::Stiffness& k, std::span<const int> kept, 
   CachedCompliance cached = read_compliance(key, int(kept.size()), fields);
   r.file = cached.file.string();
   r.note = cached.damage;
-  if (!cached.damage.empty()) core::log::warn("{}: {}; computed again", r.file, cached.damage);
-  if (cached.found) return std::move(cached.compliance);
+  if (cached.found)
+    r.note = tissue::fault_of_compliance(k, kept, loads, cached.compliance.columns, cached.compliance.fields);
+  if (!r.note.empty()) core::log::warn("{}: {}; computed again", r.file, r.note);
+  if (cached.found && r.note.empty()) return std::move(cached.compliance);
   r.computed = true;
   const tissue::Condensed made = tissue::condense(k, kept, loads, nullptr, [&](double share) {
     if (report && report->said) report->said(r.organ, share);

@@ -1,7 +1,8 @@
 // Compliances of organs that were made before, in files named by the content that they follow from: stiffness, held
 // nodes, nodes that are kept, loads, and the arithmetic's version. The same organ has the same file, so
 // that a folder of them can be shared or copied. All that is in one is hashed; what is damaged or foreign counts as not
-// there. Two programs may write the same one at a time: files come into being whole.
+// there. The hash says nothing of who wrote it: the compiler checks it against the body (compliance_check.hpp). Two
+// programs may write the same one at a time: files come into being whole.
 //
 // The folder is $TROCAR_CACHE, else $XDG_CACHE_HOME/trocar, else ~/.cache/trocar; at most 2 GB are kept there, what was
 // used last.

@@ -17,6 +17,7 @@
 namespace trocar::scene {
 
 using core::JsonDocument;
+using core::JsonLimits;
 using core::JsonMember;
 using core::JsonValue;
 using core::kMaxFaults;
@@ -42,6 +43,6 @@ struct MemoryFiles : std::map<std::filesystem::path, std::string> {
 
 /// One that cannot be read is a fault at line 0. With `memory` files are looked up there first.
 JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults,
-                       const MemoryFiles* memory = nullptr);
+                       const MemoryFiles* memory = nullptr, const JsonLimits& limits = {});
 
 }  // namespace trocar::scene

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -42,12 +44,12 @@ std::string joined(const std::vector<std::string>& words) {
 std::string shortened(const std::vector<std::string>& words) {
   constexpr std::size_t kShownNames = 12;
   std::vector<std::string> once;
+  std::set<std::string_view> seen;
   for (const std::string& word : words)
-    if (std::find(once.begin(), once.end(), word) == once.end()) once.push_back(word);
-  if (once.size() <= kShownNames + 1) return joined(once);
-  const std::size_t more = once.size() - kShownNames;
+    if (seen.insert(word).second && once.size() <= kShownNames) once.push_back(word);
+  if (seen.size() <= kShownNames + 1) return joined(once);
   once.resize(kShownNames);
-  return tr("{} and {} more", joined(once), more);
+  return tr("{} and {} more", joined(once), seen.size() - kShownNames);
 }
 
 bool is_name(std::string_view text) {
@@ -57,19 +59,29 @@ bool is_name(std::string_view text) {
   });
 }
 
-/// Damerau-Levenshtein distance restricted to adjacent swaps ("optimal string alignment").
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
-  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i)
+constexpr std::size_t kLongestGuess = 64;     ///< [bytes] a longer word is no misspelt name
+constexpr std::size_t kMostCandidates = 256;  ///< that are looked through for what was meant
+
+/// Damerau-Levenshtein distance restricted to adjacent swaps ("optimal string alignment"), of words that are no longer
+/// than twice kLongestGuess; `most` or more where it is not below that.
+std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t most) {
+  const std::size_t apart = a.size() > b.size() ? a.size() - b.size() : b.size() - a.size();
+  if (apart >= most || b.size() > 2 * kLongestGuess) return std::max(apart, most);
+  std::array<std::array<std::size_t, 2 * kLongestGuess + 1>, 3> rows{};  // of a: two before, one before, at hand
+  for (std::size_t j = 0; j <= b.size(); ++j) rows[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    const auto &before = rows[(i - 1) % 3], &earlier = rows[(i + 1) % 3];
+    auto& row = rows[i % 3];
+    std::size_t least = row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const std::size_t change = a[i - 1] == b[j - 1] ? 0 : 1;
-      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + change});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+      row[j] = std::min({before[j] + 1, row[j - 1] + 1, before[j - 1] + change});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], earlier[j - 2] + 1);
+      least = std::min(least, row[j]);
     }
-  return d[a.size()][b.size()];
+    if (least > most) return least;  // a swap takes one back at most
+  }
+  return rows[a.size() % 3][b.size()];
 }
 
 /// Checks one value against one row of a table; faults go to the value's own place.
@@ -178,13 +190,15 @@ class Check {
   template <class Item>
   bool list(const JsonValue& value, std::size_t at_least, Item&& item) const {
     if (value.kind != Kind::array) return wrong(value, "an array");
+    const std::size_t count = value.items.size();
+    const bool few = count < at_least;
+    const bool many = count > m_key.max_count;
     bool good = true;
-    for (const JsonValue& v : value.items) good = item(v) && good;
-    if (value.items.size() >= at_least && value.items.size() <= m_key.max_count) return good;
-    const bool few = value.items.size() < at_least;
+    for (std::size_t i = 0; i < count && !many; ++i) good = item(value.items[i]) && good;
+    if (!few && !many) return good;
     tell(m_faults, {{m_file, value.line, value.column},
                     tr("expected at {} {} items for \"{}\", got {}", few ? "least" : "most",
-                       few ? at_least : m_key.max_count, m_key.name, value.items.size())});
+                       few ? at_least : m_key.max_count, m_key.name, count)});
     return false;
   }
   bool lines(const JsonValue& value) const {
@@ -289,6 +303,10 @@ Key format(int version) { return needed(integer("format", version, version, "ver
 Key needed(Key key) {
   key.required = true;
   return key;
+}
+Key at_most(std::size_t count, Key items) {
+  items.max_count = count;
+  return items;
 }
 
 JsonObject::JsonObject(const JsonValue& value, const Shape& shape, const std::string& file,
@@ -411,8 +429,8 @@ std::vector<JsonObject> JsonObject::objects(std::string_view key) const {
     if (v.kind == Kind::object) all.emplace_back(v, k->shape(), *m_file, *m_faults);
     return all;
   }
-  for (const JsonValue& item : v.items)
-    if (item.kind == Kind::object) all.emplace_back(item, k->shape(), *m_file, *m_faults);
+  for (std::size_t i = 0; i < std::min(v.items.size(), k->max_count); ++i)
+    if (v.items[i].kind == Kind::object) all.emplace_back(v.items[i], k->shape(), *m_file, *m_faults);
   return all;
 }
 
@@ -437,15 +455,16 @@ void JsonObject::fault(core::Location where, std::string message) const {
 void JsonObject::fault(std::string_view key, std::string message) const { fault(at(key), std::move(message)); }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
-  if (word.size() > 64) return {};
+  if (word.size() > kLongestGuess) return {};
   const std::string* best = nullptr;
   std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
   const bool is_leaf = word.find('/') == word.npos;
-  for (const std::string& candidate : candidates) {
+  for (std::size_t i = 0; i < std::min(candidates.size(), kMostCandidates); ++i) {
+    const std::string& candidate = candidates[i];
     const std::size_t slash = candidate.rfind('/');
-    std::size_t distance = edit_distance(word, candidate);
+    std::size_t distance = edit_distance(word, candidate, best_distance);
     if (is_leaf && slash != candidate.npos)
-      distance = std::min(distance, edit_distance(word, std::string_view(candidate).substr(slash + 1)));
+      distance = std::min(distance, edit_distance(word, std::string_view(candidate).substr(slash + 1), best_distance));
     if (distance >= best_distance) continue;
     best = &candidate;
     best_distance = distance;

@@ -87,7 +87,8 @@ Key includes(std::string name, std::function<const Shape&()> shape, std::string 
 Key any(std::string name, std::string meaning);
 Key format(int version);  ///< "format": the version of the file's keys
 }  // namespace keys
-Key needed(Key key);  ///< the same row, required
+Key needed(Key key);                        ///< the same row, required
+Key at_most(std::size_t count, Key items);  ///< the same row of a list, of so many items
 
 /// Net of points, row by row.
 struct PointGrid {
@@ -123,8 +124,9 @@ class JsonObject {
   std::vector<double> numbers(std::string_view key) const;
   NumberTable table(std::string_view key) const;
 
-  /// The objects of an `objects` key, or the one of an `object` key: checked by the row's table. Values of an
-  /// `includes` key that are file names are left out; see values().
+  /// The objects of an `objects` key, or the one of an `object` key: checked by the row's table. Of a list that is
+  /// longer than its row allows, which is a fault, the first so many. Values of an `includes` key that are file names
+  /// are left out; see values().
   std::vector<JsonObject> objects(std::string_view key) const;
   /// The raw values of an array key (empty where it is not there or broken).
   const std::vector<JsonValue>& values(std::string_view key) const;

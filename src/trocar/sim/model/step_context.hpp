@@ -15,7 +15,10 @@ struct StepContext {
 };
 
 inline void emit_event(StepContext& c, Event::Kind kind, int tool, int index) noexcept {
-  if (c.report.event_count < kMaxEvents - kRoomForTears) c.report.events[c.report.event_count++] = {kind, tool, index};
+  if (c.report.event_count < kMaxEvents - kRoomForTears)
+    c.report.events[c.report.event_count++] = {kind, tool, index};
+  else
+    c.report.flags |= StepReport::kEventsFull;
 }
 inline void emit_event(StepContext& c, Event::Kind kind, int tool, BodyId body) noexcept {
   emit_event(c, kind, tool, body.code());

@@ -101,6 +101,7 @@ struct StepReport {
                               ///< blades no longer cut, tears open no further
     kBloodFlow = 1u << 19,    ///< blood flow found no solution and was not advanced; restore a State
     kHeatFull = 1u << 22,     ///< no room for more heated tissue: raise "bricks" or "awake" of the scene's energy
+    kEventsFull = 1u << 21,   ///< more happened in a tick than a report holds: some events are missing
     kDropsFull = 1u << 20,    ///< no room for more drops of fluid: what flowed went straight into the pool
   };
   std::uint32_t flags = 0;

@@ -41,7 +41,7 @@ struct RecordingHeader {
   std::uint64_t seed = 0;
   std::string exercise;  ///< name under scenes/ or path
   std::string program_version;
-  std::string metadata_json;  ///< trainee, input device, start time: for people, never read by the simulation
+  std::string metadata_json;  ///< trainee, input device, start time, the exercise's hash: never read by the simulation
 };
 
 struct HashMark {

@@ -10,9 +10,11 @@
 
 namespace trocar::sim {
 
+inline constexpr const char* kDoesNotFit = "it does not fit the scene";
+
 /// The first field that is drawn otherwise than in a keyframe of the same tick, recorded value first, as
-/// first_difference() names it. Places count in steps of 0.01 mm. Empty where nothing that is drawn differs, or the
-/// keyframe does not fit the scene.
+/// first_difference() names it. Places count in steps of 0.01 mm. Empty where nothing that is drawn differs;
+/// kDoesNotFit where the keyframe is none of this scene.
 std::string shown_difference(const Model& model, const std::vector<std::uint8_t>& keyframe, const State& state);
 
 /// The same in words, for a State whose hash is another than the recording's. Empty where the recording has no keyframe

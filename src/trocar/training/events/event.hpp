@@ -18,11 +18,13 @@ struct Foreseen {
   interactions::Clip clip;  ///< that the instance points at
 };
 
-/// Those of one kind in a tick; those that do not fit are not reported.
+/// Those of one kind in a tick, of which the step reports at most as many.
 struct EventInstances {
-  std::array<EventInstance, 16> list;
+  std::array<EventInstance, sim::kMaxEvents> list;
   int count = 0;
+  bool lost = false;  ///< some did not fit, ever
   void add(const EventInstance& h) {
+    lost = lost || count == int(list.size());
     if (count < int(list.size())) list[size_t(count++)] = h;
   }
 };

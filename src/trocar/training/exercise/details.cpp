@@ -39,7 +39,7 @@ void Details::read(const Part& part, const RuleReading& outer) {
 void Details::read_one(const JsonValue& v, const std::string& side, const RuleReading& r) {
   const scene::JsonMember *name = v.find("detail"), *value = v.find("value"), *keep = v.find("keep"),
                           *w = v.find("while");
-  if (!name || !value) return;  // told
+  if (!name || !value || !r.has_room(v)) return;  // told
   Told t;
   t.name = name->value.text;
   t.side = side;

@@ -20,8 +20,12 @@ namespace trocar::training {
 /// More of one exercise are a fault.
 inline constexpr int kMaxSteps = 64;  ///< with one an element of their sets
 inline constexpr int kMaxSets = 32;
-inline constexpr int kMaxElements = 64;  ///< of a set
-inline constexpr int kMaxErrors = 512;   ///< with one an element of their sets
+inline constexpr int kMaxErrors = 512;  ///< with one an element of their sets
+inline constexpr std::size_t kMaxLimits = 256;
+inline constexpr std::size_t kMaxIncludes = 16;
+/// Of all its files together: a shipped one has at most 2,500. More are refused before anything else is asked.
+inline constexpr int kMaxExerciseValues = 100'000;
+inline constexpr std::size_t kLongestExerciseText = 4096;  ///< [bytes]
 
 /// Where a list for people shows an exercise, in the order of the list.
 inline constexpr const char* kGroups[] = {"basics", "suturing", "gynaecology", "gallbladder", "bowel", "free practice"};
@@ -68,6 +72,7 @@ struct Choice {
 };
 using Choices = std::vector<Choice>;
 inline constexpr int kMostChoice = 99999, kMostPerturbation = 99999;
+inline constexpr std::uint64_t kLargestRehearsedSeed = (std::uint64_t(1) << 53) - 1;  ///< that a number of JSON holds
 
 /// Choices with which it succeeded in a rehearsal.
 struct RecordedChoices {

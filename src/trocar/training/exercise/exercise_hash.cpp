@@ -79,8 +79,9 @@ class ExerciseHasher {
 
 }  // namespace
 
-std::uint64_t hash_of(const Exercise& e) {
-  ExerciseHasher h;
+namespace {
+
+void add_judged(const Exercise& e, ExerciseHasher& h) {
   for (const std::string* text : {&e.name, &e.title}) h.add(*text);
   for (const double number :
        {e.hold_time, e.expert_time, e.longest_time, e.quality_share, e.time_share, e.motion_share, e.pass_mark})
@@ -94,6 +95,19 @@ std::uint64_t hash_of(const Exercise& e) {
   h.all(e.steps);
   h.all(e.penalties);
   h.all(e.details);
+}
+
+}  // namespace
+
+std::uint64_t judgement_hash(const Exercise& e) {
+  ExerciseHasher h;
+  add_judged(e, h);
+  return h.value();
+}
+
+std::uint64_t hash_of(const Exercise& e) {
+  ExerciseHasher h;
+  add_judged(e, h);
   h.add(e.demonstration);
   h.all(e.recorded_choices);
   return h.value();

@@ -10,5 +10,7 @@ namespace trocar::training {
 
 /// Layout and comments of the files do not count.
 std::uint64_t hash_of(const Exercise& exercise);
+/// The same of what an attempt is judged by: without the demonstration and its recorded choices.
+std::uint64_t judgement_hash(const Exercise& exercise);
 
 }  // namespace trocar::training

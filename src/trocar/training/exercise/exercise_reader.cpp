@@ -43,7 +43,7 @@ class ExerciseReader {
     head();
     score();
     RuleFiles rules(m_exercise, m_faults);
-    includes(rules);
+    if (!includes(rules)) return m_exercise.steps.clear();  // what follows from missing rules is no fault of its own
     std::vector<const JsonObject*> limits;
     for (const Layer& l : m_layers) limits.push_back(&l.o);
     rules.read({limits, said("sets").o, said("errors").o}, true);
@@ -57,7 +57,6 @@ class ExerciseReader {
     rehearsed(m_layers.front().o);  // another scene asks for other choices
     for (const JsonObject& l : said("later").o.objects("later"))
       m_exercise.later.push_back({l.text("code"), l.text("name"), l.text("needs")});
-    bounds();
     words();
     codes();
     unused_limits();
@@ -72,8 +71,7 @@ class ExerciseReader {
 
   /// @return false where there is nothing to continue with
   bool open(const fs::path& path) {
-    m_files.push_back(scene::load_json(path, m_faults, m_memory));
-    const scene::JsonDocument& document = m_files.back();
+    const scene::JsonDocument& document = load(path);
     if (document.root.kind == JsonValue::Kind::broken || of_another_format(document)) return false;
     const bool is_like = document.root.find(scene::kLike) != nullptr;
     const JsonObject o(document.root, is_like ? like_shape() : exercise_shape(), document.file, m_faults);
@@ -83,6 +81,17 @@ class ExerciseReader {
       if (!o.names(key))
         o.fault(o.at(), tr("expected the key \"{}\" also in an exercise that has \"like\", got none", key));
     return below(o, located(path.parent_path() / o.text(scene::kLike)));
+  }
+  /// One of the exercise's files. All of them together hold no more than one may.
+  const scene::JsonDocument& load(const fs::path& path) {
+    m_files.push_back(scene::load_json(path, m_faults, m_memory, {kMaxExerciseValues, kLongestExerciseText}));
+    scene::JsonDocument& document = m_files.back();
+    m_values += document.values;
+    if (m_values <= kMaxExerciseValues || document.root.kind == JsonValue::Kind::broken) return document;
+    fault(document.file, document.root,
+          tr("expected at most {} values in all files of an exercise together, got more", kMaxExerciseValues));
+    document.root.kind = JsonValue::Kind::broken;
+    return document;
   }
   /// A file that a file names, wherever in the library it lies.
   fs::path located(const fs::path& file) const {
@@ -154,22 +163,28 @@ class ExerciseReader {
     }
   }
 
-  void includes(RuleFiles& rules) {
+  /// @return false: some of the rules are missing
+  bool includes(RuleFiles& rules) {
     const JsonObject& o = said("includes").o;
     const std::vector<std::string> names = o.texts("includes");
+    bool all = !o.names("includes") || o.has("includes");
     for (std::size_t i = 0; i < names.size(); ++i) {
       const fs::path path = located(said("includes").path.parent_path() / names[i]);
       if (!m_memory && !m_library.holds(path)) {
         o.fault(o.at("includes", i), m_library.refusal(names[i]));
+        all = false;
         continue;
       }
-      m_files.push_back(scene::load_json(path, m_faults, m_memory));
-      const scene::JsonDocument& document = m_files.back();
-      if (document.root.kind == JsonValue::Kind::broken) continue;
+      const scene::JsonDocument& document = load(path);
+      if (document.root.kind == JsonValue::Kind::broken) {
+        all = false;
+        continue;
+      }
       const JsonObject common(document.root, common_rules_shape(), document.file, m_faults);
       rules.read({{&common}, common, common}, false);
       steps(common);
     }
+    return all;
   }
 
   void steps(const JsonObject& o) {
@@ -198,15 +213,23 @@ class ExerciseReader {
 
   void rehearsed(const JsonObject& o) {
     for (const JsonObject& r : o.objects("rehearsed")) {
-      RecordedChoices one{std::uint64_t(r.integer("seed")), {}};
+      RecordedChoices one{std::uint64_t(r.number("seed")), {}};
       const scene::JsonMember* choices = r.value().find("choices");
       if (choices && choices->value.kind != JsonValue::Kind::array)
         r.fault("choices", "expected a list of choices, got " + scene::shown(choices->value));
       else if (choices)
-        for (const JsonValue& c : choices->value.items) one.choices.push_back(choice(c, o.at().file));
+        for (const JsonValue& c : choices->value.items) add_choice(c, o.at().file, one.choices);
       if (m_exercise.recorded_choices_for(one.seed)) r.fault("seed", "expected each seed once, got it again");
       m_exercise.recorded_choices.push_back(std::move(one));
     }
+  }
+  void add_choice(const JsonValue& v, const std::string& file, Choices& all) {
+    const std::size_t faults = m_faults.size();
+    const Choice next = choice(v, file);
+    if (m_faults.size() != faults) return;
+    if (!all.empty() && next.at <= all.back().at)
+      fault(file, v, tr("expected ascending decision points, each once, got {} after {}", next.at, all.back().at));
+    all.push_back(next);
   }
   Choice choice(const JsonValue& v, const std::string& file) {
     const auto whole = [&v](std::size_t i, int most) {
@@ -219,11 +242,6 @@ class ExerciseReader {
           tr("expected [decision point, perturbation], two whole numbers up to {}, got {}", kMostPerturbation,
              scene::shown(v)));
     return {};
-  }
-
-  void bounds() {
-    if (m_exercise.sets.size() > std::size_t(kMaxSets))
-      said("sets").o.fault("sets", tr("expected at most {} sets, got {}", kMaxSets, m_exercise.sets.size()));
   }
 
   /// Limits go into the texts of errors; steps are reported with their elements, later.
@@ -251,6 +269,7 @@ class ExerciseReader {
   }
   void fault_of(const Penalty& p, const char* key, const char* what, const std::string& word,
                 const std::vector<std::string>& known) {
+    if (m_faults.size() > scene::kMaxFaults) return;  // words cost more than what they say
     const scene::JsonMember* m = p.part.value.find(key);
     fault(p.part.file, m ? m->value : p.part.value, scene::unknown_name(what, word, known));
   }
@@ -278,6 +297,7 @@ class ExerciseReader {
   scene::Library m_library;
   std::deque<scene::JsonDocument> m_files;  ///< they stay where they are
   std::deque<Layer> m_layers;
+  int m_values = 0;  ///< of m_files
 };
 
 /// The first of those that say the same of the same place.

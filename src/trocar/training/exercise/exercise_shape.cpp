@@ -8,6 +8,7 @@
 namespace trocar::training {
 namespace {
 
+using scene::at_most;
 using scene::needed;
 using scene::Shape;
 namespace keys = scene::keys;
@@ -75,11 +76,17 @@ const Shape& later_shape() {
   return shape;
 }
 
+scene::Key seed_key() {
+  scene::Key key = keys::integer("seed", 0, 0, "of the anatomy");
+  key.high = double(kLargestRehearsedSeed);
+  return key;
+}
+
 const Shape& rehearsed_shape() {
   static const Shape shape{
       "rehearsed anatomy",
       "Choices with which the demonstration succeeds with one anatomy, as printed by `trocar rehearse`.",
-      {needed(keys::integer("seed", 0, 2147483647, "of the anatomy")),
+      {needed(seed_key()),
        needed(keys::any("choices", "list of [decision, perturbation]; other decisions follow the plan as written"))}};
   return shape;
 }
@@ -113,11 +120,11 @@ const Shape& exercise_shape() {
        keys::choice("group", group_names(), "group on the start screen; default: other exercises"),
        keys::integer("level", 1, kMostLevel, "1 beginner, 2 intermediate, 3 advanced; default 1"),
        needed(keys::text("scene", "path of the scene file, relative to this file")),
-       keys::texts("includes", "files of common rules, relative to this file"),
+       at_most(kMaxIncludes, keys::texts("includes", "files of common rules, relative to this file")),
        keys::any("limits", "limits by name: {\"value\": number or [from, to], \"source\": ...}"),
        keys::any("sets", "sets of repeated elements, by name: a list of elements, or a pattern"),
-       needed(keys::objects("steps", step_shape, 1, "steps in the order of the display")),
-       keys::objects("errors", error_shape, 0, "in the order in which they are reported"),
+       needed(at_most(kMaxSteps, keys::objects("steps", step_shape, 1, "steps in the order of the display"))),
+       at_most(kMaxErrors, keys::objects("errors", error_shape, 0, "in the order in which they are reported")),
        keys::objects("details", detail_shape, 0, "facts in the result"),
        keys::objects("later", later_shape, 0, "errors whose detection is not implemented"),
        keys::any("demonstration", "its demonstration: a plan of hand skills"),
@@ -140,8 +147,9 @@ const Shape& common_rules_shape() {
        needed(keys::text("title", "for people")),
        keys::any("limits", "as in an exercise, with the direction that makes each stricter"),
        keys::any("sets", "as in an exercise; an exercise may replace them"),
-       keys::objects("steps", step_shape, 0, "as in an exercise, placed before the exercise's own; default none"),
-       keys::objects("errors", error_shape, 0, "as in an exercise, default none"),
+       at_most(kMaxSteps, keys::objects("steps", step_shape, 0,
+                                        "as in an exercise, placed before the exercise's own; default none")),
+       at_most(kMaxErrors, keys::objects("errors", error_shape, 0, "as in an exercise, default none")),
        keys::texts("sources", "publications cited here")}};
   return shape;
 }

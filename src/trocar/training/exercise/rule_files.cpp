@@ -120,6 +120,8 @@ void RuleFiles::limit(const scene::JsonMember& member, const std::string& path, 
   if (const scene::JsonMember* in = member.value.find("in")) elsewhere(in->value, o, l);
   const auto same = [&l](const Limit& other) { return other.name == l.name; };
   const auto known = std::find_if(m_exercise.limits.begin(), m_exercise.limits.end(), same);
+  if (known == m_exercise.limits.end() && m_exercise.limits.size() >= kMaxLimits)
+    return o.fault(o.at(), tr("expected at most {} limits in an exercise, got more", kMaxLimits));
   if (known == m_exercise.limits.end()) {
     m_exercise.limits.push_back(std::move(l));
     return;
@@ -142,6 +144,8 @@ void RuleFiles::sets(const JsonObject& file, const std::string& path) {
     const auto known = std::find_if(m_exercise.sets.begin(), m_exercise.sets.end(), same);
     if (known != m_exercise.sets.end())
       known->second = {m.value, path};
+    else if (m_exercise.sets.size() >= std::size_t(kMaxSets))
+      return file.fault("sets", tr("expected at most {} sets in an exercise, got more", kMaxSets));
     else
       m_exercise.sets.push_back({m.key, {m.value, path}});
   }
@@ -161,6 +165,8 @@ void RuleFiles::errors(const JsonObject& file, const std::string& path, bool own
         o.fault("code", "expected each code once, got \"" + p.code + "\" again");
       continue;
     }
+    if (m_exercise.penalties.size() >= std::size_t(kMaxErrors))
+      return o.fault(o.at(), tr("expected at most {} errors in an exercise, got more", kMaxErrors));
     for (const char* key : {"name", "meaning", "source"})
       if (!o.names(key)) o.fault(o.at(), tr("expected \"{}\" in the error {}, got none", key, p.code));
     if (!o.names("points") && !o.flag("fails"))

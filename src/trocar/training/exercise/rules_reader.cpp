@@ -20,12 +20,11 @@ class RulesReader {
 
   void read() {
     owners();
+    if (!place_steps() || !errors_fit()) return;
     put_steps_on_board();
     for (const Placed& p : m_placed) step(p);
     circles();
     for (const Penalty& p : m_exercise.penalties) error(p);
-    if (m_rules.m_errors.size() > std::size_t(kMaxErrors))
-      whole(tr("expected at most {} errors (one for each element), got {}", kMaxErrors, m_rules.m_errors.size()));
     details();
   }
 
@@ -48,6 +47,7 @@ class RulesReader {
     r.steps = &m_rules.m_board.steps();
     r.file = &file;
     r.faults = &m_faults;
+    r.parts = m_parts;
     return r;
   }
 
@@ -67,19 +67,21 @@ class RulesReader {
     return nullptr;
   }
 
-  /// Bodies by which it is known which element somebody works on.
+  /// Bodies by which it is known which element somebody works on. A set of other sets is followed, so that a circle is
+  /// found also where nothing asks for it.
   void owners() {
     for (const Set& set : m_rules.m_names.sets()) {
-      if (set.elements.size() > std::size_t(kMaxElements))
-        reading(m_rules.m_names, set.file)
-            .fault(set.at, tr("expected at most {} elements, got {}", kMaxElements, set.elements.size()));
-      for (std::size_t i = 0; i < set.elements.size(); ++i)
+      const RuleReading r = reading(m_rules.m_names, set.file);
+      for (std::size_t i = 0; i < set.elements.size() && !r.is_full(); ++i) {
+        if (const JsonValue& self = set.elements[i].self; self.text.substr(0, 1) == "$") r.names(self);
         for (const std::string& member : set.held) own(set, i, member);
+      }
     }
   }
   void own(const Set& set, std::size_t element, const std::string& member) {
     const Element& e = set.elements[element];
     const RuleReading r = reading(m_rules.m_names, set.file);
+    if (!r.has_room(set.at)) return;
     const JsonValue* value = e.member(member);
     if (!value)
       return r.fault(set.at,
@@ -96,7 +98,8 @@ class RulesReader {
   }
 
   /// Steps of one set that follow each other are shown an element after another.
-  void put_steps_on_board() {
+  /// @return false: there are too many
+  bool place_steps() {
     const std::vector<StepText>& all = m_exercise.steps;
     for (std::size_t i = 0; i < all.size();) {
       std::size_t end = i + 1;
@@ -111,8 +114,23 @@ class RulesReader {
       m_rules.m_guide.add({set ? set->name : "", first, int(end - i), set ? int(set->elements.size()) : 1});
       i = end;
     }
-    if (m_placed.size() > std::size_t(kMaxSteps))
-      whole(tr("expected at most {} steps (one for each element), got {}", kMaxSteps, m_placed.size()));
+    if (m_placed.size() <= std::size_t(kMaxSteps)) return true;
+    whole(tr("expected at most {} steps (one for each element), got {}", kMaxSteps, m_placed.size()));
+    return false;
+  }
+
+  bool errors_fit() {
+    std::size_t count = 0;
+    for (const Penalty& p : m_exercise.penalties) {
+      const Set* set = p.for_each.empty() ? nullptr : m_rules.m_names.set(p.for_each);
+      count += set ? set->elements.size() : 1;
+    }
+    if (count <= std::size_t(kMaxErrors)) return true;
+    whole(tr("expected at most {} errors (one for each element), got {}", kMaxErrors, count));
+    return false;
+  }
+
+  void put_steps_on_board() {
     for (const Placed& p : m_placed) {
       const Names names = names_at(p.set, p.element);
       StepStatus s;
@@ -163,6 +181,7 @@ class RulesReader {
   /// "previous", a step, or several.
   std::vector<int> steps_named(const JsonValue& v, const RuleReading& r, int step) {
     std::vector<int> all;
+    if (!r.has_room(v)) return all;
     if (v.kind == JsonValue::Kind::array) {
       for (const JsonValue& item : v.items)
         for (const int i : steps_named(item, r, step)) all.push_back(i);
@@ -221,13 +240,16 @@ class RulesReader {
     if (const auto* m = v.find("for_s"))
       if (const auto n = r.number(m->value, unit_of("for_s"), 0, 3600)) rule.held.needs = *n;
     if (const auto* m = v.find("once_per")) rule.once = m->value.text == "attempt";
-    if (const auto* m = v.find("detail")) rule.detail = names.text(m->value.text);
+    if (const auto* m = v.find("detail")) rule.detail = r.text(m->value);
     if (!p.at.file.empty()) rule.mark = mark(p.at.value, reading(names, p.at.file));
     for (const std::string& step : p.misses) {
-      JsonValue name = v;
-      if (const auto* m = v.find("misses")) name = m->value;
+      const auto* m = v.find("misses");
+      const JsonValue& place = m ? m->value : v;
+      JsonValue name;
       name.kind = JsonValue::Kind::string;
+      name.line = place.line, name.column = place.column;
       name.text = step;
+      if (!r.has_room(place)) break;
       for (const int i : read_steps(name, r)) rule.misses.push_back(i);
     }
     m_rules.m_errors.push_back(std::move(rule));
@@ -251,6 +273,7 @@ class RulesReader {
   const Exercise& m_exercise;
   const sim::Model* m_model;
   Faults& m_faults;
+  std::shared_ptr<std::size_t> m_parts = std::make_shared<std::size_t>(0);
   std::vector<Placed> m_placed;
 };
 

@@ -25,6 +25,7 @@ class PlanReader {
     if (!is_list(list, "goals and parts")) return;
     PlanPart* loose = nullptr;  // goals beside each other that stand in no part
     for (const JsonValue& item : list.items) {
+      if (!r.has_room(item)) return;
       if (item.find("goals")) {
         parts(item, plan);
         loose = nullptr;
@@ -69,6 +70,7 @@ class PlanReader {
       return;
     }
     for (const Element& element : set->elements) {
+      if (r.is_full()) return;
       const Names inner = r.named->at(*set, element);
       PlanPart of = part;
       of.element = element.name;
@@ -80,6 +82,7 @@ class PlanReader {
   void goals(const JsonValue& list, PlanPart& part) const {
     if (!is_list(list, "goals")) return;
     for (const JsonValue& item : list.items) {
+      if (!r.has_room(item)) return;
       part.goals.push_back(goal(item));
       part.goals.back().element = part.element;
     }
@@ -91,7 +94,7 @@ class PlanReader {
     r.check_keys(v, "a goal", {"goal", "until", "tries", "optional", "do", "if_failed", "every"});
     const JsonMember* name = v.find("goal");
     if (name && name->value.kind == Kind::string)
-      g.name = r.named->text(name->value.text);
+      g.name = r.text(name->value);
     else
       r.fault(v, "expected a goal: an object with goal and do, or a part with goals, got " + scene::shown(v));
     if (const JsonMember* until = v.find("until")) g.until = read_condition(until->value, r);
@@ -112,8 +115,11 @@ class PlanReader {
   std::vector<PlanTask> tasks(const JsonValue& list) const {
     std::vector<PlanTask> out;
     if (!is_list(list, "skills")) return out;
-    for (const JsonValue& item : list.items)
-      if (const SkillKind* kind = skill(item)) out.push_back(task(item, *kind));
+    for (const JsonValue& item : list.items) {
+      const SkillKind* kind = r.is_full() ? nullptr : skill(item);
+      if (kind && r.has_room(item, 1 + kind->parameters.size())) out.push_back(task(item, *kind));
+      if (r.is_full()) break;
+    }
     return out;
   }
 

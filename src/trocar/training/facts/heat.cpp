@@ -1,8 +1,12 @@
+#include <algorithm>
+
 #include <trocar/training/facts/needs.hpp>
 #include <trocar/training/facts/registry.hpp>
 
 namespace trocar::training {
 namespace {
+
+constexpr double kHottest = 400;  ///< [deg C]
 
 /// The material point that a hand's electrode was last at.
 const sim::ElectrodeHand* touched(const Snapshot& snapshot, const Arguments& a) {
@@ -13,8 +17,9 @@ const sim::ElectrodeHand* touched(const Snapshot& snapshot, const Arguments& a) 
 Value temperature(const Snapshot& snapshot, const Arguments& a) {
   const sim::ElectrodeHand* e = touched(snapshot, a);
   if (!e) return kUnknown;
-  return double(
-      tissue::reading(snapshot.model.energy.heat, snapshot.state.heat, e->body, 0.5 * (e->a + e->b)).temperature);
+  const float read =
+      tissue::reading(snapshot.model.energy.heat, snapshot.state.heat, e->body, 0.5 * (e->a + e->b)).temperature;
+  return std::min(double(read), kHottest);  // a float's rounding may lie above
 }
 
 Value dead_beyond(const Snapshot& snapshot, const Arguments& a) {
@@ -36,7 +41,7 @@ const Fact kTissueTemperature{
     "tissue.temperature_C",
     hand(),
     0,
-    400,
+    kHottest,
     "Temperature of the tissue that the hand's electrode touched last. Unknown before the first contact.",
     needs_energy,
     &stateless<temperature>};

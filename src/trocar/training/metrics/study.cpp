@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string_view>
 
 #include <trocar/training/metrics/metrics_parts.hpp>
 #include <trocar/training/metrics/study.hpp>
@@ -46,26 +48,14 @@ struct Points {
   std::vector<std::size_t> person;
 };
 
-/// Without the person `without` (any number beyond the last: nobody is left out).
-Points left_out(const Points& all, std::size_t without) {
-  Points p;
+/// Of each person, in the order of the attempts.
+std::vector<Points> by_person(const Points& all, std::size_t persons) {
+  std::vector<Points> own(persons);
   for (std::size_t i = 0; i < all.value.size(); ++i) {
-    if (all.person[i] == without) continue;
-    p.repetition.push_back(all.repetition[i]);
-    p.value.push_back(all.value[i]);
-    p.person.push_back(all.person[i]);
+    own[all.person[i]].repetition.push_back(all.repetition[i]);
+    own[all.person[i]].value.push_back(all.value[i]);
   }
-  return p;
-}
-
-Points of_person(const Points& all, std::size_t person) {
-  Points p;
-  for (std::size_t i = 0; i < all.value.size(); ++i) {
-    if (all.person[i] != person) continue;
-    p.repetition.push_back(all.repetition[i]);
-    p.value.push_back(all.value[i]);
-  }
-  return p;
+  return own;
 }
 
 double mean(const std::vector<double>& values) {
@@ -74,53 +64,58 @@ double mean(const std::vector<double>& values) {
   return sum / double(values.size());
 }
 
+constexpr auto kNobody = std::size_t(-1);
+
+/// A figure of all persons together, or without one of them: numerator over denominator, each a sum over persons.
+class SumOverPersons {
+ public:
+  void add(double above, double below) {
+    m_above.push_back(above);
+    m_below.push_back(below);
+  }
+  double without(std::size_t person) const {
+    double above = 0, below = 0;
+    for (std::size_t p = 0; p < m_above.size(); ++p)
+      if (p != person) above += m_above[p], below += m_below[p];
+    return below > 0 ? above / below : kNoMetric;
+  }
+
+ private:
+  std::vector<double> m_above, m_below;
+};
+
 /// Slope common to all persons, each with an offset of its own.
-double slope_within(const Points& all, std::size_t persons) {
-  double xx = 0, xy = 0;
-  for (std::size_t p = 0; p < persons; ++p) {
-    const Points own = of_person(all, p);
-    if (own.value.empty()) continue;
-    const double x0 = mean(own.repetition), y0 = mean(own.value);
+SumOverPersons slopes(const std::vector<Points>& persons) {
+  SumOverPersons sum;
+  for (const Points& own : persons) {
+    double xx = 0, xy = 0;
+    const double x0 = own.value.empty() ? 0 : mean(own.repetition), y0 = own.value.empty() ? 0 : mean(own.value);
     for (std::size_t i = 0; i < own.value.size(); ++i) {
       xx += (own.repetition[i] - x0) * (own.repetition[i] - x0);
       xy += (own.repetition[i] - x0) * (own.value[i] - y0);
     }
+    sum.add(xy, xx);
   }
-  return xx > 0 ? xy / xx : kNoMetric;
+  return sum;
 }
 
-double rho_pooled(const Points& all, std::size_t) { return spearman(all.repetition, all.value); }
-
-double rho_within(const Points& all, std::size_t persons) {
-  double sum = 0, count = 0;
-  for (std::size_t p = 0; p < persons; ++p) {
-    const Points own = of_person(all, p);
-    const double rho = spearman(own.repetition, own.value);
-    if (std::isnan(rho)) continue;
-    sum += rho;
-    ++count;
-  }
-  return count > 0 ? sum / count : kNoMetric;
+/// Mean of each person's own rho.
+SumOverPersons rhos_within(const std::vector<double>& person_rho) {
+  SumOverPersons sum;
+  for (const double rho : person_rho) std::isnan(rho) ? sum.add(0, 0) : sum.add(rho, 1);
+  return sum;
 }
 
-Ranged ranged(const Points& all, std::size_t persons, double (*figure)(const Points&, std::size_t)) {
-  Ranged r;
-  r.value = figure(all, persons);
-  if (persons < 3) return r;
-  for (std::size_t p = 0; p < persons; ++p) {
-    const double value = figure(left_out(all, p), persons);
-    if (!(r.low <= value)) r.low = value;
-    if (!(r.high >= value)) r.high = value;
-  }
-  return r;
-}
-
-/// 1-based ranks; equal values share the mean of theirs.
-std::vector<double> ranks(std::span<const double> values) {
+/// Indices by ascending values, equal ones as they come.
+std::vector<std::size_t> order_of(std::span<const double> values) {
   std::vector<std::size_t> order(values.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return values[a] != values[b] ? values[a] < values[b] : a < b; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  return order;
+}
+
+/// 1-based ranks of the values in this order; equal values share the mean of theirs. Those that are not in it get none.
+std::vector<double> ranks(std::span<const double> values, const std::vector<std::size_t>& order) {
   std::vector<double> rank(values.size());
   for (std::size_t from = 0; from < order.size();) {
     std::size_t to = from;
@@ -131,35 +126,76 @@ std::vector<double> ranks(std::span<const double> values) {
   return rank;
 }
 
-MetricStudy metric_study(const Study& study, const MetricColumn& column) {
+/// Rho over all attempts. Both columns are sorted once, so that leaving each person out in turn stays affordable.
+class PooledRho {
+ public:
+  explicit PooledRho(const Points& all)
+      : m_all(all), m_by_repetition(order_of(all.repetition)), m_by_value(order_of(all.value)) {}
+
+  double without(std::size_t person) const {
+    const auto left = [&](const std::vector<std::size_t>& order) {
+      std::vector<std::size_t> some;
+      for (const std::size_t i : order)
+        if (m_all.person[i] != person) some.push_back(i);
+      return some;
+    };
+    const std::vector<std::size_t> by_repetition = left(m_by_repetition), by_value = left(m_by_value);
+    if (by_value.size() < 3) return kNoMetric;
+    std::vector<double> a = ranks(m_all.repetition, by_repetition), b = ranks(m_all.value, by_value);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      if (m_all.person[i] != person) a[kept] = a[i], b[kept] = b[i], ++kept;
+    return pearson(std::span(a).first(kept), std::span(b).first(kept));
+  }
+
+ private:
+  const Points& m_all;
+  std::vector<std::size_t> m_by_repetition, m_by_value;
+};
+
+template <class Figure>
+Ranged ranged(const Figure& figure, std::size_t persons) {
+  Ranged r;
+  r.value = figure.without(kNobody);
+  if (persons < 3) return r;
+  for (std::size_t p = 0; p < persons; ++p) {
+    const double value = figure.without(p);
+    if (!(r.low <= value)) r.low = value;
+    if (!(r.high >= value)) r.high = value;
+  }
+  return r;
+}
+
+/// @param person_of  (attempts) place in Study::persons
+MetricStudy metric_study(const Study& study, const std::vector<std::size_t>& person_of, const MetricColumn& column) {
   MetricStudy m;
   m.column = &column;
   Points points;
-  std::size_t repetitions = 0;
-  for (const StudyAttempt& a : study.attempts) repetitions = std::max(repetitions, std::size_t(a.repetition));
-  std::vector<std::vector<double>> by_person(study.persons.size()), by_repetition(repetitions);
-  for (const StudyAttempt& a : study.attempts) {
+  std::map<int, std::vector<double>> repetitions;
+  const std::size_t persons = study.persons.size();
+  int most = 0;
+  for (std::size_t i = 0; i < study.attempts.size(); ++i) {
+    const StudyAttempt& a = study.attempts[i];
+    most = std::max(most, a.repetition);
     const double value = column.get(a.metrics);
     if (std::isnan(value)) continue;
-    const auto person =
-        std::size_t(std::find(study.persons.begin(), study.persons.end(), a.person) - study.persons.begin());
     points.repetition.push_back(double(a.repetition));
     points.value.push_back(value);
-    points.person.push_back(person);
-    by_person[person].push_back(value);
-    by_repetition[std::size_t(a.repetition) - 1].push_back(value);
+    points.person.push_back(person_of[i]);
+    repetitions[a.repetition].push_back(value);
   }
   m.all = spread_of(points.value);
-  for (std::vector<double>& values : by_person) m.by_person.push_back(spread_of(std::move(values)));
-  for (std::vector<double>& values : by_repetition) m.by_repetition.push_back(spread_of(std::move(values)));
-  const std::size_t persons = study.persons.size();
-  for (std::size_t p = 0; p < persons; ++p) {
-    const Points own = of_person(points, p);
-    m.person_rho.push_back(spearman(own.repetition, own.value));
+  const std::vector<Points> own = by_person(points, persons);
+  for (const Points& p : own) {
+    m.by_person.push_back(spread_of(p.value));
+    m.person_rho.push_back(spearman(p.repetition, p.value));
   }
-  m.trend.slope = ranged(points, persons, slope_within);
-  m.trend.pooled = ranged(points, persons, rho_pooled);
-  m.trend.within = ranged(points, persons, rho_within);
+  m.by_repetition.resize(std::size_t(most));
+  for (auto& [repetition, values] : repetitions)
+    m.by_repetition[std::size_t(repetition) - 1] = spread_of(std::move(values));
+  m.trend.slope = ranged(slopes(own), persons);
+  m.trend.pooled = ranged(PooledRho(points), persons);
+  m.trend.within = ranged(rhos_within(m.person_rho), persons);
   return m;
 }
 
@@ -189,18 +225,21 @@ Spread spread_of(std::vector<double> values) {
 
 double spearman(std::span<const double> a, std::span<const double> b) {
   if (a.size() < 3) return kNoMetric;
-  return pearson(ranks(a), ranks(b));
+  return pearson(ranks(a, order_of(a)), ranks(b, order_of(b)));
 }
 
 Study study_of(std::vector<StudyAttempt> attempts) {
   Study study;
   study.attempts = std::move(attempts);
+  std::map<std::string_view, std::size_t> place;
+  std::vector<std::size_t> person_of;
   for (StudyAttempt& a : study.attempts) {
     a.repetition = std::max(a.repetition, 1);
-    if (std::find(study.persons.begin(), study.persons.end(), a.person) == study.persons.end())
-      study.persons.push_back(a.person);
+    const auto [person, is_new] = place.emplace(a.person, study.persons.size());
+    if (is_new) study.persons.push_back(a.person);
+    person_of.push_back(person->second);
   }
-  for (const MetricColumn& column : kColumns) study.metrics.push_back(metric_study(study, column));
+  for (const MetricColumn& column : kColumns) study.metrics.push_back(metric_study(study, person_of, column));
   return study;
 }
 

@@ -43,13 +43,16 @@ class ActReader {
   ActReader(Act& act, const RuleReading& reading) : m_act(act), r(reading) {}
 
   void read(const JsonValue& v) {
-    if (v.kind == JsonValue::Kind::broken) return;
+    if (v.kind == JsonValue::Kind::broken || !r.has_room(v)) return;
     if (v.kind == JsonValue::Kind::object && v.find("event")) return cause(v);
     const scene::JsonMember* any = v.kind == JsonValue::Kind::object ? v.find("any") : nullptr;
     if (!any || any->value.kind != JsonValue::Kind::array || any->value.items.empty())
       return r.fault(v, "expected an event, or any: [events], got " + scene::shown(v));
     r.check_keys(v, "an act", {"any"});
-    for (const JsonValue& item : any->value.items) read(item);
+    for (const JsonValue& item : any->value.items) {
+      if (r.is_full()) return;
+      read(item);
+    }
   }
 
  private:
@@ -68,9 +71,11 @@ class ActReader {
     attributes(v, *event, c);
     if (const scene::JsonMember* on = v.find("on")) bodies(on->value, *event, c);
     if (const scene::JsonMember* w = v.find("while")) c.while_true = read_condition(w->value, r);
-    if (const scene::JsonMember* d = v.find("detail")) c.detail = r.named->text(d->value.text);
+    if (const scene::JsonMember* d = v.find("detail")) c.detail = r.text(d->value);
     if (r.model && !event->lacks(*r.model).empty())
       r.fault(name, tr("expected a scene with {} for \"{}\", got none", event->lacks(*r.model), event->name));
+    if (r.events && r.events->all().size() >= kMostWatched)
+      r.fault(v, tr("expected at most {} events that differ, got more", kMostWatched));
     if (r.model && r.events && r.faults->size() == before) c.event = r.events->watch(*event, arguments, *r.model);
     m_act.m_causes.push_back(std::move(c));
   }

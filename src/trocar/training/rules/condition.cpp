@@ -77,6 +77,10 @@ FactAt read_fact(const JsonValue& v, std::vector<std::string> keys, const RuleRe
   if (r.model && !fact->lacks(*r.model).empty())
     r.fault(name->value, tr("expected a scene with {} for \"{}\", got none", fact->lacks(*r.model), fact->name));
   if (!r.model || !r.facts || r.faults->size() != before || !complete(*fact, arguments)) return {fact, -1};
+  if (r.facts->all().size() >= kMostWatched) {
+    r.fault(v, tr("expected at most {} facts that differ, got more", kMostWatched));
+    return {fact, -1};
+  }
   if (const std::string why = fact->refuses ? fact->refuses(*r.model, arguments) : std::string(); !why.empty()) {
     r.fault(v, why);
     return {fact, -1};
@@ -89,7 +93,7 @@ class ConditionReader {
   explicit ConditionReader(const RuleReading& reading) : r(reading) {}
 
   Condition read(const JsonValue& v) const {
-    if (v.kind == JsonValue::Kind::broken) return {};
+    if (v.kind == JsonValue::Kind::broken || !r.has_room(v)) return {};
     if (v.kind == JsonValue::Kind::object) {
       if (v.find("fact")) return fact(v);
       if (v.find("step")) return step(v);
@@ -152,7 +156,7 @@ class ConditionReader {
     }
     const scene::JsonMember* each = v.find("for_each");
     if (!each) {
-      for (const JsonValue& item : list.items) c.m_parts.push_back(read(item));
+      read_all(list, c);
       return c;
     }
     const Set* set = r.named->set(each->value.text);
@@ -165,9 +169,15 @@ class ConditionReader {
     for (const Element& e : set->elements) {
       const Names inner = r.named->at(*set, e);
       const RuleReading reading = r.within(inner);
-      for (const JsonValue& item : list.items) c.m_parts.push_back(ConditionReader(reading).read(item));
+      ConditionReader(reading).read_all(list, c);
     }
     return c;
+  }
+  void read_all(const JsonValue& list, Condition& c) const {
+    for (const JsonValue& item : list.items) {
+      if (r.is_full()) return;
+      c.m_parts.push_back(read(item));
+    }
   }
 
   Condition negation(const JsonValue& v) const {

@@ -86,11 +86,12 @@ const Element* Names::bound(std::string_view set) const {
 std::string Names::text(const std::string& pattern) const {
   std::string out;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
-    const std::size_t end = pattern[i] == '{' ? pattern.find('}', i) : std::string::npos;
-    if (end == std::string::npos) {
+    if (pattern[i] != '{') {
       out += pattern[i];
       continue;
     }
+    const std::size_t end = pattern.find('}', i);
+    if (end == std::string::npos) return out.append(pattern, i);
     const std::string key = pattern.substr(i + 1, end - i - 1);
     if (const Limit* l = limit(key)) {
       out += l->shown();
@@ -117,6 +118,23 @@ std::string Names::title_of(const std::string& name) const {
 
 void RuleReading::fault(const JsonValue& value, std::string message) const {
   scene::tell(*faults, {at(value), std::move(message)});
+}
+
+bool RuleReading::is_full() const { return *parts > kMostParts || faults->size() > scene::kMaxFaults; }
+
+bool RuleReading::has_room(const JsonValue& value, std::size_t count) const {
+  if (is_full()) return false;
+  *parts += count;
+  if (*parts <= kMostParts) return true;
+  fault(value, tr("expected at most {} conditions, names and skills, one for each element of their sets, got more",
+                  kMostParts));
+  return false;
+}
+
+std::string RuleReading::text(const JsonValue& value) const {
+  constexpr std::size_t kBytesOfPart = 16;  // of a text, whose fields make it longer
+  const bool read = value.kind == Kind::string && has_room(value, value.text.size() / kBytesOfPart);
+  return read ? named->text(value.text) : std::string();
 }
 
 void RuleReading::check_keys(const JsonValue& object, const std::string& what,
@@ -165,6 +183,7 @@ std::optional<double> RuleReading::number(const JsonValue& value, const Unit& un
 std::vector<NameAt> RuleReading::names(const JsonValue& value) const {
   constexpr int kDeepest = 8;
   std::vector<NameAt> out;
+  if (!has_room(value)) return out;
   if (depth > kDeepest) {
     fault(value, "expected names, got a set that contains itself");
     return out;
@@ -202,6 +221,7 @@ std::optional<NameAt> RuleReading::name(const JsonValue& value) const {
   const std::size_t before = faults->size();
   std::vector<NameAt> all = names(value);
   if (all.size() == 1) return std::move(all[0]);
+  if (is_full()) return std::nullopt;
   const std::optional<Meaning> m = faults->size() == before ? meaning(value, *this) : std::nullopt;
   if (m && !(m->set && m->set->pending)) fault(value, tr("expected one name, got {}", all.size()));
   return std::nullopt;

@@ -70,6 +70,10 @@ struct Interval {
   bool is_range = false;
 };
 
+/// What a file may come to with one of each part for each element of its sets: conditions, acts, names, skills with
+/// their parameters. Counted while it is read, as a few lines that repeat each other would take all memory.
+inline constexpr std::size_t kMostParts = 100'000;
+
 /// With what a part of a file is read.
 struct RuleReading {
   const Names* named = nullptr;
@@ -79,7 +83,8 @@ struct RuleReading {
   const Steps* steps = nullptr;       ///< of the attempt, for which conditions may ask
   const std::string* file = nullptr;  ///< of the part that is read
   Faults* faults = nullptr;
-  int depth = 0;  ///< of references within references
+  int depth = 0;                                                          ///< of references within references
+  std::shared_ptr<std::size_t> parts = std::make_shared<std::size_t>(0);  ///< of the whole file, so far
 
   RuleReading within(const Names& other) const {
     RuleReading r = *this;
@@ -87,6 +92,10 @@ struct RuleReading {
     return r;
   }
   void fault(const scene::JsonValue& at, std::string message) const;
+  /// Counts parts that are about to be read. False: with them the file is full, which a fault has told.
+  bool has_room(const scene::JsonValue& at, std::size_t count = 1) const;
+  /// Nothing more is read: there are too many parts, or enough faults.
+  bool is_full() const;
   core::Location at(const scene::JsonValue& value) const { return {*file, value.line, value.column}; }
   /// Every key of the object is one of these, or a fault.
   void check_keys(const scene::JsonValue& object, const std::string& what, const std::vector<std::string>& known) const;
@@ -97,6 +106,9 @@ struct RuleReading {
   std::optional<double> number(const scene::JsonValue& value, const Unit& unit) const;
   /// The same within [low, high], in the unit.
   std::optional<double> number(const scene::JsonValue& value, const Unit& unit, double low, double high) const;
+  /// A text for people with its fields filled in (Names::text); empty where the value is no string, or the file is
+  /// full.
+  std::string text(const scene::JsonValue& value) const;
   /// Names: one, a list, "$element", "$element.member", "$set".
   std::vector<NameAt> names(const scene::JsonValue& value) const;
   /// Exactly one. Nothing: a fault has been reported, or the set that it is of waits for its scene.

@@ -29,6 +29,7 @@ class SetReader {
 
   void elements(const JsonValue& list) {
     if (list.kind != Kind::array) return fault(list, "expected a list of elements, got " + scene::shown(list));
+    if (list.items.size() > std::size_t(kMaxElements)) return too_many(list);
     for (const JsonValue& item : list.items) element(item);
   }
 
@@ -57,7 +58,11 @@ class SetReader {
     scene::tell(m_faults, {{m_set.file, at.line, at.column}, std::move(message)});
   }
 
+  void too_many(const JsonValue& at) { fault(at, tr("expected at most {} elements of a set, got more", kMaxElements)); }
+
   void add(Element e, const JsonValue& at) {
+    if (e.name.size() > kLongestTitle || e.title.size() > kLongestTitle)
+      return fault(at, tr("expected a name and a title of at most {} bytes, got more", kLongestTitle));
     const auto same = [&e](const Element& other) { return other.name == e.name; };
     if (std::any_of(m_set.elements.begin(), m_set.elements.end(), same))
       return fault(at, tr("expected each element once, got \"{}\" again", e.name));
@@ -107,6 +112,7 @@ class SetReader {
     find_named(*m_model, kind, "", index, known);
     for (const std::string& name : known) {
       if (!matches(pattern.text, name)) continue;
+      if (m_set.elements.size() >= std::size_t(kMaxElements)) return too_many(pattern);
       Element e{name, name, pattern, {}};
       e.self.text = name;
       add(std::move(e), pattern);
@@ -152,13 +158,21 @@ const Set* find_set(const Sets& sets, std::string_view name) {
 }
 
 bool matches(std::string_view pattern, std::string_view name) {
-  const std::size_t star = pattern.find('*');
-  if (star == std::string_view::npos) return pattern == name;
-  if (name.substr(0, star) != pattern.substr(0, star)) return false;
-  const std::string_view rest = pattern.substr(star + 1);
-  for (std::size_t at = star; at <= name.size(); ++at)
-    if (matches(rest, name.substr(at))) return true;
-  return false;
+  std::size_t at = 0, in = 0, star = pattern.npos, from = 0;  // the last star, and where in the name its letters end
+  while (in < name.size()) {
+    if (at < pattern.size() && pattern[at] == '*') {
+      star = at++;
+      from = in;
+    } else if (at < pattern.size() && pattern[at] == name[in]) {
+      ++at, ++in;
+    } else if (star != pattern.npos) {  // the star stands for one letter more; those before it need no other try
+      at = star + 1;
+      in = ++from;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', at) == pattern.npos;
 }
 
 Set read_set(const std::string& name, const JsonValue& value, const std::string& file, const sim::Model* model,

@@ -12,6 +12,9 @@
 
 namespace trocar::training {
 
+inline constexpr int kMaxElements = 64;            ///< of a set; more are a fault
+inline constexpr std::size_t kLongestTitle = 200;  ///< of an element, and its name [bytes]
+
 struct Element {
   std::string name, title;   ///< "left", "Left"; a title is the name where the file gives none
   scene::JsonValue self;     ///< the name as a value, where it stands in the file
@@ -32,7 +35,7 @@ using Sets = std::vector<Set>;
 /// Null: there is none of that name.
 const Set* find_set(const Sets& sets, std::string_view name);
 
-/// "niche_*": `*` stands for any letters.
+/// "niche_*": `*` stands for any letters. Takes no longer than the product of both lengths.
 bool matches(std::string_view pattern, std::string_view name);
 
 /// Reads one set: a list of names or of elements, an object with `elements`, or a pattern over the scene's marks,

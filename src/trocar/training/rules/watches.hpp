@@ -13,6 +13,9 @@
 
 namespace trocar::training {
 
+/// Facts that differ in an exercise, and events; each is looked at in every sample.
+inline constexpr std::size_t kMostWatched = 4096;
+
 class FactWatches {
  public:
   /// The number of an observer; equal ones are one.
@@ -64,6 +67,9 @@ class EventWatches {
       for (int k = 0; k < m_happened.count; ++k) visit(int(i), m_happened.list[size_t(k)]);
     }
   }
+
+  /// Were there more of one kind in a tick than are kept?
+  bool lost() const { return m_happened.lost; }
 
   struct Watched {
     const EventKind* event;

@@ -94,13 +94,13 @@ std::string to_json(const Attempt& a) {
            {"model_hash", a.model_hash}, {"store", a.store}};
   if (a.score) out["score"] = *a.score;
   if (a.passed) out["passed"] = *a.passed;
-  Json result = Json::parse(a.result, nullptr, false);
+  Json result = json_in(a.result);
   out["result"] = result.is_object() ? std::move(result) : Json::object();
   return out.dump(1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::optional<Attempt> attempt_from_json(const std::string& text) {
-  const Json in = Json::parse(text, nullptr, false);
+  const Json in = json_in(text);
   if (!in.is_object() || whole_of(in, "trocar_attempt") != 1 || !is_uuid(text_in(in, "uuid"))) return std::nullopt;
   Attempt a;
   a.number = std::int64_t(whole_of(in, "number"));

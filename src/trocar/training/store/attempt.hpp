@@ -66,11 +66,20 @@ bool is_uuid(const std::string& text);
 /// What a recording's header says of its attempt's mode; one that says nothing was assessed.
 AttemptMode mode_in_header(const std::string& metadata_json);
 
+/// The hash of the exercise that a recording was judged by (judgement_hash(), hexadecimal), as its header says it;
+/// empty: it does not.
+std::string exercise_hash_in(const std::string& metadata_json);
+inline constexpr const char* kExerciseHash = "exercise_hash";  ///< its key there
+
 /// Score, verdict and length from the result that an attempt ended with; a familiarisation has neither of the first
 /// two.
 void fill_from_result(const std::string& result, Attempt& attempt);
 /// How an attempt with that result ended: finished, aborted or not assessed.
 AttemptState state_in_result(const std::string& result);
+
+/// Notes in the result that it is as a recording has it, which nobody has verified: anybody may have written it.
+void mark_unverified(Attempt& attempt);
+bool is_unverified(const Attempt& attempt);
 
 /// The attempt without its trace as a JSON object, and back; nothing for a text that is not one.
 std::string to_json(const Attempt& attempt);

@@ -13,7 +13,7 @@ namespace trocar::training {
 namespace fs = std::filesystem;
 
 void fill_from_result(const std::string& result, Attempt& a) {
-  const Json in = Json::parse(result, nullptr, false);
+  const Json in = json_in(result);
   if (!in.is_object()) return;
   a.result = result;
   if (in.contains("passed") && in["passed"].is_boolean()) a.passed = in["passed"].get<bool>();
@@ -25,16 +25,38 @@ void fill_from_result(const std::string& result, Attempt& a) {
 }
 
 AttemptState state_in_result(const std::string& result) {
-  const Json in = Json::parse(result, nullptr, false);
+  const Json in = json_in(result);
   if (!in.is_object()) return AttemptState::finished;
   if (in.contains("failure")) return AttemptState::not_assessed;
   return in.contains("interrupted") ? AttemptState::aborted : AttemptState::finished;
 }
 
+namespace {
+
+constexpr const char* kFromRecording = "from_recording";
+
+}  // namespace
+
+void mark_unverified(Attempt& a) {
+  const Json in = json_in(a.result);
+  if (!in.is_object()) return;
+  Json out{{kFromRecording, true}};  // first, so that is_unverified() finds it
+  for (const auto& [key, value] : in.items())
+    if (key != kFromRecording) out[key] = value;
+  a.result = out.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+bool is_unverified(const Attempt& a) { return a.result.rfind(fmt::format("{{\"{}\":true", kFromRecording), 0) == 0; }
+
 AttemptMode mode_in_header(const std::string& metadata_json) {
-  const Json note = Json::parse(metadata_json, nullptr, false);
+  const Json note = json_in(metadata_json);
   if (!note.is_object()) return AttemptMode::assessed;
   return mode_named(text_in(note, "mode")).value_or(AttemptMode::assessed);
+}
+
+std::string exercise_hash_in(const std::string& metadata_json) {
+  const Json note = json_in(metadata_json);
+  return note.is_object() ? text_in(note, kExerciseHash) : std::string();
 }
 
 bool fill_from_recording(const fs::path& file, Attempt& a) {
@@ -44,7 +66,7 @@ bool fill_from_recording(const fs::path& file, Attempt& a) {
   } catch (const std::exception&) {
     return false;
   }
-  const Json note = Json::parse(r.header.metadata_json, nullptr, false);
+  const Json note = json_in(r.header.metadata_json);
   a.recording = fs::absolute(file).string();
   a.exercise = bounded(r.header.exercise);
   a.seed = r.header.seed;
@@ -70,7 +92,7 @@ bool fill_from_recording(const fs::path& file, Attempt& a) {
   if (r.complete) {
     fill_from_result(r.result_json, a);
     a.state = state_in_result(r.result_json);
-    const Json result = Json::parse(r.result_json, nullptr, false);
+    const Json result = json_in(r.result_json);
     if (result.is_object() && a.ended.empty()) a.ended = bounded(text_in(result, "ended"));
   }
   return true;

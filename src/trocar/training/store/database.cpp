@@ -35,6 +35,8 @@ void refuse_what_is_no_file(const std::filesystem::path& path) {
 }  // namespace
 
 DatabaseFault::DatabaseFault(const std::string& what, int code) : std::runtime_error(what), m_code(code & 0xff) {}
+const int DatabaseFault::kDamaged = SQLITE_CORRUPT;
+bool DatabaseFault::is_schema() const { return m_code == SQLITE_ERROR; }
 bool DatabaseFault::damaged() const { return m_code == SQLITE_CORRUPT || m_code == SQLITE_NOTADB; }
 
 Database::Database(const std::filesystem::path& path, Access access, int patience)
@@ -53,6 +55,10 @@ Database::Database(const std::filesystem::path& path, Access access, int patienc
     sqlite3_close(m_handle);
     m_handle = nullptr;
     good = open(uri_of(absolute, "?immutable=1"), SQLITE_OPEN_READONLY);
+  }
+  if (good && access == Access::salvage) {  // read only: what these keep from being damaged is damaged
+    sqlite3_db_config(m_handle, SQLITE_DBCONFIG_DEFENSIVE, 0, nullptr);
+    good = sqlite3_exec(m_handle, "PRAGMA writable_schema = ON", nullptr, nullptr, nullptr) == SQLITE_OK;
   }
   if (good) return;
   const DatabaseFault fault(m_path + ": " + (m_handle ? sqlite3_errmsg(m_handle) : "not enough memory"),

@@ -25,6 +25,9 @@ class DatabaseFault : public std::runtime_error {
  public:
   DatabaseFault(const std::string& what, int code);
   bool damaged() const;
+  /// The file is sound, but it has not the tables or columns that were asked for.
+  bool is_schema() const;
+  static const int kDamaged;
 
  private:
   int m_code;
@@ -33,8 +36,9 @@ class DatabaseFault : public std::runtime_error {
 class Database {
  public:
   enum class Access {
-    write,  ///< made if it is not there
-    read,   ///< also from a folder that cannot be written
+    write,    ///< made if it is not there
+    read,     ///< also from a folder that cannot be written
+    salvage,  ///< likewise, and whatever of a damaged file can be read: pages that are missing at its end do not matter
   };
   static constexpr int kPatience = 5000;  ///< [ms]
   /// @param patience  [ms] it waits at most so long for others that write  @throws DatabaseFault

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <nlohmann/json.hpp>
+#include <trocar/core/json.hpp>
 
 namespace trocar::training {
 
@@ -13,6 +13,14 @@ template <class AnyJson>
 std::string text_in(const AnyJson& object, const char* key) {
   const auto at = object.find(key);
   return at != object.end() && at->is_string() ? at->template get<std::string>() : std::string();
+}
+
+/// A text of anybody as JSON. What lies deeper than 64 levels is left out, as writing it would go as deep into the
+/// stack. Discarded where the text is none.
+inline Json json_in(const std::string& text) {
+  constexpr int kDeepest = 64;
+  return Json::parse(
+      text, [](int depth, Json::parse_event_t, Json&) { return depth <= kDeepest; }, false);
 }
 
 }  // namespace trocar::training

@@ -118,9 +118,11 @@ class Store {
   void check(Database& db);
   bool damaged();  ///< still, or again: asked under the opening lock
   void repair(const std::string& what);
-  void salvage(Database& db, const std::filesystem::path& damaged);
+  int salvage(Database& db, const std::filesystem::path& damaged);
   void take_in_recordings(Database& db);
   void take_in_files(Database& db);
+  void take_in(Database& db, Attempt& attempt, const std::filesystem::path& file);
+  bool is_own(const std::filesystem::path& file, const Attempt& attempt);
   void settle_running(Database& db);
   void notice(const std::string& text);
   Kept set_down(const Attempt& attempt);

@@ -65,7 +65,8 @@ void Store::check(Database& db) {
   std::error_code error;
   if (fs::file_size(database(), error) > kLargestChecked || error) return;
   Query q(db, "PRAGMA quick_check(1)");
-  if (q.next() && q.text(0) != "ok") throw DatabaseFault(database().string() + ": " + q.text(0), 11 /*SQLITE_CORRUPT*/);
+  if (q.next() && q.text(0) != "ok")
+    throw DatabaseFault(database().string() + ": " + q.text(0), DatabaseFault::kDamaged);
 }
 
 bool Store::damaged() {
@@ -81,9 +82,12 @@ bool Store::damaged() {
 }
 
 void Store::migrate(Database& db) {
-  if (db.number_of("PRAGMA user_version") == kVersion) return;
+  if (db.number_of("PRAGMA user_version") == kVersion) return check_tables(db);
   Transaction all(db);
   const std::int64_t version = db.number_of("PRAGMA user_version");
+  if (version < 0 || (version == 0 && db.number_of("SELECT count(*) FROM sqlite_master") > 0))
+    throw DatabaseFault(tr("{}: its tables have the version {}", database().string(), version),
+                        DatabaseFault::kDamaged);
   if (version > kVersion)
     throw DatabaseFault(tr("{}: made by a newer Trocar (version {} of the tables, this one knows {})",
                            database().string(), version, kVersion),

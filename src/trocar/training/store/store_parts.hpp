@@ -17,6 +17,7 @@ inline constexpr std::size_t kLargestResult = 16 << 20, kLargestTrace = 64 << 20
 inline constexpr std::uint64_t kLargestNumber = 1'000'000'000;  ///< that a file may claim
 inline constexpr const char* kWaiting = ".attempt.json";        ///< results that the database did not take
 inline constexpr const char* kWaitingTrace = ".attempt.trace";
+inline constexpr const char* kRefused = ".refused";  ///< behind the name of a file that was not taken in
 
 inline std::string bounded(const std::string& text) { return text.substr(0, kLongestText); }
 
@@ -34,8 +35,12 @@ inline constexpr const char* kFrom = " FROM attempt a JOIN trainee t ON t.id = a
 Attempt row_of(const Query& q);
 /// Nothing: the attempt has no row.
 std::optional<AttemptState> state_in(Database& db, const std::string& uuid);
+/// Without its trace. Nothing: it has no row.
+std::optional<Attempt> row_in(Database& db, const std::string& uuid);
 /// The row of `a.uuid`, new or as it is now; sets a.number.
 void write_row(Database& db, Attempt& a);
+/// Throws a DatabaseFault that is damage where tables or columns are missing.
+void check_tables(Database& db);
 /// Every transaction is on the disk when it returns, also if the power goes the moment after.
 void make_durable(Database& db);
 

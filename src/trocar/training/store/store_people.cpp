@@ -120,6 +120,8 @@ Store::Forgotten to_forget(const Store& store, const std::string& trainee) {
   }
   for (const fs::path& file : files_in(store.folder()))
     if (file.filename().string().rfind("sessions.sqlite.damaged-", 0) == 0) out.left.push_back(file);
+  for (const fs::path& file : files_in(store.folder() / "waiting"))
+    if (file.extension() == kRefused) out.left.push_back(file);
   return out;
 }
 

@@ -1,6 +1,10 @@
 // A damaged database is set aside and built again from what is still readable and from the recordings.
+#include <algorithm>
+#include <string_view>
+
 #include <fmt/format.h>
 
+#include <trocar/core/files.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/training/store/store_parts.hpp>
 
@@ -10,7 +14,29 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kMostLost = 20'000;  ///< numbers that are tried one by one where pages are gone
+constexpr int kMostLost = 20'000;                   ///< numbers that are tried one by one where pages are gone
+constexpr std::size_t kLargestMended = 1 << 30;     ///< [bytes]
+constexpr std::size_t kPage = 4096, kHeader = 100;  ///< [bytes] as SQLite makes them for the store
+
+/// A copy whose first hundred bytes say what those of every store say; empty where it cannot be made.
+/// [https://www.sqlite.org/fileformat.html#the_database_header]
+fs::path with_sound_header(const fs::path& damaged) {
+  std::string bytes = read_file(damaged, kLargestMended);
+  if (bytes.size() < kPage) return {};
+  const std::string_view magic("SQLite format 3\0", 16);
+  const std::string_view sizes("\x10\x00\x01\x01\x00\x40\x20\x20", 8);  // of a page; no WAL; shares of a page
+  std::string header =
+      std::string(magic) + std::string(sizes) + std::string(kHeader - magic.size() - sizes.size(), '\0');
+  const auto put = [&header](std::size_t at, std::size_t number) {
+    for (std::size_t i = 0; i < 4; ++i) header[at + i] = char(number >> (8 * (3 - i)) & 0xff);
+  };
+  put(28, bytes.size() / kPage);
+  put(44, 4);  // of the schema
+  put(56, 1);  // UTF-8
+  std::copy(header.begin(), header.end(), bytes.begin());
+  const fs::path mended = damaged.string() + ".mended";
+  return core::write_file(mended, bytes.data(), bytes.size(), 0600).empty() ? mended : fs::path();
+}
 
 }  // namespace
 
@@ -30,7 +56,12 @@ void Store::repair(const std::string& what) {
     Database db(database(), Database::Access::write, m_patience);
     make_durable(db);
     migrate(db);
-    salvage(db, aside);
+    int saved = salvage(db, aside);
+    if (const fs::path mended = saved == 0 ? with_sound_header(aside) : fs::path(); !mended.empty()) {
+      saved = salvage(db, mended);
+      fs::remove(mended, error);
+    }
+    if (saved > 0) notice(tr("{} attempts were read from the damaged store", saved));
     take_in_recordings(db);
   } catch (const DatabaseFault& fault) {
     notice(tr("a new session store could not be built: {}", fault.what()));
@@ -38,7 +69,7 @@ void Store::repair(const std::string& what) {
 }
 
 /// Row by row, since a page that is gone takes only its own rows along.
-void Store::salvage(Database& db, const fs::path& damaged) {
+int Store::salvage(Database& db, const fs::path& damaged) {
   const auto readable = [](const auto& read) {
     try {
       read();
@@ -48,8 +79,9 @@ void Store::salvage(Database& db, const fs::path& damaged) {
     }
   };
   int saved = 0;
-  const bool opened = readable([&] {
-    Database old(damaged, Database::Access::read);
+  readable([&] {
+    Database old(damaged, Database::Access::salvage);
+    const Query there(old, "SELECT number FROM attempt NOT INDEXED LIMIT 0");  // else no number is worth a try
     int lost = 0;
     for (std::int64_t number = 0; lost < kMostLost;) {
       Attempt a;
@@ -93,7 +125,7 @@ void Store::salvage(Database& db, const fs::path& damaged) {
       ++saved;
     }
   });
-  if (opened && saved > 0) notice(tr("{} attempts were read from the damaged store", saved));
+  return saved;
 }
 
 }  // namespace trocar::training

@@ -43,6 +43,22 @@ std::optional<AttemptState> state_in(Database& db, const std::string& uuid) {
   return q.next() ? state_named(q.text(0)) : std::nullopt;
 }
 
+std::optional<Attempt> row_in(Database& db, const std::string& uuid) {
+  Query q(db, std::string("SELECT ") + kAttemptColumns + kFrom + "WHERE a.uuid = ?");
+  q.bind(uuid);
+  return q.next() ? std::optional(row_of(q)) : std::nullopt;
+}
+
+void check_tables(Database& db) {
+  try {
+    const Query q(db, std::string("SELECT ") + kAttemptColumns + kFrom + "LIMIT 0");
+    const Query traces(db, "SELECT attempt, samples FROM trace LIMIT 0");
+  } catch (const DatabaseFault& fault) {
+    if (!fault.is_schema()) throw;
+    throw DatabaseFault(fault.what(), DatabaseFault::kDamaged);
+  }
+}
+
 void write_row(Database& db, Attempt& a) {
   const std::int64_t trainee = trainee_id(db, a.trainee);
   Query taken(db, "SELECT 1 FROM attempt WHERE number = ? AND uuid <> ?");
