@@ -69,7 +69,7 @@ endfunction()
 # that a folder's files have for themselves must differ; files with options of their own are set apart. A neighbour's name
 # that a member or a local hides is a warning to clang alone: whether a file hides its own is told where it stands alone.
 function(trocar_group target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${TROCAR_GROUPED} UNITY_BUILD_BATCH_SIZE 12)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${TROCAR_GROUPED} UNITY_BUILD_BATCH_SIZE 20)
   if(TROCAR_GROUPED)
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:Clang>:-Wno-shadow>)
   endif()

@@ -267,12 +267,11 @@ TEST(SurfaceFiles, WhatIsNoSurfaceIsSaidToBeNone) {
   EXPECT_EQ(surface_faults("hello"), expected + "'hello'");
   EXPECT_EQ(surface_faults("<?xml version=\"1.0\"?>"), expected + "XML");
   EXPECT_EQ(surface_faults("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">"),
-            expected + "VTK's XML format (.vtp, .vtu): save it as legacy VTK (.vtk)");
-  EXPECT_EQ(surface_faults("PK\x03\x04..."), expected +
-                                                 "a zip archive, as 3MF files are: unpack it, or save the mesh as "
-                                                 "STL or OBJ");
-  EXPECT_EQ(surface_faults("OFF\n8 6 0\n"), expected + "OFF: save the mesh as PLY, OBJ or STL");
-  EXPECT_EQ(surface_faults("ISO-10303-21;\n"), expected + "STEP: name the file .step");
+            expected + "VTK's XML format (.vtp, .vtu, .vti): save it as legacy VTK (.vtk)");
+  EXPECT_EQ(surface_faults("PK\x03\x04..."),
+            expected + "a ZIP archive: unpack it. Of 3MF, save the mesh as STL or OBJ");
+  EXPECT_EQ(surface_faults("OFF\n8 6 0\n"), expected + "OFF: save the mesh as glTF, OBJ or STL");
+  EXPECT_EQ(surface_faults("ISO-10303-21;\n"), expected + "STEP: name the file .step, and import it as a drawing");
   EXPECT_EQ(surface_faults("\x1b[31mred"), expected + "'?[31mred'");
   EXPECT_EQ(surface_faults("v 0 0 0\n"), "a:1:1: expected triangles, got none");
 }

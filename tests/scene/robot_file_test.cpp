@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/core/json/foreign_text.hpp>
+#include <trocar/core/foreign/foreign_file.hpp>
 #include <trocar/kinematics/chains/excluded_range.hpp>
 #include <trocar/scene/files/library.hpp>
 #include <trocar/scene/json/json.hpp>
@@ -110,7 +110,7 @@ TEST(Urdf, NoShippedMechanismFollowsBeyondItsLimits) {
   }
 }
 
-TEST(ForeignText, IsNamedWithWhatIsReadInstead) {
+TEST(ForeignFile, IsNamedWithWhatIsReadInstead) {
   const auto told = [](const std::string& text) {
     std::vector<core::Fault> faults;
     parse_json(text, "file", faults);
@@ -123,11 +123,12 @@ TEST(ForeignText, IsNamedWithWhatIsReadInstead) {
   EXPECT_NE(told("<?xml version=\"1.0\"?><sdf version=\"1.7\"/>").find("SDFormat"), std::string::npos);
   EXPECT_NE(told("<!-- c --><mujoco model=\"a\">").find("MuJoCo"), std::string::npos);
   EXPECT_NE(told("<launch>").find("XML (<launch>)"), std::string::npos);
+  EXPECT_NE(told("PK\x03\x04...").find("a ZIP archive: unpack it"), std::string::npos);
   for (const char* json : {"{\"a\": 1}", "// a: b\n{}", "[1]", "\"a: b\"", "nonsense", "", "true", "a, b: c"})
-    EXPECT_TRUE(core::foreign_text(json).empty()) << json;
+    EXPECT_TRUE(core::foreign_file(json, core::Wanted::json).empty()) << json;
 }
 
-TEST(ForeignText, RobotsOfOtherFormatsAreNamedToo) {
+TEST(ForeignFile, RobotsOfOtherFormatsAreNamedToo) {
   EXPECT_TRUE(holds(faults_of("<sdf version=\"1.7\"><model name=\"a\"/></sdf>"), "SDFormat"));
   EXPECT_TRUE(holds(faults_of("<mujoco model=\"a\"/>"), "MuJoCo"));
   Folder folder;

@@ -159,9 +159,9 @@ TEST(VolumeFiles, ATimePointThatThereIsNotIsRefusedInEveryFormat) {
 
 TEST(VolumeFiles, FilesOfOtherKindsAreNamed) {
   expect_fault(std::string("PK\x03\x04\x14\0\0\0", 8), "got a ZIP archive: unpack it and open the folder or file");
-  expect_fault(deflated("NRRD0004\n"), "got a gzip file that holds no NIfTI: unpack it first");
+  expect_fault(deflated("NRRD0004\n"), "got a gzip file: it holds no NIfTI. Unpack it first");
   expect_fault("\x89PNG\r\n", "got a picture");
-  expect_fault("solid liver\n", "got a surface: import it as one");
+  expect_fault("solid liver\n", "got a surface (STL): import it as one");
   expect_fault("\x89HDF\r\n", "got an HDF5 file (MINC 2)");
   expect_fault("---\nmesh: a\n", "got a YAML text");
   std::string tar(512, '\0');

@@ -14,8 +14,8 @@ constexpr double kSpeedWindow = 0.25;                  // [s]
 constexpr double kSlow = 0.97;
 constexpr auto kIdle = std::chrono::milliseconds(2);  // while paused
 // A copy takes nearly half a tick and throws the simulation's data out of the cache: none is made that nobody draws.
-constexpr auto kPatience = std::chrono::milliseconds(4);  // of who asked for one
-constexpr auto kLookEvery = std::chrono::microseconds(50);
+constexpr auto kAskerPatience = std::chrono::milliseconds(4);  // of who asked for one
+constexpr auto kAskEvery = std::chrono::microseconds(50);
 
 }  // namespace
 
@@ -36,10 +36,10 @@ bool Live::refresh() {
   const bool runs =
       !m_paused.load(std::memory_order_relaxed) && !m_stop.load(std::memory_order_relaxed) && !snapshot().finished;
   m_wanted.store(true, std::memory_order_release);
-  const Clock::time_point until = Clock::now() + (runs ? kPatience : Clock::duration(0));
+  const Clock::time_point until = Clock::now() + (runs ? kAskerPatience : Clock::duration(0));
   while (!m_published.refresh()) {
     if (Clock::now() >= until) return false;
-    std::this_thread::sleep_for(kLookEvery);
+    std::this_thread::sleep_for(kAskEvery);
   }
   return true;
 }

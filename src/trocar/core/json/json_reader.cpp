@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
-#include <trocar/core/json/foreign_text.hpp>
+#include <trocar/core/foreign/foreign_file.hpp>
 #include <trocar/core/json/json_grammar.hpp>
 #include <trocar/core/json/json_reader.hpp>
 #include <trocar/core/printable.hpp>
@@ -423,12 +423,11 @@ const JsonMember* JsonValue::find(std::string_view key) const {
   return nullptr;
 }
 
-JsonDocument parse_json(std::string_view text, std::string file, std::vector<Fault>& faults,
-                        const JsonLimits& limits) {
+JsonDocument parse_json(std::string_view text, std::string file, std::vector<Fault>& faults, const JsonLimits& limits) {
   JsonDocument document{std::move(file), {}};
-  if (std::string foreign = foreign_text(text); !foreign.empty()) {
+  if (const std::string foreign = foreign_file(text, Wanted::json); !foreign.empty()) {
     document.root.kind = Kind::broken;
-    tell(faults, {{document.file, 1, 1}, std::move(foreign)});
+    tell(faults, {{document.file, 1, 1}, tr("expected JSON, got {}", foreign)});
     return document;
   }
   Parser parser(text, document.file, faults, limits);

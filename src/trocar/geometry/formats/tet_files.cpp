@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/foreign/foreign_file.hpp>
 #include <trocar/core/text.hpp>
-#include <trocar/geometry/formats/foreign_formats.hpp>
 #include <trocar/geometry/formats/tet_reader.hpp>
 #include <trocar/geometry/formats/vtk_dataset.hpp>
 
@@ -20,7 +20,7 @@ TetFile read_known_tets(MeshSource& in, double scale) {
   if (first.starts_with('$')) return read_gmsh(in, scale);
   if (rest.starts_with(kVtkBegins)) return read_vtk(in, scale);
   in.refuse_wide_text();
-  const std::string foreign = foreign_format(rest);
+  const std::string foreign = core::foreign_file(rest, core::Wanted::mesh);
   in.lose(in.at(), tr("expected a Gmsh file ($MeshFormat, $NOD) or a legacy VTK file (# vtk DataFile Version), "
                       "got {}",
                       foreign.empty() ? in.shown(in.at()) : foreign));

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include <trocar/core/files.hpp>
+#include <trocar/core/foreign/foreign_file.hpp>
 #include <trocar/core/text.hpp>
-#include <trocar/geometry/formats/foreign_formats.hpp>
 #include <trocar/geometry/surface_files/polygons.hpp>
 #include <trocar/geometry/surface_files/surface_reader.hpp>
 
@@ -46,7 +46,7 @@ SurfaceFile read_known(MeshSource& in, const std::string& path, const std::strin
   in.refuse_wide_text();
   if (first.starts_with('{')) return read_gltf(in, name, beside);
   if (begins_with_solid(in)) return read_stl(in, name);
-  const std::string foreign = foreign_format(bytes.substr(in.at()));
+  const std::string foreign = core::foreign_file(bytes.substr(in.at()), core::Wanted::mesh);
   if (foreign.empty() && looks_like_obj(in)) return read_obj(in, name);
   if (foreign.empty() && ends_like(path, ".stl")) return read_stl(in, name);  // one whose size is wrong
   in.lose(in.at(), tr("expected {}, got {}", kSurfaceFormats, foreign.empty() ? in.shown(in.at()) : foreign));

@@ -14,7 +14,7 @@ constexpr double kTrackApart = 0.001;  // [m] of holes along a path
 constexpr double kCutsWith = 0.3;      // of the puncture force: what the tip meets inside.            Our estimate
 constexpr double kComesOutWith = 0.6;  // of the puncture force: skin that is stretched over a tip.     Our estimate
 constexpr double kTipRubs = 1.5;       // friction of a point on skin, which catches. Our estimate
-constexpr double kSlips = 0.0002;      // [m] that a tip slips until it presses on another point
+constexpr double kLeastSlip = 0.0002;  // [m] that a tip slips until it presses on another point
 constexpr double kDrawnBack = 0.0004;  // [m] that a tip is drawn out of its entry until it is out
 constexpr double kOffPath = 0.0015;    // [m] beside its old path the tip makes a new one
 constexpr double kFirm = 0.004;        // [m] of thread that is through a hole when it is as stiff as holes are
@@ -208,7 +208,7 @@ class Sewing {
     }
     // what friction does not hold of its way
     const Vec3d at = point_of(m_bodies, t.at), slipped = across_of(p - at, normal) + vector_of(t.slid);
-    if (length(slipped) < kSlips) return;
+    if (length(slipped) < kLeastSlip) return;
     const NearSkin on = nearest_skin(m_bodies, t.at.body, at + slipped, kSkinNear);
     if (on.there()) t.at = stick_to(m_bodies, t.at.body, on.point);
   }

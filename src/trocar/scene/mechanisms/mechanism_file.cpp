@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/files.hpp>
-#include <trocar/core/json/foreign_text.hpp>
+#include <trocar/core/foreign/foreign_text.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/kinematics/chains/joints.hpp>
 #include <trocar/numerics/portable.hpp>

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
-#include <trocar/core/json/foreign_text.hpp>
+#include <trocar/core/foreign/foreign_file.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/kinematics/chains/frame.hpp>
 #include <trocar/scene/json/shape.hpp>
@@ -29,7 +29,7 @@ class Reading {
   MechanismDescription read(const XmlElement& root) {
     const std::size_t before = m_faults.size();
     if (root.name != "robot") {
-      fault(root, tr("expected a robot (URDF, <robot>), got {}", core::xml_kind(root.name)));
+      fault(root, tr("expected a robot (URDF, <robot>), got {}", core::foreign_xml(root.name, core::Wanted::json)));
       return {};
     }
     if (tell_of_xacro(root, m_file, m_faults)) return {};  // what else is wrong may follow from that

@@ -15,10 +15,10 @@ constexpr double kCapRadius = 0.01;     // [m] each point carries it like a ball
 constexpr double kHighest = 0.06;       // [m] what is so far above is beside or over it, not below
 constexpr int kLobeSlack = 14;          // passes: the more, the tauter it spans from one loop to the next
 constexpr double kLobeTucked = 0.0022;  // [m] the border's underside below its upper one
-constexpr double kFinest = 1.7;         // rows crowd towards the border
+constexpr double kCrowding = 1.7;       // rows crowd towards the border
 
 /// How far from the border to the root a row lies, 0 .. 1.
-double share_of(std::size_t row) { return std::pow(double(row) / (kLobeRows - 1), kFinest); }
+double share_of(std::size_t row) { return std::pow(double(row) / (kLobeRows - 1), kCrowding); }
 
 /// Tongues and frills [m] outwards.
 double ragged(Vec3d p) {

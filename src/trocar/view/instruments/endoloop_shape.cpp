@@ -7,7 +7,7 @@ namespace {
 using namespace metal;
 
 constexpr double kNose = 0.0011, kThreadBore = 0.0005;  // [m] radii of its end, and of the bore there
-constexpr double kRod = 0.00035;                        // [m] radius of the rod that draws the thread
+constexpr double kThreadRod = 0.00035;                  // [m] radius of the rod that draws the thread
 
 /// The tube comes to a blunt nose, which pushes the knot; thread comes out of its bore
 /// (view/objects/suture_drawing.hpp).
@@ -31,8 +31,9 @@ std::vector<InstrumentPart> endoloop_parts(const ToolModel& tool) {
   std::vector<InstrumentPart> parts;
   parts.push_back({PartJoint::body, "plastic_sleeve", shaft(tool, 0)});
   parts.push_back({PartJoint::body, "plastic_sleeve", nose(tool)});
-  parts.push_back({PartJoint::body, "matte_steel",
-                   turned({{0.75 * end, kRod, kShaded}, {0.97 * end, kRod, kShaded}, {0.97 * end, 0, kShaded}}, 12)});
+  parts.push_back(
+      {PartJoint::body, "matte_steel",
+       turned({{0.75 * end, kThreadRod, kShaded}, {0.97 * end, kThreadRod, kShaded}, {0.97 * end, 0, kShaded}}, 12)});
   return parts;
 }
 

@@ -9,7 +9,7 @@ namespace {
 using namespace metal;
 
 constexpr int kNeedleSides = 12;
-constexpr double kBevel = 2.6;  // of a point's length to its width
+constexpr double kPointBevel = 2.6;  // of a point's length to its width
 
 /// A tube from within the shaft to `length` beyond it, ground aslant; along z from the shaft's end.
 MeshBuffer hollow_needle(const interactions::NeedleModel& needle) {
@@ -25,7 +25,7 @@ MeshBuffer hollow_needle(const interactions::NeedleModel& needle) {
                         kNeedleSides);
   // The side towards +x ends first.
   for (Vec3f& p : b.positions)
-    if (double(p.z) > end - 1e-9) p.z -= float(kBevel * (double(p.x) + r));
+    if (double(p.z) > end - 1e-9) p.z -= float(kPointBevel * (double(p.x) + r));
   return b;
 }
 

@@ -5,11 +5,11 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/foreign/foreign_file.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/volumes/files/dicom_folder.hpp>
 #include <trocar/volumes/files/dicom_kinds.hpp>
-#include <trocar/volumes/files/known_bytes.hpp>
 #include <trocar/volumes/files/readers.hpp>
 
 namespace trocar::volumes {
@@ -74,7 +74,8 @@ DicomHeader header_of(const fs::path& path, const std::string& beginning) {
 std::string kind_of(const std::string& beginning) {
   if (looks_like_nifti(beginning) || looks_like_nrrd(beginning) || looks_like_metaimage(beginning))
     return tr("another volume: open the file itself");
-  const std::string known = known_bytes(beginning);
+  if (beginning.empty()) return tr("an empty file");
+  const std::string known = core::foreign_file(beginning, core::Wanted::volume);
   return known.empty() ? tr("no DICOM file") : known;
 }
 

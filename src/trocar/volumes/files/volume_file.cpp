@@ -6,10 +6,10 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/foreign/foreign_file.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/volumes/files/dicom.hpp>
 #include <trocar/volumes/files/dicom_elements.hpp>
-#include <trocar/volumes/files/known_bytes.hpp>
 
 namespace trocar::volumes {
 namespace {
@@ -21,7 +21,7 @@ constexpr double kStraight = 0.05;  // [degrees]; a hundred slices of 1 mm are a
 
 std::string described(std::string_view bytes) {
   const std::string_view start = bytes.substr(0, 16);
-  if (std::string known = known_bytes(bytes); !known.empty()) return known;
+  if (std::string foreign = core::foreign_file(bytes, core::Wanted::volume); !foreign.empty()) return foreign;
   const bool text = std::all_of(start.begin(), start.end(),
                                 [](char c) { return (c >= ' ' && c < 127) || c == '\n' || c == '\r' || c == '\t'; });
   return text ? tr("a text that begins with {}", shown(start)) : shown(start);

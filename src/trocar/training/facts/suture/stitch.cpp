@@ -36,7 +36,9 @@ Value holds_needle(const Snapshot& snapshot, const Arguments& a) {
 Value holds_thread(const Snapshot& snapshot, const Arguments& a) {
   return held_of_suture(snapshot.model, snapshot.state, size_t(a[0].index)) == 2;
 }
-Value in_view(const Snapshot& snapshot, const Arguments&) { return needle_in_picture(snapshot.model, snapshot.state); }
+Value needle_in_view(const Snapshot& snapshot, const Arguments&) {
+  return needle_in_picture(snapshot.model, snapshot.state);
+}
 /// Of the thread that is through tissue, from the swage to the nearest hole.
 Value drawn_through(const Snapshot& snapshot, const Arguments&) {
   const interactions::SutureState& s = suture_of(snapshot.state);
@@ -127,6 +129,6 @@ const Fact kSutureThreadHeld{"suture.thread_held",
                              true};
 const Fact kSutureNeedleInView{
     "suture.needle_in_picture", {},  0, 1, "The needle's tip or its middle is in the endoscope's view.", needs_needle,
-    &stateless<in_view>,        true};
+    &stateless<needle_in_view>, true};
 
 }  // namespace trocar::training

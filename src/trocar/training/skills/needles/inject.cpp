@@ -159,7 +159,7 @@ class DrawOut final : public Skill {
   Vec3d m_at;
 };
 
-std::string lacks_needle(const sim::Model& model, const SkillArgs& args) {
+std::string lacks_injection_needle(const sim::Model& model, const SkillArgs& args) {
   return lacks_tool(model, args.hand(), &interactions::Abilities::inject);
 }
 std::string lacks_pierced_organ(const sim::Model& model, const SkillArgs& args) {
@@ -167,7 +167,7 @@ std::string lacks_pierced_organ(const sim::Model& model, const SkillArgs& args) 
   if (!body.is(BodyKind::organ) || body.index() >= model.injection.organs.size() ||
       !(model.injection.organs[body.index()].puncture > 0))
     return "the body is not an organ that a needle can enter";
-  return lacks_needle(model, args);
+  return lacks_injection_needle(model, args);
 }
 
 }  // namespace
@@ -192,7 +192,7 @@ const SkillKind kAspirate{
     {hand_parameter("the hand with the needle"), number_parameter("for_s", "time; default 1.5", 0.1, 20)},
     25,
     "Draws the plunger to see whether blood comes; fails if it does.",
-    lacks_needle,
+    lacks_injection_needle,
     &making<Aspirate>};
 const SkillKind kInject{
     "inject",
@@ -200,14 +200,14 @@ const SkillKind kInject{
     {hand_parameter("the hand with the needle"), number_parameter("volume_mL", "volume; default 5", 0.01, 100)},
     180,
     "Presses the plunger until the volume has left the needle.",
-    lacks_needle,
+    lacks_injection_needle,
     &making<Inject>};
 const SkillKind kDrawOut{"draw_out",
                          "draw the needle out",
                          {hand_parameter("the hand with the needle")},
                          20,
                          "Withdraws an instrument by 30 mm along its shaft, and retracts its needle.",
-                         lacks_needle,
+                         lacks_injection_needle,
                          &making<DrawOut>};
 
 }  // namespace trocar::training

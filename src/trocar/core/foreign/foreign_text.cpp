@@ -1,11 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include <fmt/format.h>
-
-#include <trocar/core/json/foreign_text.hpp>
-#include <trocar/core/printable.hpp>
-#include <trocar/core/text.hpp>
+#include <trocar/core/foreign/foreign_text.hpp>
 
 namespace trocar::core {
 namespace {
@@ -44,13 +40,22 @@ std::string_view from_first_element(std::string_view text) {
   return {};
 }
 
-bool is_page(std::string_view text) {
+}  // namespace
+
+std::string xml_root(std::string_view text) {
+  text = from_first_element(text);
+  if (text.size() < 2 || !is_letter(text[1])) return {};
+  const std::size_t end = text.find_first_of(" \t\r\n/>", 1);
+  return std::string(text.substr(1, std::min(end == text.npos ? text.size() : end, kLongestRoot + 1) - 1));
+}
+
+bool looks_like_page(std::string_view text) {
   text = without_blank(without_mark(text));
   return begins_with(text, "<!doctype html") || begins_with(text, "<html");
 }
 
-/// The first line that is neither empty nor a comment has a key, or begins a document or a list.
-bool is_yaml(std::string_view text) {
+// The first line that is neither empty nor a comment has a key, or begins a document or a list.
+bool looks_like_yaml(std::string_view text) {
   for (text = without_mark(text); !text.empty();) {
     const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
     text.remove_prefix(std::min(text.size(), line.size() + 1));
@@ -63,37 +68,6 @@ bool is_yaml(std::string_view text) {
     return plain && (colon + 1 == line.size() || line[colon + 1] == ' ');
   }
   return false;
-}
-
-}  // namespace
-
-std::string xml_root(std::string_view text) {
-  text = from_first_element(text);
-  if (text.size() < 2 || !is_letter(text[1])) return {};
-  const std::size_t end = text.find_first_of(" \t\r\n/>", 1);
-  return std::string(text.substr(1, std::min(end == text.npos ? text.size() : end, kLongestRoot + 1) - 1));
-}
-
-std::string xml_kind(std::string_view root) {
-  if (root == "robot") return tr("a robot (URDF): it is read as a mechanism, by `trocar mechanism` and `trocar check`");
-  if (root == "sdf") return tr("SDFormat (<sdf>): mechanisms are read as URDF or JSON. Export the robot as URDF.");
-  if (root == "mujoco" || root == "mujocoinclude")
-    return tr("a model of MuJoCo (<{}>): mechanisms are read as URDF or JSON. Export the robot as URDF.",
-              std::string(root));
-  if (root == "COLLADA") return tr("Collada: surfaces are read as OBJ, STL, PLY, glTF or legacy VTK");
-  if (root == "VTKFile") return tr("VTK in XML: save it as legacy VTK (.vtk)");
-  return tr("XML (<{}>): of XML, robots are read only (URDF, <robot>)", printable(root));
-}
-
-std::string foreign_text(std::string_view text) {
-  if (is_page(text))
-    return tr("expected JSON, got a web page (HTML): download the file itself, not the page that shows it");
-  if (const std::string root = xml_root(text); !root.empty()) return tr("expected JSON, got {}", xml_kind(root));
-  if (is_yaml(text))
-    return tr(
-        "expected JSON, got YAML, which is not read. Write vessel networks, scenes, exercises and devices as JSON with "
-        "comments: examples are in the folder scenes, all keys in scenes/schema.");
-  return {};
 }
 
 }  // namespace trocar::core
