@@ -38,6 +38,15 @@ TEST_F(MadeDicom, ObjectsThatAreNoSlicesAreRefusedByName) {
   expect_fault(mosaic, "a mosaic (many slices in one picture): convert the series to NIfTI first");
 }
 
+TEST_F(MadeDicom, AFolderWithoutImagesSaysSo) { expect_words(fault(), "expected DICOM images, got none"); }
+
+TEST_F(MadeDicom, ReadingIsCancelled) {
+  for (int k = 0; k < 20; ++k) write(std::to_string(k), slice(k, 40));
+  int calls = 0;
+  EXPECT_THROW(read_volume(m_folder, {.progress = [&](double) { return ++calls < 30; }}), Cancelled);
+  EXPECT_EQ(calls, 30);
+}
+
 TEST_F(MadeDicom, WhatIsBesideASeriesCostsANote) {
   for (int k = 0; k < 5; ++k) write(fmt::format("IM{}.dcm", k), slice(k, k));
   DicomFile dose = slice(0, 0), report = slice(0, 0), other = slice(0, 0);

@@ -1,7 +1,5 @@
-// Surfaces and centre lines of labels, on balls and tubes of known size, on voxels at random, and on the label map of
-// the data folder.
+// Surfaces and centre lines of labels, on balls and tubes of known size, and on voxels at random.
 #include <cmath>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 
@@ -18,11 +16,6 @@
 
 namespace trocar::volumes {
 namespace {
-
-namespace fs = std::filesystem;
-
-const fs::path kSegments =
-    fs::path(TROCAR_SOURCE_DIR) / "../shared/data/volumes/totalsegmentator/example_seg_dicom.nii.gz";
 
 Labels empty_labels(Index3 size, Vec3d spacing) {
   return on_grid_of(made_volume(size, spacing, [](Vec3d) { return 0; }));
@@ -113,24 +106,6 @@ TEST(LabelVoxels, CellsOfALabelLieWhereItsSurfaceDoes) {
   EXPECT_LT(length(geometry::centre_of_volume(skin) - scene_from_patient({5, -3, 6})), 3e-4);
   EXPECT_NEAR(1e6 * geometry::volume(skin), millilitres(labels, 4), 0.05 * millilitres(labels, 4));
   EXPECT_THROW(label_voxels(labels, 5), std::invalid_argument);
-}
-
-TEST(LabelSurface, OrgansOfAPatientAreBodiesOfTheirVolume) {
-  if (!fs::exists(kSegments)) GTEST_SKIP() << "the data folder " << kSegments << " is absent";
-  const Labels labels = read_labels(kSegments).labels;
-  for (const int organ : {1, 5, 7, 52}) {
-    const LabelSurface s = label_surface(labels, organ, {.most_triangles = 20'000});
-    EXPECT_TRUE(s.is_body) << organ;
-    EXPECT_NEAR(s.ml, s.ml_of_label, 0.02 * s.ml_of_label) << organ;
-    EXPECT_LE(s.mesh.triangles.size(), 20'000u) << organ;
-    ::testing::Test::RecordProperty("held_back_" + std::to_string(organ), s.held_back);
-  }
-}
-
-TEST(CentreLine, TheAortaThatAScanCutsIsOneVessel) {
-  if (!fs::exists(kSegments)) GTEST_SKIP() << "the data folder " << kSegments << " is absent";
-  const CentreTree tree = centre_tree(read_labels(kSegments).labels, 52);
-  EXPECT_EQ(tree.ends.size(), 1u);
 }
 
 TEST(CentreLine, RunsInTheMiddleOfATubeWithItsRadius) {

@@ -1,4 +1,4 @@
-// DICOM series, on the scan of the data folder and on what can go wrong with it.
+// A patient of the data folder: the DICOM series and what can go wrong with it, and organs of the label map.
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -8,6 +8,8 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/volumes/files/volume_file.hpp>
+#include <trocar/volumes/organ/centre_line.hpp>
+#include <trocar/volumes/organ/label_surface.hpp>
 
 namespace trocar::volumes {
 namespace {
@@ -15,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kData = fs::path(TROCAR_SOURCE_DIR) / "../shared/data/volumes/totalsegmentator";
-const fs::path kSeries = kData / "example_ct_dicom_raw";
+const fs::path kSeries = kData / "example_ct_dicom_raw", kLabels = kData / "example_seg_dicom.nii.gz";
 
 std::string bytes_of_file(const fs::path& path) {
   std::stringstream text;
@@ -24,7 +26,7 @@ std::string bytes_of_file(const fs::path& path) {
 }
 void write_bytes(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
-class Dicom : public testing::Test {
+class PatientSeries : public testing::Test {
  protected:
   fs::path m_folder = fs::path(TROCAR_BINARY_DIR) / "test-dicom";
   std::vector<fs::path> m_files;  // of the copy, by position
@@ -61,13 +63,13 @@ class Dicom : public testing::Test {
 
 }  // namespace
 
-TEST_F(Dicom, LabelsLieOnTheOrgansAndTheScanIsInHounsfieldUnits) {
+TEST_F(PatientSeries, LabelsLieOnTheOrgansAndTheScanIsInHounsfieldUnits) {
   const VolumeFile ct = read_volume(kSeries);
   EXPECT_EQ(ct.volume.grid.size, (Index3{512, 512, 20}));
   EXPECT_NEAR(ct.volume.grid.spacing.z, 2, 1e-9);
   EXPECT_EQ(ct.volume.unit, "HU");
   EXPECT_EQ(ct.report.series.size(), 1u);
-  const LabelFile organs = read_labels(kData / "example_seg_dicom.nii.gz");
+  const LabelFile organs = read_labels(kLabels);
   EXPECT_FALSE(same_place(organs.labels.grid, ct.volume.grid));  // their y axes are reversed against each other
   const Labels labels = resampled(organs.labels, ct.volume.grid);
   for (const auto& [label, mean] : {std::pair<int, double>{1, 79.6}, {5, 89.3}, {7, 61.0}, {52, 177.3}}) {
@@ -76,20 +78,20 @@ TEST_F(Dicom, LabelsLieOnTheOrgansAndTheScanIsInHounsfieldUnits) {
   }
 }
 
-TEST_F(Dicom, AnyFileOfASeriesGivesTheSeries) {
+TEST_F(PatientSeries, AnyFileOfASeriesGivesTheSeries) {
   const VolumeFile all = read_volume(m_folder), one = read_volume(m_files[7]);
   EXPECT_EQ(all.volume.stored, one.volume.stored);
   EXPECT_TRUE(all.volume.grid == one.volume.grid);
 }
 
-TEST_F(Dicom, AMissingSliceIsNamed) {
+TEST_F(PatientSeries, AMissingSliceIsNamed) {
   fs::remove(m_files[9]);
   const std::string words = fault();
   EXPECT_NE(words.find("expected slices 2 mm apart without gaps, got 19 positions; missing at -"), std::string::npos)
       << words;
 }
 
-TEST_F(Dicom, ATruncatedFileIsAFault) {
+TEST_F(PatientSeries, ATruncatedFileIsAFault) {
   const std::string whole = bytes_of_file(m_files[3]);
   for (const double share : {0.999, 0.6, 0.3}) {
     write_bytes(m_files[3], whole.substr(0, std::size_t(share * double(whole.size()))));
@@ -99,7 +101,7 @@ TEST_F(Dicom, ATruncatedFileIsAFault) {
   }
 }
 
-TEST_F(Dicom, SeveralSeriesAreToldApartAndOneIsChosen) {
+TEST_F(PatientSeries, SeveralSeriesAreToldApartAndOneIsChosen) {
   for (int i = 0; i < 4; ++i) {
     const fs::path copy = m_folder / ("other" + std::to_string(i) + ".dcm");
     write_bytes(copy, bytes_of_file(m_files[std::size_t(i)]));
@@ -123,7 +125,7 @@ TEST_F(Dicom, SeveralSeriesAreToldApartAndOneIsChosen) {
   EXPECT_THROW(read_volume(m_folder, {.series = 3}), core::BadInput);
 }
 
-TEST_F(Dicom, ATiltedGantryIsStraightenedAndEveryVoxelStaysAtItsPlace) {
+TEST_F(PatientSeries, ATiltedGantryIsStraightenedAndEveryVoxelStaysAtItsPlace) {
   const Volume upright = read_volume(m_folder).volume;
   // Each slice a pixel further to the back than its neighbour: places are text, and the new ones have the same length.
   for (std::size_t i = 0; i < m_files.size(); ++i) {
@@ -144,14 +146,22 @@ TEST_F(Dicom, ATiltedGantryIsStraightenedAndEveryVoxelStaysAtItsPlace) {
     }
 }
 
-TEST_F(Dicom, AFolderWithoutImagesSaysSo) {
-  for (const fs::path& file : m_files) fs::remove(file);
-  EXPECT_NE(fault().find("expected DICOM images, got none"), std::string::npos);
+TEST(PatientLabels, OrgansOfAPatientAreBodiesOfTheirVolume) {
+  if (!fs::exists(kLabels)) GTEST_SKIP() << "the data folder " << kData << " is absent";
+  const Labels labels = read_labels(kLabels).labels;
+  for (const int organ : {1, 5, 7, 52}) {
+    const LabelSurface s = label_surface(labels, organ, {.most_triangles = 20'000});
+    EXPECT_TRUE(s.is_body) << organ;
+    EXPECT_NEAR(s.ml, s.ml_of_label, 0.02 * s.ml_of_label) << organ;
+    EXPECT_LE(s.mesh.triangles.size(), 20'000u) << organ;
+    ::testing::Test::RecordProperty("held_back_" + std::to_string(organ), s.held_back);
+  }
 }
 
-TEST_F(Dicom, ReadingIsCancelled) {
-  int calls = 0;
-  EXPECT_THROW(read_volume(m_folder, {.progress = [&](double) { return ++calls < 30; }}), Cancelled);
+TEST(PatientLabels, TheAortaThatAScanCutsIsOneVessel) {
+  if (!fs::exists(kLabels)) GTEST_SKIP() << "the data folder " << kData << " is absent";
+  const CentreTree tree = centre_tree(read_labels(kLabels).labels, 52);
+  EXPECT_EQ(tree.ends.size(), 1u);
 }
 
 }  // namespace trocar::volumes
