@@ -18,7 +18,7 @@ namespace {
 
 using ui::Mark;
 
-constexpr float kNarrowest = 250, kWidest = 340, kShare = 0.27f;
+constexpr float kNarrowest = 250, kWidest = 340, kPanelShare = 0.27f;
 
 const ImVec4 kHintText{0.82f, 0.86f, 0.90f, 1};
 
@@ -387,7 +387,7 @@ void draw_progress(const PanelContent& c, float line, float foot) {
 }  // namespace
 
 float panel_width(float width, float scale) {
-  return std::min(0.5f * width, std::clamp(kShare * width, kNarrowest * scale, kWidest * scale));
+  return std::min(0.5f * width, std::clamp(kPanelShare * width, kNarrowest * scale, kWidest * scale));
 }
 
 void draw_panel(const PanelContent& c, float left, float width, float height) {

@@ -14,7 +14,7 @@ namespace {
 
 using ui::Mark;
 
-constexpr float kWindow = 900, kShare = 0.58f;  // of the window the left column takes
+constexpr float kWindow = 900, kLeftShare = 0.58f;  // of the window the left column takes
 constexpr float kCurveHeight = 110;
 
 void draw_verdict(const ResultSummary& s, const std::string& mode) {
@@ -119,7 +119,7 @@ void draw_paths(const ResultSummary& s) {
 void draw_details(const ResultSummary& s) {
   const float most = 0.97f * ImGui::GetIO().DisplaySize.y - 280 * ui::scale();
   const float high = std::floor(std::clamp(most, 60 * ui::scale(), 400 * ui::scale()));
-  const float left = kShare * ImGui::GetContentRegionAvail().x;
+  const float left = kLeftShare * ImGui::GetContentRegionAvail().x;
   ImGui::BeginChild("details", {left, high}, false);
   if (!s.parts.empty()) ui::heading(tr("Points"));
   for (const ResultSummary::Part& part : s.parts) draw_part(part);

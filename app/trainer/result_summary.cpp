@@ -69,21 +69,22 @@ void add_score(const Json& score, ResultSummary& s) {
 /// Errors of the same code are one line.
 void add_costs(const Json& errors, bool scored, ResultSummary& s) {
   if (!errors.is_array()) return;
-  struct Kind {
+  struct Repeated {
     const Json* first;
     int count = 0;
     double points = 0;
   };
-  std::vector<Kind> kinds;
+  std::vector<Repeated> kinds;
   for (const Json& e : errors) {
-    const auto same = [&](const Kind& k) { return text(*k.first, "code") == text(e, "code"); };
+    const auto same = [&](const Repeated& k) { return text(*k.first, "code") == text(e, "code"); };
     auto known = std::find_if(kinds.begin(), kinds.end(), same);
-    if (known == kinds.end()) known = kinds.insert(kinds.end(), Kind{&e});
+    if (known == kinds.end()) known = kinds.insert(kinds.end(), Repeated{&e});
     ++known->count;
     known->points += number(e, "points");
   }
-  std::stable_sort(kinds.begin(), kinds.end(), [](const Kind& a, const Kind& b) { return a.points > b.points; });
-  for (const Kind& k : kinds) {
+  std::stable_sort(kinds.begin(), kinds.end(),
+                   [](const Repeated& a, const Repeated& b) { return a.points > b.points; });
+  for (const Repeated& k : kinds) {
     const Json& e = *k.first;
     const std::string at = clock_text(number(e, "at_s"));
     ResultSummary::Cost cost;

@@ -15,7 +15,7 @@ constexpr std::uint8_t kTipOnly = 3;     // a kind of element: its rotation mean
 constexpr std::size_t kStatusHead = 30;  // code, subcode, name of the error
 constexpr unsigned kStatusOk = 1;
 constexpr double kMillimetre = 1e-3;
-constexpr double kFarthest = 100;  // [m] no tracker sees further; the protocol's floats could say anything
+constexpr double kFarthestTool = 100;  // [m] no tracker sees further; the protocol's floats could say anything
 
 bool sound(const TrackedPose& pose) {
   for (int i = 0; i < 3; ++i) {
@@ -24,8 +24,8 @@ bool sound(const TrackedPose& pose) {
     if (!(std::fabs(dot(axis, pose.turned.column((i + 1) % 3))) < 0.01)) return false;
   }
   if (!(dot(cross(pose.turned.column(0), pose.turned.column(1)), pose.turned.column(2)) > 0)) return false;
-  return std::fabs(pose.place.x) < kFarthest && std::fabs(pose.place.y) < kFarthest &&
-         std::fabs(pose.place.z) < kFarthest;
+  return std::fabs(pose.place.x) < kFarthestTool && std::fabs(pose.place.y) < kFarthestTool &&
+         std::fabs(pose.place.z) < kFarthestTool;
 }
 
 /// Twelve floats: the columns of the rotation, then the place.
