@@ -32,7 +32,7 @@ TEST_P(SurfacesOfAnAtlas, AreMendedFilledAndHangStillInFewSubSteps) {
   for (const char* filled : {"}]", R"(, "cuttable": true}])"}) {
     if (sack && filled[0] == ',') continue;  // cells of a millimetre: more than a solid may have
     CompileReport report;
-    const sim::Model model = compile(read(t.scene(solid + filled)), &report);
+    const sim::Model model = compile(read_scene(t.scene(solid + filled)), &report);
     EXPECT_LE(body_of(report).substeps, 12);
     EXPECT_FALSE(report.warnings.empty()) << "what was mended is told";
     EXPECT_LT(drift(model), 1e-5);

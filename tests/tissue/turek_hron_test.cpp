@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/tissue/network/lattice_springs.hpp>
-#include <trocar/tissue/network/network_kPublished.hpp>
+#include <trocar/tissue/network/network_reference.hpp>
 
 #include "validation.hpp"
 
@@ -74,7 +74,7 @@ std::vector<double> heights_f32(const Bar& bar, double seconds) {
   }
   return height;
 }
-/// The same in double, by the plain kPublished.
+/// The same in double, by the plain reference.
 std::vector<double> heights_f64(const Bar& bar, double seconds) {
   ReferenceNetwork<double> network(bar.d, bar.model);
   std::vector<double> height;
