@@ -31,7 +31,7 @@ fi
 export TROCAR_CACHE=$PWD/build/release/cache  # a fresh one is as good: nothing outside the checkout is written
 tools/setup.sh $job
 echo "test: building (some minutes the first time)" >&2
-tools/build.sh --tests
+if [ "$which" = soak ]; then tools/build.sh --tests all soak_programs; else tools/build.sh --tests; fi
 
 if [ "$which" = soak ]; then
   exec tools/soak.py run ${SOAK_NOTE:+--note} "$@"

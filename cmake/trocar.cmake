@@ -167,7 +167,11 @@ function(trocar_test name)
   endif()
   if(soak)
     trocar_test_executable(${name}_soak "${soak}" "${arg_DEPENDS}" "${arg_LIBS}")
-    set_property(GLOBAL APPEND PROPERTY TROCAR_TEST_TARGETS ${name}_soak)
+    set_target_properties(${name}_soak PROPERTIES EXCLUDE_FROM_ALL TRUE)  # minutes; `./test.sh soak` builds them
+    if(NOT TARGET soak_programs)
+      add_custom_target(soak_programs)
+    endif()
+    add_dependencies(soak_programs ${name}_soak)
   endif()
 endfunction()
 

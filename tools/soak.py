@@ -4,7 +4,7 @@
     tools/soak.py list [PART...]       the parts, how long each takes, and when each ran last (docs/log/soak.md);
                                        --names: their names alone
     tools/soak.py run [--note] PART... runs parts of a build that has its tests; --note writes their rows to that page
-    tools/soak.py check BUILD          every long test belongs to exactly one part
+    tools/soak.py check [BUILD]        every long test belongs to a part; as the sources say
 
 Exit: 0 all passed, 1 one failed, 2 no such part, 77 nothing failed and one was skipped.
 """
@@ -164,6 +164,10 @@ def note(name, row):
 
 
 def run(build, parts, noted):
+    found = list(faults(all_parts(), [*long_tests(build), *built_cases(build)]))
+    if found:
+        print("\n".join(found), file=sys.stderr)
+        return 1
     codes, said = [], []
     for part in parts:
         code, minutes, result = run_part(build, part)
@@ -210,11 +214,19 @@ def selected(case, patterns):
     return any(fnmatch.fnmatchcase(case, p) for p in wanted) and not any(fnmatch.fnmatchcase(case, p) for p in unwanted)
 
 
+def written_cases(text):
+    """Cases of a source file by their full names; those with parameters end in `/`, before the parameter's name."""
+    places = re.findall(r"INSTANTIATE_TEST_SUITE_P\((\w+), (\w+)", text)
+    for macro, suite, name in re.findall(r"^TEST(|_F|_P)\((\w+), (\w+)\)", text, re.MULTILINE):
+        yield from ([f"{suite}.{name}"] if macro != "_P" else
+                    (f"{place}/{suite}.{name}/" for place, of in places if of == suite))
+
+
 def long_tests(build):
     """Everything that a part must name: (kind, name), the kind being as in holds()."""
-    for path in sorted((ROOT / build / "tests").rglob("*_soak")):
-        if path.is_file():
-            yield from ((path.name, case) for case in cases_in(path))
+    for path in sorted((ROOT / "tests").glob("*/*_soak.cpp")):
+        for case in written_cases(path.read_text(encoding="utf-8")):
+            yield f"{path.parent.name}_soak", case
     listing = subprocess.run(["ctest", "--test-dir", build, "-L", "^soak$", "--show-only=json-v1"], check=True,
                              capture_output=True, text=True).stdout
     yield from (("tests", test["name"]) for test in json.loads(listing)["tests"])
@@ -222,11 +234,23 @@ def long_tests(build):
     yield from (("fuzz", target) for target in re.search(r"set\(targets ([^)]*)\)", listing).group(1).split())
 
 
+def built_cases(build):
+    """The cases of the programs that are built, each parameter by itself."""
+    for path in sorted((ROOT / build / "tests").rglob("*_soak")):
+        if path.is_file():
+            yield from ((path.name, case) for case in cases_in(path))
+
+
 def holds(part, kind, name):
-    """Whether a part runs a test; kind: "tests", "fuzz", or a program of GoogleTest."""
+    """Whether a part runs a test; kind: "tests", "fuzz", or a program of GoogleTest. Of a case with parameters that is
+    known from the sources alone: whether it runs it with one of them."""
     if kind in ("tests", "fuzz"):
         return name in part.get(kind, [])
-    return selected(name, part.get("cases", {}).get(kind, []))
+    patterns = part.get("cases", {}).get(kind, [])
+    if name.endswith("/"):
+        wanted = ":".join(patterns).partition("-")[0].split(":")
+        return any(fnmatch.fnmatchcase(name, p[:p.rfind("/") + 1] if p.count("/") > 1 else p) for p in wanted)
+    return selected(name, patterns)
 
 
 def faults(parts, all_tests):
@@ -241,7 +265,7 @@ def faults(parts, all_tests):
                         if (kind, name) not in all_tests)
     for kind, name in all_tests:
         holders = [part["name"] for part in parts if holds(part, kind, name)]
-        if len(holders) != 1:
+        if not holders or len(holders) > 1 and not name.endswith("/"):  # parts may share a case's parameters
             yield f"{name} ({kind}): expected in one part of tests/soak.toml, got {', '.join(holders) or 'none'}"
 
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepGProp.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
@@ -26,6 +27,7 @@ namespace {
 
 constexpr double kMetre = 1e-3, kTurn = 0.2;  // of a millimetre; [rad] between neighbouring triangles
 constexpr double kSame = 1e-7;                // [m] how far the surface made may be from the file's
+constexpr double kTooLarge = 3;               // [m] diagonal of a part
 
 Vec3d metres(const gp_Pnt& p) { return {p.X() * kMetre, p.Y() * kMetre, p.Z() * kMetre}; }
 
@@ -111,6 +113,13 @@ bool is_same(const geometry::nurbs::Surface& made, const Handle(Geom_BSplineSurf
   return false;
 }
 
+/// [m]
+double diagonal(const TopoDS_Shape& part) {
+  Bnd_Box box;
+  BRepBndLib::Add(part, box);
+  return box.IsVoid() ? 0 : std::sqrt(box.SquareExtent()) * kMetre;
+}
+
 }  // namespace
 
 int faces_of(const TopoDS_Shape& part) {
@@ -120,23 +129,27 @@ int faces_of(const TopoDS_Shape& part) {
 }
 
 double within_of_size(const TopoDS_Shape& part, double within) {
-  constexpr double kTooLarge = 3, kShare = 1e-3;  // [m]; of its diagonal
-  Bnd_Box box;
-  BRepBndLib::Add(part, box);
-  const double size = box.IsVoid() ? 0 : std::sqrt(box.SquareExtent()) * kMetre;
+  constexpr double kShare = 1e-3;
+  const double size = diagonal(part);
   return size > kTooLarge ? std::max(within, kShare * size) : within;
 }
 
 geometry::TriMesh triangles_of(const TopoDS_Shape& part, double within) {
-  const BRepMesh_IncrementalMesh mesher(part, within / kMetre, false, kTurn);
+  // Of parts of tens of metres the mesher makes flat sheets: they are made small first.
+  const double size = diagonal(part), scale = size > kTooLarge ? 1 / size : 1;
+  gp_Trsf smaller;
+  smaller.SetScaleFactor(scale);
+  const TopoDS_Shape shape = scale < 1 ? BRepBuilderAPI_Transform(part, smaller, true).Shape() : part;
+  const BRepMesh_IncrementalMesh mesher(shape, scale * within / kMetre, false, kTurn);
   geometry::TriMesh out;
-  for (TopExp_Explorer e(part, TopAbs_FACE); e.More(); e.Next()) {
+  for (TopExp_Explorer e(shape, TopAbs_FACE); e.More(); e.Next()) {
     const TopoDS_Face face = TopoDS::Face(e.Current());
     TopLoc_Location place;
     const Handle(Poly_Triangulation) t = BRep_Tool::Triangulation(face, place);
     if (t.IsNull()) continue;
     const int first = int(out.positions.size());
-    for (int i = 1; i <= t->NbNodes(); ++i) out.positions.push_back(metres(t->Node(i).Transformed(place)));
+    for (int i = 1; i <= t->NbNodes(); ++i)
+      out.positions.push_back(metres(t->Node(i).Transformed(place)) * (1 / scale));
     for (int i = 1; i <= t->NbTriangles(); ++i) {
       int a = 0, b = 0, c = 0;
       t->Triangle(i).Get(a, b, c);

@@ -1,5 +1,6 @@
 // The readers of surfaces, the writers, and what is found and mended in what they read. One target a format, so that
 // each has a corpus of its own; all of them run the same.
+#include <algorithm>
 #include <cmath>
 
 #include <trocar/core/error.hpp>
@@ -28,6 +29,17 @@ void check_parts(const SurfaceFile& file) {
   }
 }
 
+/// Those that have three corners at different places in its floats.
+std::size_t triangles_in_stl(const TriMesh& mesh) {
+  const auto same = [&](int a, int b) {
+    const Vec3d p = mesh.positions[std::size_t(a)], q = mesh.positions[std::size_t(b)];
+    return float(p.x) == float(q.x) && float(p.y) == float(q.y) && float(p.z) == float(q.z);
+  };
+  return std::size_t(std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+    return !same(t[0], t[1]) && !same(t[1], t[2]) && !same(t[2], t[0]);
+  }));
+}
+
 void check_written(const TriMesh& mesh) {
   for (const std::string& bytes : {to_obj(mesh), to_ply(mesh), to_polydata(mesh)}) {
     const SurfaceFile back = read_surfaces(bytes, "again");
@@ -35,7 +47,8 @@ void check_written(const TriMesh& mesh) {
     require(back.parts[0].mesh.positions == mesh.positions && back.parts[0].mesh.triangles == mesh.triangles,
             "what was read can be written and read again");
   }
-  require(read_surfaces(to_stl(mesh), "again").parts[0].mesh.triangles.size() == mesh.triangles.size(),
+  const std::size_t solid = triangles_in_stl(mesh);
+  require(solid == 0 || read_surfaces(to_stl(mesh), "again").parts[0].mesh.triangles.size() == solid,
           "as many triangles come back from STL");
 }
 

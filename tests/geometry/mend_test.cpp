@@ -95,7 +95,7 @@ TEST(Mend, AWallThatIsOpenAtBothEndsKeepsItsLumen) {
   EXPECT_EQ(tube.before.holes.size(), 4u);
   EXPECT_TRUE(tube.after.is_body()) << in_words(tube.after);
   EXPECT_EQ(tube.after.shells.list.size(), 1u) << "outer and inner surface hang together by rings";
-  EXPECT_EQ(tube.changes.front().words, "2 walls closed by rings between their rims");
+  EXPECT_EQ(tube.changes.back().words, "2 walls closed by rings between their rims");
 }
 
 TEST(Mend, NothingStaysNothing) {

@@ -298,18 +298,20 @@ def LanguageCheckFindsEachFault():
 
 def SoakCheckFindsEachFault():
     sys.path.insert(0, str(TOOLS))
-    from soak import faults, selected  # noqa: PLC0415
+    from soak import faults, selected, written_cases  # noqa: PLC0415
     good = [{"name": "a", "minutes": 45, "cases": {"sim_soak": ["Abuse.*:Seeds/Suture.*/1?", "-Abuse.Long"]}},
             {"name": "b", "minutes": 1, "tests": ["app.kills"], "fuzz": ["scene"], "cases": {"sim_soak": ["Abuse.Long"]}}]
     long_tests = [("sim_soak", "Abuse.Short"), ("sim_soak", "Abuse.Long"), ("sim_soak", "Seeds/Suture.Is/12"),
-                  ("tests", "app.kills"), ("fuzz", "scene")]
+                  ("sim_soak", "Seeds/Suture.Is/"), ("tests", "app.kills"), ("fuzz", "scene")]
     expect(not list(faults(good, long_tests)), "good parts were refused")
-    for bad in (("sim_soak", "Other.Case"), ("sim_soak", "Seeds/Suture.Is/2"), ("tests", "app.more"), ("fuzz", "urdf")):
+    for bad in (("sim_soak", "Other.Case"), ("sim_soak", "Seeds/Other.Is/"), ("sim_soak", "Seeds/Suture.Is/2"), ("tests", "app.more"), ("fuzz", "urdf")):
         expect(list(faults(good, long_tests + [bad])), f"{bad} belongs to no part and passed")
     expect(list(faults(good + good[1:], long_tests)), "a test of two parts passed")
-    expect(list(faults(good, long_tests[:3])), "a test that is not there passed")
+    expect(list(faults(good, long_tests[:4])), "a test that is not there passed")
     expect(list(faults([dict(good[0], minutes=46), good[1]], long_tests)), "a part that takes too long passed")
     expect(list(faults(good + [{"name": "c", "minutes": 1}], long_tests)), "a part without anything passed")
+    expect(list(written_cases("TEST(A, Is) {}\n  TEST(No, Is)\nTEST_P(B, Does) {}\nINSTANTIATE_TEST_SUITE_P(Seeds, B, 1);\n"))
+           == ["A.Is", "Seeds/B.Does/"], "cases of a source were not found")
     expect(selected("A.b", ["*", "-A.*"]) is False and selected("B.b", ["*", "-A.*"]), "a filter's minus was not obeyed")
 
 

@@ -339,6 +339,7 @@ State stitched() {
 State injected() {
   State s = initial_state(injection_model());
   s.injection.track_count = 1;
+  s.injection.fills.back() = 1;  // hashed only while tissue resists
   return s;
 }
 

@@ -12,6 +12,7 @@ namespace {
 
 using Kind = core::JsonValue::Kind;
 
+constexpr int kMostValues = 1'000'000;  // of JSON: one of 100 000 nodes has as many
 constexpr std::int64_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
 /// Characters that a URI spells as %20.
@@ -71,7 +72,7 @@ GltfDocument::GltfDocument(MeshSource& in, const FilesBeside& beside)
       m_chunks(chunks_of(in)),
       m_offset(std::size_t(m_chunks.json.data() - in.all().data())) {
   std::vector<core::Fault> faults;
-  m_json = core::parse_json(m_chunks.json, in.file(), faults);
+  m_json = core::parse_json(m_chunks.json, in.file(), faults, {.values = kMostValues});
   if (faults.size() > kMaxMeshFaults) faults.resize(kMaxMeshFaults);
   if (!faults.empty()) throw core::BadInput(std::move(faults));
   if (root()->kind != Kind::object) in.lose(place(root()), tr("expected an object, got {}", shown(root())));

@@ -82,6 +82,7 @@ class GltfReader {
       p = placed.place(p);
       for (int k = 0; k < 3; ++k) p[k] = checked_coordinate(m_gltf.in(), m_gltf.place(placed.node), p[k]);
     }
+    m_left_out.take_flat(part.mesh.triangles);
     if (determinant(placed.place.linear) < 0)  // a mirror turns every triangle
       for (auto& t : part.mesh.triangles) std::swap(t[1], t[2]);
     m_vertices += part.mesh.positions.size();

@@ -160,9 +160,10 @@ class StlText {
 };
 
 /// Every three positions are a triangle; those at the same place become one.
-void close_corners(TriMesh& soup) {
+void close_corners(TriMesh& soup, SurfaceLeftOut& left_out) {
   for (int v = 0; v + 2 < int(soup.positions.size()); v += 3) soup.triangles.push_back({v, v + 1, v + 2});
   soup = merged_equal(soup);
+  left_out.take_flat(soup.triangles);
 }
 
 }  // namespace
@@ -184,7 +185,9 @@ SurfaceFile read_stl(MeshSource& in, const std::string& name) {
     StlText(in, file, name).read();
   else
     StlBinary(in, file, name).read();
-  for (SurfacePart& part : file.parts) close_corners(part.mesh);
+  SurfaceLeftOut left_out;
+  for (SurfacePart& part : file.parts) close_corners(part.mesh, left_out);
+  left_out.tell(file.notes);
   return file;
 }
 

@@ -181,7 +181,7 @@ std::vector<std::array<int, 3>> cut_polygons(MeshSource& in, const std::vector<V
       in.fault(polygons.at[p], tr("expected the number of a vertex from {} to {}, got {}", from, count - 1 + from,
                                   std::int64_t(*bad) + from));
   }
-  left_out.add("faces with fewer than three different corners", flat);
+  left_out.take_flat(triangles, flat);
   left_out.cut_as_fans(cutter.fans());
   return triangles;
 }
@@ -205,6 +205,11 @@ void SurfaceLeftOut::add(const std::string& kinds, std::int64_t count) {
       return;
     }
   m_kinds.emplace_back(kinds, count);
+}
+
+void SurfaceLeftOut::take_flat(std::vector<std::array<int, 3>>& triangles, std::int64_t before) {
+  const auto is_flat = [](const std::array<int, 3>& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
+  add("faces with fewer than three different corners", before + std::int64_t(std::erase_if(triangles, is_flat)));
 }
 
 void SurfaceLeftOut::tell(std::vector<std::string>& notes) const {

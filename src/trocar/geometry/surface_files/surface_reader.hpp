@@ -51,6 +51,8 @@ class SurfaceLeftOut {
  public:
   void add(const std::string& kinds, std::int64_t count = 1);  ///< in the plural
   void cut_as_fans(std::int64_t polygons) { m_fans += polygons; }
+  /// Takes triangles with a corner twice out. @param before  faces that had fewer than three corners from the start
+  void take_flat(std::vector<std::array<int, 3>>& triangles, std::int64_t before = 0);
   void tell(std::vector<std::string>& notes) const;
 
  private:
