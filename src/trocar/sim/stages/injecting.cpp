@@ -26,7 +26,7 @@ constexpr double kTrackOver = 60;      // [s]
 constexpr double kTrackLeaks = 1e-12;  // [m^3/Pa s] when it has just been left: at 25 kPa 0.2 mL get out.  Our choice
 constexpr double kTrackWide = 0.004;   // [m] what is around it is what leaks
 constexpr double kTrackDeep = 0.003;   // [m] where its pressure is asked for
-constexpr double kFillsFrom = 0.6;     // share of what tissue can hold from which on it resists.          Our choice
+constexpr double kFillsFrom = 0.8;     // share of what tissue can hold from which on it resists.          Our choice
 constexpr double kFillsAt =
     10e-6 / 60;                   // [m^3/s] that take the opening pressure once more half way from there. Our choice
 constexpr double kGapes = 4e-11;  // [m^3/Pa s] around a needle beyond the opening pressure: 80 um wide, 3.5 mm long
