@@ -270,6 +270,8 @@ TEST(SurfaceFiles, WhatIsNoSurfaceIsSaidToBeNone) {
             expected + "VTK's XML format (.vtp, .vtu, .vti): save it as legacy VTK (.vtk)");
   EXPECT_EQ(surface_faults("PK\x03\x04..."),
             expected + "a ZIP archive: unpack it. Of 3MF, save the mesh as STL or OBJ");
+  EXPECT_EQ(surface_faults("version https://git-lfs.github.com/spec/v1\n" + std::string(80, '1')),
+            expected + "a pointer of Git LFS: fetch the file itself (git lfs pull)");
   EXPECT_EQ(surface_faults("OFF\n8 6 0\n"), expected + "OFF: save the mesh as glTF, OBJ or STL");
   EXPECT_EQ(surface_faults("ISO-10303-21;\n"), expected + "STEP: name the file .step, and import it as a drawing");
   EXPECT_EQ(surface_faults("\x1b[31mred"), expected + "'?[31mred'");

@@ -78,6 +78,7 @@ TEST_F(MadeDicom, TwoTimePointsAreChosenBetween) {
       DicomFile file;
       file.position = "0\\0\\" + std::to_string(2 * k);
       file.instance = 3 * t + k;
+      file.more = {{0x00200100, "IS", std::to_string(t + 1)}};
       file.pixel = [&](int) { return 1024 + 10 * t + k; };
       write("t" + std::to_string(3 * t + k), file);
     }

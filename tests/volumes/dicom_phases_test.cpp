@@ -65,6 +65,32 @@ TEST_F(MadeDicom, ImagesThatNothingTellsApartAreNamed) {
   expect_words(fault(), "0_0.dcm and ");
 }
 
+TEST_F(MadeDicom, ImagesThatOnlyTheirNumbersDistinguishAreAChoice) {
+  for (int t = 0; t < 2; ++t)
+    for (int k = 0; k < 3; ++k) {
+      DicomFile file = slice(k, 10 * t);
+      file.object = fmt::format("1.2.9.{}.{}", t, k);
+      file.instance = 3 * t + k;
+      write(fmt::format("{}_{}.dcm", t, k), file);
+    }
+  expect_words(fault(), "got Instance Number alone: choose one with \"series\": 1 ");
+  for (int t = 0; t < 2; ++t) expect_value_everywhere(read_volume(m_folder, {.series = t + 1}).volume, 10 * t);
+  expect_value_everywhere(read_volume(m_folder / "1_2.dcm").volume, 10);
+}
+
+TEST_F(MadeDicom, CopiesWithIdentifiersOfTheirOwnAreCopies) {
+  for (int t = 0; t < 2; ++t)
+    for (int k = 0; k < 3; ++k) {
+      DicomFile file = slice(k, 10 * k);
+      file.object = fmt::format("1.2.9.{}.{}", t, k);
+      file.instance = 3 * t + k;
+      write(fmt::format("{}_{}.dcm", t, k), file);
+    }
+  const VolumeFile read = read_volume(m_folder);
+  EXPECT_EQ(read.report.frames, 1);
+  expect_words(notes_of(read), "images that are there twice are read once; left out: ");
+}
+
 TEST_F(MadeDicom, CopiesAreLeftOutAndNamed) {
   for (int k = 0; k < 5; ++k) write(fmt::format("IM{}.dcm", k), slice(k, 10 * k));
   write("IM2 - Copy.dcm", slice(2, 20));

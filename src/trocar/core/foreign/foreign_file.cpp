@@ -47,6 +47,8 @@ constexpr Known kKnown[] = {
     {0, "; FBX", "FBX", {kAsMesh, kAsMesh, kAsMesh}},
     {0, "BLENDER", "a Blender file", everywhere("export the mesh as glTF, OBJ or STL")},
     {0, "ISO-10303-21", "STEP", everywhere("name the file .step, and import it as a drawing")},
+    {0, "#VRML", "VRML", everywhere(kAsMesh)},
+    {0, "version https://git-lfs", "a pointer of Git LFS", everywhere("fetch the file itself (git lfs pull)")},
     {0, "OFF\n", "OFF", everywhere(kAsMesh)},
     {0, "OFF\r", "OFF", everywhere(kAsMesh)},
     {0, "COFF\n", "OFF", everywhere(kAsMesh)},

@@ -43,7 +43,14 @@ std::size_t default_stack(const std::vector<DicomStack>& stacks, int file, const
   if (candidates.size() == 1) return candidates[0];
   const bool acquisitions =
       std::any_of(candidates.begin(), candidates.end(), [&](std::size_t s) { return !stacks[s].part.empty(); });
+  const bool by_number = acquisitions && stacks[candidates[0]].told_by == name_of(Mark::instance);
   const std::string list = described(series, candidates);
+  if (by_number)
+    throw SeriesChoice(name,
+                       tr("expected acquisitions, echoes or times that distinguish {} images at each position, got "
+                          "Instance Number alone: choose one with \"series\": {}",
+                          candidates.size(), list),
+                       series);
   throw SeriesChoice(name,
                      acquisitions ? tr("expected one image at each position, got {} acquisitions of unlike extent: "
                                        "choose one with \"series\": {}",

@@ -84,12 +84,14 @@ class Stacks {
     std::vector<Marks> marks;
     for (std::size_t i = 0; i < stack.images.size(); ++i) marks.push_back(frame_of(stack, int(i)).marks);
     ImageGroups told = grouped(at, marks);
+    const bool by_number = told.told_by == name_of(Mark::instance);  // which may be of anything
+    if ((told.groups.empty() || by_number) && drop_renamed(stack, at)) return part(std::move(stack), out);
     if (told.groups.empty()) {
       stack.fault = not_told_apart(stack, at);
       return out.push_back(std::move(stack));
     }
     stack.told_by = told.told_by;
-    if (told.alike) {
+    if (told.alike && !by_number) {
       stack.groups = std::move(told.groups);
       return out.push_back(std::move(stack));
     }
@@ -128,12 +130,27 @@ class Stacks {
       for (const int i : level) alike[identity(stack, i)].push_back(i);
       for (const auto& [text, images] : alike) drop_copies_of(stack, images, dropped);
     }
+    return take_out(stack, dropped);
+  }
+  static bool take_out(DicomStack& stack, const std::set<int>& dropped) {
     if (dropped.empty()) return false;
     std::vector<ImageAt> kept;
     for (std::size_t i = 0; i < stack.images.size(); ++i)
       if (!dropped.count(int(i))) kept.push_back(stack.images[i]);
     stack.images = std::move(kept);
     return true;
+  }
+  /// Copies that were given identifiers of their own: at every position all images have the same pixels.
+  bool drop_renamed(DicomStack& stack, const std::vector<std::vector<int>>& at) {
+    for (const std::vector<int>& level : at) {
+      const std::string first = level.size() > 1 ? m_pixels(stack.images[std::size_t(level[0])]) : "";
+      for (std::size_t i = 1; i < level.size(); ++i)
+        if (first.empty() || m_pixels(stack.images[std::size_t(level[i])]) != first) return false;
+    }
+    std::set<int> dropped;
+    for (const std::vector<int>& level : at)
+      for (std::size_t i = 1; i < level.size(); ++i) drop(stack, level[i], level[0], dropped);
+    return take_out(stack, dropped);
   }
   void drop_copies_of(DicomStack& stack, const std::vector<int>& images, std::set<int>& dropped) {
     if (images.size() < 2) return;
