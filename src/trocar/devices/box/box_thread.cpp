@@ -43,7 +43,7 @@ void BoxThread::loop() {
       continue;
     }
     m_link.ask();
-    due = std::max(due + period, box_now());  // what was slept through is not asked for afterwards
+    due = m_link.next(std::max(due + period, box_now()));  // what was slept through is not asked for afterwards
     m_link.listen(due, [this](const BoxPacket& packet) { count(packet); });
     tell();
   }

@@ -34,7 +34,7 @@ void BoxDialogue::begin() noexcept {
   m_heard_any = false;
   m_needs_config = true;
   m_told_any = false;
-  m_told = m_last_heard = m_last_block = 0;
+  m_told = m_last_asked = m_last_heard = m_last_looked = m_last_block = 0;
   m_wants_silence = false;
   m_trusts = true;
 }
@@ -42,11 +42,11 @@ void BoxDialogue::begin() noexcept {
 std::span<const std::uint8_t> BoxDialogue::ask(BoxTime now) noexcept {
   const std::span<std::uint8_t> out(m_out);
   std::size_t size = 0;
-  if (m_wants_silence && now - m_last_heard <= m_silence) return {};
+  if (m_wants_silence && !silent()) return {};
   m_wants_silence = false;
   ++m_number;
   ++m_counts.asked;
-  m_asked[m_number % m_asked.size()] = now;
+  m_asked[m_number % m_asked.size()] = m_last_asked = now;
   if (m_settings.raw) {
     out[size++] = kRawRequest;
     return out.first(size);
@@ -59,6 +59,11 @@ std::span<const std::uint8_t> BoxDialogue::ask(BoxTime now) noexcept {
   }
   size += write_poll(std::uint8_t(m_number), out.subspan(size));
   return out.first(size);
+}
+
+BoxTime BoxDialogue::next(BoxTime due) const noexcept {
+  const std::size_t answer = m_settings.raw ? kRawBlockBytes : data_size(m_settings.mask);
+  return std::max(due, m_last_asked + time_on_line(answer, m_settings.baud) + kBetweenBlocks);
 }
 
 /// Books block `number`, and those that are missing before it.

@@ -57,21 +57,29 @@ class BoxDialogue {
   /// What is to be written now: a poll, a CONFIG before it where the box needs one, or nothing where the line is to
   /// fall silent. Valid until the next call.
   std::span<const std::uint8_t> ask(BoxTime now) noexcept;
+  /// When to ask next: at `due`, but not before the line has had time for the last answer. A request that went late
+  /// would else make every later block wait on the line.
+  BoxTime next(BoxTime due) const noexcept;
 
+  /// @param bytes  what the line had at `now`, also when that was nothing. Silence lies between two looks at the line:
+  ///               a host that slept through bytes has not heard silence.
   template <class F>
   void hear(std::span<const std::uint8_t> bytes, BoxTime now, F&& each) {
-    const bool silent = now - m_last_heard > m_silence;
+    const auto take = [&](const DataFrame& frame) {
+      if (const std::optional<BoxPacket> one = packet(frame, now)) each(*one);
+    };
+    if (bytes.empty()) {
+      m_last_looked = now;
+      if (silent()) m_parser.silence(take);
+      return;
+    }
     if (m_settings.raw) {
-      m_trusts = m_trusts || silent;
-      m_raw.feed(bytes, silent, [&](const BoxBlock& block) { raw(block, now, each); });
+      m_trusts = m_trusts || silent();
+      m_raw.feed(bytes, silent(), [&](const BoxBlock& block) { raw(block, now, each); });
     } else {
-      const auto take = [&](const DataFrame& frame) {
-        if (const std::optional<BoxPacket> one = packet(frame, now)) each(*one);
-      };
-      if (silent) m_parser.silence(take);
       m_parser.feed(bytes, take);
     }
-    if (!bytes.empty()) m_last_heard = now;
+    m_last_heard = now;
   }
 
   const BoxDialogueSettings& settings() const noexcept { return m_settings; }
@@ -87,6 +95,7 @@ class BoxDialogue {
     if (believed(block)) each(raw_packet(block, now));
   }
   void number(std::uint64_t number, BoxPacket& packet) noexcept;
+  bool silent() const noexcept { return m_last_looked - m_last_heard > m_silence; }
 
   BoxDialogueSettings m_settings;
   BoxTime m_silence;
@@ -101,7 +110,8 @@ class BoxDialogue {
   bool m_heard_any = false;           ///< since begin()
   bool m_needs_config = true, m_told_any = false;
   BoxTime m_told = 0;  ///< the last CONFIG
-  BoxTime m_last_heard = 0, m_last_block = 0;
+  BoxTime m_last_asked = 0;
+  BoxTime m_last_heard = 0, m_last_looked = 0, m_last_block = 0;
   BoxBlock m_before;             ///< raw: the last block
   bool m_wants_silence = false;  ///< raw: nothing is asked until the line has been silent
   bool m_trusts = true;          ///< raw: the next block begins after a silence

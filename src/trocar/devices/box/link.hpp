@@ -24,6 +24,7 @@ class BoxLink {
   bool try_to_open();  ///< the same without a word
   bool is_open() const { return bool(m_port); }
   void ask();
+  BoxTime next(BoxTime due) const { return m_dialogue.next(due); }  ///< when to ask again (BoxDialogue::next)
   /// Takes what comes until `until` of the steady clock, or until `enough` says so after a packet.
   template <class F>
   void listen(BoxTime until, F&& each, const std::function<bool()>& enough = {}) {
@@ -34,6 +35,8 @@ class BoxLink {
       if (count > 0) m_dialogue.hear(std::span(bytes).first(std::size_t(count)), m_clock(), each);
       if ((enough && enough()) || box_now() >= until) return;
     }
+    const BoxTime now = m_clock();  // before the look: what comes after it is not missed
+    if (m_port && !m_port.wait(0)) m_dialogue.hear({}, now, each);
   }
 
   const std::string& path() const { return m_path; }
