@@ -79,6 +79,8 @@ void ScanDesk::open(const std::filesystem::path& path, const std::filesystem::pa
     volumes::ReadOptions options;
     options.series = wish.series;
     options.frame = wish.frame;
+    options.series_choice = tr("the list \"series\"");
+    options.frame_choice = tr("the list \"time point\"");
     options.progress = [this](double share) {
       m_share = share;
       return !m_stop;

@@ -106,6 +106,22 @@ TEST_F(Check, ATrackersNameThatTheProtocolCutsIsAWarning) {
   EXPECT_NE(r["warnings"][0].get<std::string>().find("\"RightGrasperTipToRef\""), std::string::npos) << r["warnings"];
 }
 
+TEST_F(Check, AScanIsToldWithItsSizeAndPlace) {
+  // Steps of 2, 3 and 4 mm to the left, the back and the head; the second of two time points holds fives.
+  std::ofstream(scenes("scan.nrrd"), std::ios::binary)
+      << "NRRD0004\ntype: uchar\ndimension: 4\nspace: left-posterior-superior\nsizes: 2 2 2 2\n"
+         "space directions: (2,0,0) (0,3,0) (0,0,4) none\nspace origin: (10,20,30)\nkinds: space space space time\n"
+         "encoding: raw\n\n"
+      << "\1\1\1\1\1\1\1\1\5\5\5\5\5\5\5\5";
+  const Json r = checked("scan.nrrd", core::kDone);
+  EXPECT_EQ(r["kind"], "scan");
+  EXPECT_EQ(r["spacing_mm"], Json({2.0, 3.0, 4.0}));
+  EXPECT_EQ(r["box_lps_mm"], Json({{10.0, 20.0, 30.0}, {12.0, 23.0, 34.0}}));
+  EXPECT_NE(r["notes"].dump().find("--frame chooses another"), std::string::npos) << r["notes"];
+  const Outcome later = trocar({"check", scenes("scan.nrrd").string(), "--frame", "1"});
+  EXPECT_NE(later.out.find("values 5 to 5"), std::string::npos) << later.out << later.err;
+}
+
 TEST_F(Check, AnOrganOfPouchesAloneIsAnOrgan) {
   EXPECT_EQ(checked("organs/gallbladder_free.json", core::kDone)["kind"], "organ");
 }

@@ -1,6 +1,6 @@
 // trocar check: what a scene, organ, instrument, tissue table or exercise compiles to, what flows in a file of vessels,
-// what takes an exercise's rules, how an operating room stands and whether a programme can be done, what a mesh
-// or a drawing of another program holds, or every fault that they have.
+// what takes an exercise's rules, how an operating room stands and whether a programme can be done, what a mesh, a
+// drawing or a scan of another program holds, or every fault that they have.
 #include <algorithm>
 #include <optional>
 
@@ -21,6 +21,7 @@
 #include "commands/checks/check_inputs.hpp"
 #include "commands/checks/check_mesh.hpp"
 #include "commands/checks/check_room.hpp"
+#include "commands/checks/check_scan.hpp"
 #include "commands/checks/check_scene.hpp"
 #include "commands/checks/check_vessels.hpp"
 #include "commands/checks/check_warnings.hpp"
@@ -89,10 +90,16 @@ Json describe_mechanism(const fs::path& path) {
   return out;
 }
 
-/// @param unit  of meshes, in metres; none: what the file says or its size suggests
+/// What the user says of files of other programs.
+struct Said {
+  std::optional<double> unit;  ///< of meshes [m]; none: what the file says or its size suggests
+  volumes::ReadOptions scan;   ///< which series and time point
+};
+
 /// @throws core::BadInput with all faults of the file
-Json check_one(const fs::path& path, std::optional<double> unit) {
-  if (is_mesh_file(path)) return describe_mesh(path, unit);
+Json check_one(const fs::path& path, const Said& said) {
+  if (is_mesh_file(path)) return describe_mesh(path, said.unit);
+  if (is_scan_file(path)) return describe_scan(path, said.scan);
   if (scene::is_robot_file(path)) return describe_mechanism(path);
   std::vector<core::Fault> faults;
   const scene::JsonDocument document = scene::load_json(path, faults);
@@ -138,6 +145,7 @@ void print_checks(const Json& r) {
   if (r.contains("leads")) print_inputs(r);
   if (r.contains("wrong")) print_room(r);
   if (r.contains("mesh") || r.contains("surface_parts")) print_mesh(r);
+  if (r["kind"] == "scan") print_scan(r);
   if (r.contains("vessels")) print_vessels(r);
   if (r.contains("tissues")) print_tissues(r["tissues"]);
   print_warnings(r);
@@ -147,13 +155,13 @@ void print_checks(const Json& r) {
   print_scene(r);
 }
 
-int check(const std::vector<std::string>& files, std::optional<double> unit, bool json) {
+int check(const std::vector<std::string>& files, const Said& said, bool json) {
   Json results = Json::array();
   std::vector<core::Fault> faults;
   bool still = true;
   for (const std::string& file : files) {
     try {
-      results.push_back(check_one(file, unit));
+      results.push_back(check_one(file, said));
       const Json& last = results.back();
       still =
           still && last.value("verdict", std::string()) != kSinks && (!last.contains("wrong") || last["wrong"].empty());
@@ -172,20 +180,26 @@ int check(const std::vector<std::string>& files, std::optional<double> unit, boo
 void add_check(CLI::App& program, Chosen& chosen) {
   auto files = std::make_shared<std::vector<std::string>>();
   auto unit_mm = std::make_shared<std::optional<double>>();
+  auto scan = std::make_shared<volumes::ReadOptions>();
   CLI::App* c = add_command(program, chosen, "check", tr("Check files: their content, or all their faults"),
                             "trocar check scenes/organs/uterus.json scenes/gynaecology/sterilisation.json liver.msh");
   c->add_option("files", *files,
                 tr("files of scenes, organs, instruments, tissues, vessels, mechanisms, exercises, shared rules, "
-                   "devices, operating rooms and programmes; meshes (.msh, .vtk, .obj, .stl, .ply, .glb, .gltf) and "
-                   "drawings (.step, .iges) of other programs"))
+                   "devices, operating rooms and programmes; meshes (.msh, .vtk, .obj, .stl, .ply, .glb, .gltf), "
+                   "drawings (.step, .iges) and scans (folders of DICOM files, NIfTI, NRRD, MetaImage) of other "
+                   "programs"))
       ->required();
   c->add_option("--unit-mm", *unit_mm,
                 tr("unit of a mesh's coordinates [mm]; default: what the file says or its size "
                    "suggests"))
       ->check(number_between(1e-6, 1e6, "mm"));
+  c->add_option("--series", scan->series, tr("of several in a scan, 1, 2, ... as they are listed"))
+      ->transform(whole_number(1, 10000));
+  c->add_option("--frame", scan->frame, tr("of several time points or phases of a scan, from 0"))
+      ->transform(whole_number(0, 100000));
   c->callback([=, &chosen] {
     chosen.run = [=, &chosen] {
-      return check(*files, *unit_mm ? std::optional(**unit_mm * 1e-3) : std::nullopt, chosen.json);
+      return check(*files, {*unit_mm ? std::optional(**unit_mm * 1e-3) : std::nullopt, *scan}, chosen.json);
     };
   });
 }

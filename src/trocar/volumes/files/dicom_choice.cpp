@@ -35,7 +35,7 @@ std::vector<std::size_t> parts_beside(const std::vector<DicomStack>& stacks, std
 }
 
 std::size_t default_stack(const std::vector<DicomStack>& stacks, int file, const std::string& name,
-                          const std::vector<SeriesFacts>& series) {
+                          const ReadOptions& options, const std::vector<SeriesFacts>& series) {
   std::vector<std::size_t> candidates;
   if (file < 0) candidates = parts_beside(stacks, 0);
   for (std::size_t s = 0; s < stacks.size() && file >= 0; ++s)
@@ -48,16 +48,16 @@ std::size_t default_stack(const std::vector<DicomStack>& stacks, int file, const
   if (by_number)
     throw SeriesChoice(name,
                        tr("expected acquisitions, echoes or times that distinguish {} images at each position, got "
-                          "Instance Number alone: choose one with \"series\": {}",
-                          candidates.size(), list),
+                          "Instance Number alone: choose one with {}: {}",
+                          candidates.size(), options.series_choice, list),
                        series);
   throw SeriesChoice(name,
                      acquisitions ? tr("expected one image at each position, got {} acquisitions of unlike extent: "
-                                       "choose one with \"series\": {}",
-                                       candidates.size(), list)
+                                       "choose one with {}: {}",
+                                       candidates.size(), options.series_choice, list)
                                   : tr("expected slices of one direction and size, got {}: choose one with "
-                                       "\"series\": {}",
-                                       candidates.size(), list),
+                                       "{}: {}",
+                                       candidates.size(), options.series_choice, list),
                      series);
 }
 
@@ -78,25 +78,27 @@ void require_whole(const DicomFolder& folder, const DicomStack& stack, const std
 
 }  // namespace
 
-std::size_t choose_stack(const DicomFolder& folder, const std::vector<DicomStack>& stacks, int series, int file,
-                         const std::string& name, ReadReport& report) {
+std::size_t choose_stack(const DicomFolder& folder, const std::vector<DicomStack>& stacks, int file,
+                         const std::string& name, const ReadOptions& options, ReadReport& report) {
   for (const DicomStack& stack : stacks) report.series.push_back(facts_of(stack, folder.files));
-  const int count = int(stacks.size());
+  const int count = int(stacks.size()), series = options.series;
   if (series < 0 || series > count)
     refuse(name, tr("expected one of {} series (1 to {}), got {}", count, count, series));
-  const std::size_t chosen = series > 0 ? std::size_t(series - 1) : default_stack(stacks, file, name, report.series);
+  const std::size_t chosen =
+      series > 0 ? std::size_t(series - 1) : default_stack(stacks, file, name, options, report.series);
   report.chosen_series = int(chosen) + 1;
   require_whole(folder, stacks[chosen], name);
   if (count == 1) return chosen;
   std::vector<std::size_t> others;
   for (std::size_t s = 0; s < stacks.size(); ++s)
     if (s != chosen) others.push_back(s);
-  report.notes.push_back(tr("series {} of {} is read; others, to be chosen with \"series\": {}",
-                            described(report.series, chosen), count, described(report.series, others)));
+  report.notes.push_back(tr("series {} of {} is read; others, to be chosen with {}: {}",
+                            described(report.series, chosen), count, options.series_choice,
+                            described(report.series, others)));
   return chosen;
 }
 
-int choose_group(const DicomStack& stack, std::optional<int> frame, int file, const std::string& name,
+int choose_group(const DicomStack& stack, int file, const std::string& name, const ReadOptions& options,
                  ReadReport& report) {
   const int count = int(stack.groups.size());
   report.frames = count;
@@ -105,7 +107,7 @@ int choose_group(const DicomStack& stack, std::optional<int> frame, int file, co
   for (int g = count - 1; g >= 0 && file >= 0; --g)
     for (const int i : stack.groups[std::size_t(g)].images)
       if (stack.images[std::size_t(i)].file == file) own = g;
-  const int wanted = frame.value_or(own);
+  const int wanted = options.frame.value_or(own);
   report.frame = wanted;
   if (wanted < 0 || wanted >= count)
     refuse(name, tr("expected one of {} images at each position (0 to {}), got {}", count, count - 1, wanted));
@@ -115,8 +117,8 @@ int choose_group(const DicomStack& stack, std::optional<int> frame, int file, co
     if (g != wanted) others.push_back(fmt::format("{} ({})", g, stack.groups[std::size_t(g)].name));
   report.notes.push_back(
       tr("{} time points or phases, told apart by {}: number {} is read ({}); others, to be chosen "
-         "with \"frame\": {}",
-         count, stack.told_by, wanted, report.frame_names[std::size_t(wanted)], few_of(others)));
+         "with {}: {}",
+         count, stack.told_by, wanted, report.frame_names[std::size_t(wanted)], options.frame_choice, few_of(others)));
   return wanted;
 }
 

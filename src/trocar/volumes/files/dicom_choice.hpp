@@ -11,15 +11,14 @@
 namespace trocar::volumes {
 
 /// The index of a stack. What there is goes into the report, with a note where there are several.
-/// @param series  1, 2, ...; 0: that of the file, or else the one with most slices
 /// @param file    of the folder's files: it was named; -1: none was
 /// @throws SeriesChoice  where the default is one of several parts of a series or a file
 /// @throws core::BadInput  for a series that there is none of, or that is damaged or no volume
-std::size_t choose_stack(const DicomFolder& folder, const std::vector<DicomStack>& stacks, int series, int file,
-                         const std::string& name, ReadReport& report);
+std::size_t choose_stack(const DicomFolder& folder, const std::vector<DicomStack>& stacks, int file,
+                         const std::string& name, const ReadOptions& options, ReadReport& report);
 
 /// The index of a group. The default is that of the file, else the first.
-int choose_group(const DicomStack& stack, std::optional<int> frame, int file, const std::string& name,
+int choose_group(const DicomStack& stack, int file, const std::string& name, const ReadOptions& options,
                  ReadReport& report);
 
 }  // namespace trocar::volumes

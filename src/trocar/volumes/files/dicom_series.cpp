@@ -164,8 +164,8 @@ Raster read_stacks(const DicomFolder& folder, int file, const std::string& name,
                    ReadReport& report, const PixelsOf& pixels_of) {
   LastPixels pixels(pixels_of);
   const std::vector<DicomStack> stacks = dicom_stacks(folder.files, digest_of(folder.files, pixels), name);
-  const DicomStack& stack = stacks[choose_stack(folder, stacks, options.series, file, name, report)];
-  const int group = choose_group(stack, options.frame, file, name, report);
+  const DicomStack& stack = stacks[choose_stack(folder, stacks, file, name, options, report)];
+  const int group = choose_group(stack, file, name, options, report);
   tell_copies(stack, folder.files, report);
   return VolumeOfImages(folder.files, name, options, report).read(stack, group, pixels);
 }

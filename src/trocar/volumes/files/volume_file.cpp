@@ -33,6 +33,10 @@ Raster read_bytes(const Source& source) {
   if (looks_like_nifti(source.bytes)) return read_nifti(source);
   if (looks_like_nrrd(source.bytes)) return read_nrrd_volume(source);
   if (looks_like_metaimage(source.bytes)) return read_metaimage(source);
+  if (source.file.ends_with(".img"))
+    refuse(source.file,
+           "expected header and voxels in one file, got what seems to be the voxels of a pair (.hdr, .img): "
+           "convert the pair to .nii");
   refuse(source.file, tr("expected DICOM, NIfTI, NRRD or MetaImage, got {}", described(source.bytes)));
 }
 
@@ -103,8 +107,8 @@ int choose_frame(const Source& source, std::int64_t frames, const char* what) {
   if (wanted < 0 || wanted >= frames)
     refuse(source.file, tr("expected one of {} {} (0 to {}), got {}", frames, what, frames - 1, wanted));
   if (frames > 1)
-    source.report.notes.push_back(
-        tr("{} {}: number {} is read; \"frame\" chooses another, from 0 to {}", frames, what, wanted, frames - 1));
+    source.report.notes.push_back(tr("{} {}: number {} is read; {} chooses another, from 0 to {}", frames, what, wanted,
+                                     source.options.frame_choice, frames - 1));
   return wanted;
 }
 

@@ -27,6 +27,8 @@ namespace trocar::volumes {
 struct ReadOptions {
   int series = 0;  ///< of several in a folder, 1, 2, ... as listed; 0: the file's own, or the one with most slices
   std::optional<int> frame = {};  ///< of several time points, phases or layers, from 0; none: the file's own, or 0
+  /// What chooses another one, as notes and faults name it: a key of a script, an option of a command.
+  std::string series_choice = "\"series\"", frame_choice = "\"frame\"";
   std::size_t most_voxels = std::size_t(1) << 28;  ///< 512 x 512 x 1024: half a gigabyte
   Progress progress = {};
 };
