@@ -302,5 +302,16 @@ TEST_F(Check, AnExercisesFaultIsToldWithItsPlaceAndWhatWouldBeRight) {
   }
 }
 
+TEST_F(Check, ASceneOutsideOfTheExercisesTreeIsNeitherOpenedNorQuoted) {
+  const fs::path secret = fs::temp_directory_path() / ("trocar_secret_" + std::to_string(getpid()));
+  std::ofstream(secret) << "hunter2";
+  replace("basics/camera-0.json", "\"scene\": \"[^\"]*\"", "\"scene\": \"" + secret.string() + "\"");
+  const Outcome o = trocar({"check", scenes("basics/camera-0.json").string()});
+  fs::remove(secret);
+  EXPECT_EQ(o.exit, core::kBadInput);
+  EXPECT_NE(o.err.find("in a library of TROCAR_LIBRARY"), std::string::npos) << o.err;
+  EXPECT_EQ(o.err.find("hunter2"), std::string::npos) << o.err;
+}
+
 }  // namespace
 }  // namespace trocar::app

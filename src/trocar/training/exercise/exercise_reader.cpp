@@ -141,8 +141,10 @@ class ExerciseReader {
     const Layer& where = said("scene");
     m_exercise.scene = where.path.parent_path() / where.o.text("scene");
     if (!m_memory && where.o.has("scene")) m_exercise.scene = scene::located(m_exercise.scene);
-    if (!m_memory && where.o.has("scene") && !m_library.holds(m_exercise.scene))
+    if (!m_memory && where.o.has("scene") && !m_library.holds(m_exercise.scene)) {
       where.o.fault("scene", m_library.refusal(where.o.text("scene")));
+      m_exercise.scene.clear();  // it is not opened: faults quote what a file says
+    }
   }
 
   void score() {
