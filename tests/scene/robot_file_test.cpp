@@ -11,6 +11,7 @@
 #include <trocar/scene/json/json.hpp>
 #include <trocar/scene/mechanisms/mechanism_file.hpp>
 #include <trocar/scene/mechanisms/urdf.hpp>
+#include <trocar/scene/mechanisms/xml.hpp>
 
 #include "files.hpp"
 
@@ -108,6 +109,79 @@ TEST(Urdf, NoShippedMechanismFollowsBeyondItsLimits) {
     for (const kinematics::ExcludedRange& range : excluded_ranges(m))
       ADD_FAILURE() << m.name << ": " << words(m, range);
   }
+}
+
+/// Warnings of a joint of that type that carries `inside`.
+std::vector<std::string> warnings_of(const std::string& type, const std::string& inside) {
+  Folder folder;
+  const auto file =
+      folder.write("arm.urdf", arm("<link name=\"tip\"/>\n<joint name=\"j\" type=\"" + type +
+                                   "\"><parent link=\"upper\"/><child link=\"tip\"/>" + inside + "</joint>"));
+  std::vector<core::Fault> faults;
+  read_mechanism(file, faults);
+  EXPECT_TRUE(faults.empty()) << core::to_string(faults[0]);
+  std::vector<std::string> out;
+  for (const core::Fault& w : mechanism_warnings(file)) out.push_back(core::to_string(w));
+  return out;
+}
+
+TEST(Urdf, LengthsThatAreNoMetresAreAWarningWithTheLikelyUnit) {
+  const std::string limit = "<limit lower=\"-1\" upper=\"1\"/>";
+  const auto place = warnings_of("revolute", "<origin xyz=\"0 0 350\"/>" + limit);
+  ASSERT_EQ(place.size(), 1u);
+  EXPECT_NE(place[0].find("350 m, as URDF states metres. The file is probably in millimetres"), place[0].npos);
+  EXPECT_TRUE(holds(warnings_of("prismatic", "<limit lower=\"0\" upper=\"240\"/>"), "240 m, as URDF"));
+  EXPECT_TRUE(holds(warnings_of("fixed", "<origin xyz=\"0 0 -35\"/>"), "centimetres or millimetres"));
+  EXPECT_TRUE(warnings_of("revolute", "<origin xyz=\"0 0 3.5\"/>" + limit).empty());
+}
+
+TEST(Urdf, AnglesInDegreesAreAWarning) {
+  for (const char* limit : {"lower=\"-90\" upper=\"90\"", "lower=\"0\" upper=\"10\""})
+    EXPECT_TRUE(holds(warnings_of("revolute", "<limit " + std::string(limit) + "/>"), "probably in degrees")) << limit;
+  EXPECT_TRUE(holds(warnings_of("fixed", "<origin rpy=\"0 0 90\"/>"), "90 rad"));
+  EXPECT_TRUE(warnings_of("revolute", "<limit lower=\"-6.2832\" upper=\"12.56\"/>").empty()) << "two turns";
+}
+
+TEST(Urdf, AJointWithoutLimitsOrWithoutARangeIsAWarning) {
+  EXPECT_TRUE(holds(warnings_of("revolute", ""), "\"j\" has no <limit>"));
+  EXPECT_TRUE(holds(warnings_of("prismatic", ""), "100 mm either way"));
+  EXPECT_TRUE(warnings_of("continuous", "").empty());
+  EXPECT_TRUE(holds(warnings_of("revolute", "<limit effort=\"1\"/>"), "limits are 0 and 0, as the file has none"));
+  EXPECT_TRUE(holds(warnings_of("prismatic", "<limit lower=\"0.1\" upper=\"0.1\"/>"), "\"j\" cannot move"));
+}
+
+TEST(Urdf, ASecondJointOfOneNameIsAFault) {
+  const auto faults =
+      faults_of(arm("<link name=\"tip\"/>\n<joint name=\"turn\" type=\"fixed\"><parent link=\"upper\"/>"
+                    "<child link=\"tip\"/></joint>"));
+  ASSERT_FALSE(faults.empty());
+  EXPECT_EQ(faults[0], "arm.urdf:5:1: expected every joint once, got \"turn\" again (first in line 3)");
+}
+
+TEST(Urdf, TextInLatin1IsConvertedAndOtherEncodingsAreRefused) {
+  const auto read = [](const std::string& head) {
+    return faults_of("<?xml version=\"1.0\"" + head + "?>\n<robot name=\"Ger\xe4t\"><link name=\"a\"/></robot>");
+  };
+  EXPECT_TRUE(read(" encoding=\"iso-8859-1\"").empty());
+  EXPECT_TRUE(holds(read(" encoding='Shift_JIS'"), "UTF-8, got SHIFT_JIS: save the file as UTF-8"));
+  EXPECT_TRUE(holds(read(""), "got another encoding: save the file as UTF-8"));
+  using namespace std::string_literals;
+  EXPECT_TRUE(holds(faults_of("\xff\xfe<\0r\0o\0b\0o\0t\0"s), "got UTF-16: save the file as UTF-8"));
+  std::vector<core::Fault> none;
+  const std::string latin = "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?><robot name=\"Ger\xe4t\"/>";
+  EXPECT_EQ(parse_xml(latin, "a.urdf", none).attribute("name")->value, "Ger\xc3\xa4t");
+}
+
+TEST(Urdf, MoreLinksThanAreReadAreOneFault) {
+  std::string links;
+  for (int i = 0; i < 300; ++i) links += "<link name=\"l" + std::to_string(i) + "\"/>";
+  const auto faults = faults_of(arm(links));
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NE(faults[0].find("expected at most 200 links, got 302"), faults[0].npos) << faults[0];
+}
+
+TEST(Urdf, ASemanticDescriptionIsNamed) {
+  EXPECT_TRUE(holds(faults_of("<robot name=\"a\"><group name=\"arm\"/></robot>"), "(SRDF): open its URDF instead"));
 }
 
 TEST(ForeignFile, IsNamedWithWhatIsReadInstead) {

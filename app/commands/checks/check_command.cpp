@@ -82,7 +82,7 @@ Json describe_mechanism(const fs::path& path) {
            {"links", m.links.size() - 1},   {"coordinates", m.q_count()},
            {"free", m.u_count()},           {"conditions", m.rows},
            {"mobility", freedoms.mobility}, {"mobility_words", words(freedoms)}};
-  std::vector<core::Fault> warnings;
+  std::vector<core::Fault> warnings = scene::mechanism_warnings(path);
   for (const kinematics::ExcludedRange& range : kinematics::excluded_ranges(m))
     warnings.push_back({{path.generic_string(), 0, 0}, words(m, range)});
   add_warnings(out, warnings);

@@ -42,6 +42,34 @@ std::string_view from_first_element(std::string_view text) {
 
 }  // namespace
 
+const char* wide_encoding(std::string_view bytes) {
+  const auto is_text = [&bytes](std::size_t at) { return bytes[at] >= ' ' && bytes[at] <= '~'; };
+  using namespace std::string_view_literals;
+  if (bytes.substr(0, 4) == "\xff\xfe\0\0"sv || bytes.substr(0, 4) == "\0\0\xfe\xff"sv) return "UTF-32";
+  if (bytes.substr(0, 2) == "\xff\xfe" || bytes.substr(0, 2) == "\xfe\xff") return "UTF-16";
+  if (bytes.size() < 4) return nullptr;
+  const bool little = is_text(0) && bytes[1] == 0 && is_text(2) && bytes[3] == 0;
+  const bool big = bytes[0] == 0 && is_text(1) && bytes[2] == 0 && is_text(3);
+  return little || big ? "UTF-16" : nullptr;
+}
+
+bool is_utf8(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const auto first = static_cast<unsigned char>(text[at]);
+    const std::size_t length = first < 0x80   ? 1
+                               : first < 0xc2 ? 0
+                               : first < 0xe0 ? 2
+                               : first < 0xf0 ? 3
+                               : first < 0xf5 ? 4
+                                              : 0;
+    if (length == 0 || at + length > text.size()) return false;
+    for (std::size_t i = 1; i < length; ++i)
+      if ((static_cast<unsigned char>(text[at + i]) & 0xc0) != 0x80) return false;
+    at += length;
+  }
+  return true;
+}
+
 std::string xml_root(std::string_view text) {
   text = from_first_element(text);
   if (text.size() < 2 || !is_letter(text[1])) return {};

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
+#include <trocar/core/foreign/foreign_text.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/mesh_source.hpp>
 
@@ -23,18 +24,6 @@ bool is_space(char c) { return is_blank(c) || is_line_end(c); }
 bool first_line_ends_in_cr(std::string_view text) {
   const std::size_t end = text.find_first_of("\r\n");
   return end != text.npos && text[end] == '\r' && text.substr(end, 2) != "\r\n";
-}
-
-/// The encoding of text whose characters have more than one byte each; null for others.
-const char* wide_encoding(std::string_view bytes) {
-  const auto is_text = [&bytes](std::size_t at) { return bytes[at] >= ' ' && bytes[at] <= '~'; };
-  using namespace std::string_view_literals;
-  if (bytes.substr(0, 4) == "\xff\xfe\0\0"sv || bytes.substr(0, 4) == "\0\0\xfe\xff"sv) return "UTF-32";
-  if (bytes.substr(0, 2) == "\xff\xfe" || bytes.substr(0, 2) == "\xfe\xff") return "UTF-16";
-  if (bytes.size() < 4) return nullptr;
-  const bool little = is_text(0) && bytes[1] == 0 && is_text(2) && bytes[3] == 0;
-  const bool big = bytes[0] == 0 && is_text(1) && bytes[2] == 0 && is_text(3);
-  return little || big ? "UTF-16" : nullptr;
 }
 
 std::size_t word_end(std::string_view text, std::size_t at) {
@@ -57,7 +46,7 @@ MeshSource::MeshSource(std::string_view bytes, std::string file)
 }
 
 void MeshSource::refuse_wide_text() const {
-  if (const char* encoding = wide_encoding(m_bytes))
+  if (const char* encoding = core::wide_encoding(m_bytes))
     throw core::BadInput({{{m_file, 1, 1}, tr("expected text in UTF-8, got {}: save the file as UTF-8", encoding)}});
 }
 

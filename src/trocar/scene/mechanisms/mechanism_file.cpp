@@ -14,6 +14,7 @@
 #include <trocar/scene/mechanisms/mechanism_keys.hpp>
 #include <trocar/scene/mechanisms/quantity_text.hpp>
 #include <trocar/scene/mechanisms/urdf.hpp>
+#include <trocar/scene/mechanisms/urdf_warnings.hpp>
 
 namespace trocar::scene {
 
@@ -481,6 +482,14 @@ MechanismDescription read_mechanism(const std::filesystem::path& path, const Mem
   MechanismDescription d = read_mechanism(path, faults, memory);
   if (!faults.empty()) throw core::BadInput(std::move(faults));
   return d;
+}
+
+std::vector<core::Fault> mechanism_warnings(const std::filesystem::path& path) {
+  if (!is_robot_file(path)) return {};
+  const std::string file = path.generic_string();
+  std::vector<core::Fault> faults;
+  const XmlElement root = parse_xml(core::read_file(path, kMaxUrdfBytes), file, faults);
+  return faults.empty() ? urdf_warnings(root, file) : std::vector<core::Fault>();
 }
 
 }  // namespace trocar::scene

@@ -24,6 +24,8 @@ kinematics::MechanismDescription read_mechanism(const std::filesystem::path& pat
                                                 const MemoryFiles* memory = nullptr);
 /// The same. @throws core::BadInput with all faults
 kinematics::MechanismDescription read_mechanism(const std::filesystem::path& path, const MemoryFiles* memory = nullptr);
+/// What is suspicious in a robot's file (URDF) that can be read: other units than its own, joints without a range.
+std::vector<core::Fault> mechanism_warnings(const std::filesystem::path& path);
 /// JSON text.
 kinematics::MechanismDescription parse_mechanism(std::string_view text, const std::string& file,
                                                  std::vector<core::Fault>& faults);

@@ -34,9 +34,9 @@ class Reading {
     }
     if (tell_of_xacro(root, m_file, m_faults)) return {};  // what else is wrong may follow from that
     if (const XmlAttribute* a = root.attribute("name")) d.name = a->value;
+    if (is_too_large_or_no_robot(root)) return {};
     for (const XmlElement& e : root.children)
       if (e.name == "link") link(e);
-    if (d.links.empty()) fault(root, "expected at least one <link>, got none");
     for (const XmlElement& e : root.children)
       if (e.name == "joint") joint(e);
     if (m_faults.size() == before) roots();
@@ -52,6 +52,23 @@ class Reading {
   }
   void fault(const XmlAttribute& a, std::string message) {
     tell(m_faults, {{m_file, a.line, a.column}, std::move(message)});
+  }
+
+  /// Whatever is missing of a robot that is not read to its end is no fault of its file.
+  bool is_too_large_or_no_robot(const XmlElement& root) {
+    const auto count = [&root](auto&&... names) {
+      return std::count_if(root.children.begin(), root.children.end(),
+                           [&](const XmlElement& e) { return ((e.name == names) || ...); });
+    };
+    const auto links = count("link");
+    if (links > kMostLinks) {
+      fault(root, tr("expected at most {} links, got {}: leave out those that are fixed to others", kMostLinks, links));
+    } else if (links == 0) {
+      const bool semantic = count("group", "group_state", "disable_collisions", "end_effector", "virtual_joint") > 0;
+      fault(root, semantic ? tr("expected a robot (URDF), got a robot's groups and poses (SRDF): open its URDF instead")
+                           : tr("expected at least one <link>, got none"));
+    }
+    return links == 0 || links > kMostLinks;
   }
 
   const XmlElement& place_of(const MechanismFault& f, const XmlElement& root) const {
@@ -113,7 +130,6 @@ class Reading {
   }
 
   void link(const XmlElement& e) {
-    if (int(d.links.size()) > kMostLinks) return;  // told by check()
     Link l;
     l.name = text(e, "name");
     if (!m_link.emplace(l.name, int(d.links.size())).second)
@@ -187,6 +203,9 @@ class Reading {
 
   void joint(const XmlElement& e) {
     const std::string name = text(e, "name"), type = text(e, "type");
+    const auto [first, is_new] = m_joint.emplace(name, e.line);
+    if (!is_new && !name.empty())
+      return fault(e, tr("expected every joint once, got \"{}\" again (first in line {})", name, first->second));
     const int parent = named_link(e, "parent"), child = named_link(e, "child");
     if (parent < 0 || child < 0) return;
     Link& l = d.links[std::size_t(child)];
@@ -259,7 +278,8 @@ class Reading {
   const std::string& m_file;
   std::vector<core::Fault>& m_faults;
   MechanismDescription d;
-  std::map<std::string, int> m_link;
+  std::map<std::string, int> m_link;   ///< their numbers
+  std::map<std::string, int> m_joint;  ///< their lines
   std::vector<const XmlElement*> m_link_at, m_joint_of, m_mimic_at;
 };
 

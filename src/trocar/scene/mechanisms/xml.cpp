@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/foreign/foreign_text.hpp>
 #include <trocar/core/json/json_grammar.hpp>
+#include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/scene/json/json.hpp>
 #include <trocar/scene/mechanisms/xml.hpp>
@@ -241,6 +243,37 @@ class XmlParser {
   bool m_lost = false;
 };
 
+/// The encoding that the first line declares, in capitals: "ISO-8859-1". Empty: none, which means UTF-8.
+std::string declared_encoding(std::string_view text) {
+  if (!text.starts_with("<?xml")) return {};
+  text = text.substr(0, text.find("?>"));
+  const std::size_t key = text.find("encoding");
+  const std::size_t from = key == text.npos ? key : text.find_first_of("\"'", key);
+  if (from == text.npos) return {};
+  std::string name(text.substr(from + 1, text.find_first_of("\"'", from + 1) - from - 1).substr(0, 40));
+  for (char& c : name)
+    if (c >= 'a' && c <= 'z') c = char(c - 'a' + 'A');
+  return name;
+}
+
+struct XmlText {
+  std::string converted;  ///< empty: the text is UTF-8 as it is
+  std::string refused;    ///< an encoding that is not read
+};
+XmlText in_utf8(std::string_view text) {
+  if (const char* wide = core::wide_encoding(text)) return {{}, wide};
+  const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+  if (std::all_of(text.begin(), text.end(), is_ascii)) return {};  // the same in every encoding that is left
+  const std::string encoding = declared_encoding(text);
+  if (encoding == "ISO-8859-1" || encoding == "LATIN1") {
+    XmlText out;
+    for (const char c : text) core::append_utf8(out.converted, static_cast<unsigned char>(c));
+    return out;
+  }
+  if (!encoding.empty() && encoding != "UTF-8" && encoding != "UTF8") return {{}, core::printable(encoding)};
+  return core::is_utf8(text) ? XmlText{} : XmlText{{}, tr("another encoding")};
+}
+
 }  // namespace
 
 const XmlAttribute* XmlElement::attribute(std::string_view of) const {
@@ -255,7 +288,12 @@ const XmlElement* XmlElement::child(std::string_view of) const {
 }
 
 XmlElement parse_xml(std::string_view text, const std::string& file, std::vector<core::Fault>& faults) {
-  return XmlParser(text, file, faults).document();
+  const XmlText read = in_utf8(text);
+  if (!read.refused.empty()) {
+    tell(faults, {{file, 1, 1}, tr("expected text in UTF-8, got {}: save the file as UTF-8", read.refused)});
+    return {};
+  }
+  return XmlParser(read.converted.empty() ? text : read.converted, file, faults).document();
 }
 
 }  // namespace trocar::scene
