@@ -1,6 +1,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/voxel_files/grid_faults.hpp>
 
@@ -8,6 +10,8 @@ namespace trocar::geometry {
 namespace {
 
 constexpr double kMostPlace = 1e6, kLeastStep = 1e-4, kMostStep = 1e4;  // [mm]
+
+std::string told(double value) { return std::isnan(value) ? tr("nan (not a number)") : fmt::format("{}", value); }
 
 }  // namespace
 
@@ -25,14 +29,24 @@ std::optional<std::string> size_fault(const std::array<std::int64_t, 3>& announc
 std::optional<std::string> place_fault(Vec3d origin, const Mat3d& step) {
   for (int k = 0; k < 3; ++k) {
     if (!(std::fabs(origin[k]) <= kMostPlace))
-      return tr("expected an origin within 1e6 mm, got {} on axis {}", origin[k], k);
+      return tr("expected an origin within 1e6 mm, got {} on axis {}: correct the header", told(origin[k]), k);
     const double size = length(step.column(k));
     if (!(size >= kLeastStep && size <= kMostStep))
-      return tr("expected voxels from 1e-4 to 1e4 mm apart, got {} along axis {}", size, k);
+      return tr(
+          "expected voxels from 1e-4 to 1e4 mm apart, got {} along axis {}: write their distance into the header, "
+          "or export the scan again",
+          told(size), k);
   }
   const double box = length(step.column(0)) * length(step.column(1)) * length(step.column(2));
-  if (!(std::fabs(determinant(step)) > 1e-3 * box)) return "expected three axes that span a voxel, got a flat one";
+  if (!(std::fabs(determinant(step)) > 1e-3 * box))
+    return tr("expected three axes that span a voxel, got a flat one: correct the directions in the header");
   return {};
+}
+
+std::string tracked_sequence() {
+  return tr(
+      "expected a volume, got a sequence of tracked ultrasound frames (PLUS): reconstruct a volume of it first, in "
+      "PLUS or 3D Slicer");
 }
 
 }  // namespace trocar::geometry

@@ -18,4 +18,7 @@ std::optional<std::string> size_fault(const std::array<std::int64_t, 3>& announc
 /// Places up to 1e6 mm, steps from 1e-4 to 1e4 mm that span a voxel.
 std::optional<std::string> place_fault(Vec3d origin, const Mat3d& step);
 
+/// The message about frames of ultrasound that each have a place of their own.
+std::string tracked_sequence();
+
 }  // namespace trocar::geometry

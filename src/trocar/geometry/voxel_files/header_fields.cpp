@@ -140,6 +140,8 @@ HeaderFields read_fields(std::string_view bytes, const std::string& file, char s
     if (!note && out.find(name))
       out.fault(out.last_line, 1, tr("expected the field {} once, got it again", shown(name)));
     out.fields.push_back({name, value, out.last_line, column});
+    // NRRD's list of files takes the place of the empty line: one name a line, up to the end.
+    if (last.empty() && (name == "data file" || name == "datafile") && value.substr(0, 4) == "LIST") return out;
     if (!last.empty() && name == last) return out;
   }
 }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kMostRatio = 1032;  // what deflate can make of a byte at best [RFC 1951]
 constexpr std::size_t kPart = std::size_t(1) << 20;
+constexpr std::size_t kMostBehind = std::size_t(256) << 20;  // unpacked in less than a second
 
 int window_bits(Wrapping wrapping) {
   return wrapping == Wrapping::gzip ? 15 + 16 : wrapping == Wrapping::zlib ? 15 : -15;
@@ -27,11 +28,16 @@ class Inflater {
   Inflater& operator=(const Inflater&) = delete;
 
   std::size_t packed_left() const { return m_left.size() + m_stream.avail_in; }
+  /// The packed bytes ended before their own end, where their check sum is.
+  bool was_cut() const { return m_cut; }
+
+  using Told = std::function<void(std::size_t done)>;
 
   /// Fills as much as there is; fewer bytes at the end only.
-  std::size_t read(char* out, std::size_t count) {
+  std::size_t read(char* out, std::size_t count, const Told& told = {}) {
     std::size_t done = 0;
     while (done < count && !m_ended) {
+      if (told) told(done);
       refill();
       m_stream.next_out = reinterpret_cast<Bytef*>(out + done);
       m_stream.avail_out = static_cast<uInt>(std::min(count - done, kPart));
@@ -41,10 +47,24 @@ class Inflater {
       if (status == Z_STREAM_END) {
         next_member();
       } else if (status == Z_BUF_ERROR || (status == Z_OK && before == m_stream.avail_out && packed_left() == 0)) {
-        m_ended = true;  // cut off in the middle: who wanted more says so
+        m_ended = m_cut = true;
       } else if (status != Z_OK) {
-        refuse(m_file, tr("expected packed data, got damaged ones, {} bytes from the end", packed_left()));
+        refuse(m_file, tr("expected packed data, got damaged ones, {} bytes from the end: copy or download the file "
+                          "again",
+                          packed_left()));
       }
+    }
+    return done;
+  }
+  /// Passes over as much as there is.
+  std::size_t drop(std::size_t count, const Told& told) {
+    std::vector<char> part(std::min(count, kPart));
+    std::size_t done = 0;
+    while (done < count) {
+      if (told) told(done);
+      const std::size_t got = read(part.data(), std::min(part.size(), count - done));
+      if (got == 0) break;
+      done += got;
     }
     return done;
   }
@@ -53,7 +73,7 @@ class Inflater {
   z_stream m_stream{};
   std::string_view m_left;
   std::string m_file;
-  bool m_ended = false;
+  bool m_ended = false, m_cut = false;
 
   void refill() {
     if (m_stream.avail_in > 0 || m_left.empty()) return;
@@ -73,36 +93,48 @@ class Inflater {
 }  // namespace
 
 std::vector<char> inflated(std::string_view packed, Wrapping wrapping, std::size_t from, std::size_t count,
-                           const std::string& file, bool at_most, const std::function<void(double)>& progress,
-                           bool* more) {
-  const auto tell = [&](std::size_t done) {
-    if (progress) progress(double(done) / double(from + count));
-  };
-  const std::size_t most = packed.size() * kMostRatio + 1024;
-  if (!at_most && (count > most || from > most - count))
-    refuse(file, tr("expected {} bytes unpacked, got {} packed, which cannot be so many", from + count, packed.size()));
+                           const std::string& file) {
   Inflater in(packed, wrapping, file);
-  std::vector<char> part(std::min(from, kPart));
-  for (std::size_t dropped = 0; dropped < from;) {
-    tell(dropped);
-    const std::size_t got = in.read(part.data(), std::min(part.size(), from - dropped));
-    if (got == 0) refuse(file, tr("expected {} bytes unpacked, got {}", from + count, dropped));
-    dropped += got;
-  }
-  // Where it is not known how much there is, memory grows with what was found.
-  std::vector<char> out(at_most ? std::min(count, kPart) : count);
+  in.drop(from, {});
+  std::vector<char> out(std::min(count, kPart));
   std::size_t done = 0;
   while (done < count) {
-    tell(from + done);
     if (done == out.size()) out.resize(std::min(count, 2 * out.size()));
-    const std::size_t got = in.read(out.data() + done, std::min(out.size() - done, 16 * kPart));
+    const std::size_t got = in.read(out.data() + done, out.size() - done);
     done += got;
     if (got == 0) break;
   }
-  if (done < count && !at_most) refuse(file, tr("expected {} bytes unpacked, got {}", from + count, from + done));
   out.resize(done);
-  char next = 0;
-  if (more) *more = in.read(&next, 1) == 1;
+  return out;
+}
+
+std::vector<char> inflated_part(std::string_view packed, Wrapping wrapping, PackedPart wanted, const std::string& file,
+                                const std::function<void(double)>& progress, bool& more) {
+  const std::size_t all = wanted.all(), most = packed.size() * kMostRatio + 1024;
+  if (all > most)
+    refuse(file, tr("expected {} bytes unpacked, got {} packed, which cannot be so many", all, packed.size()));
+  std::size_t done = 0;
+  const auto tell = [&](std::size_t now) {
+    if (progress) progress(double(done + now) / double(all));
+  };
+  const auto require = [&](std::size_t got, std::size_t part) {
+    done += got;
+    if (got < part)
+      refuse(file, tr("expected {} bytes unpacked, got {}: the file is cut, copy or download it again", all, done));
+  };
+  Inflater in(packed, wrapping, file);
+  require(in.drop(wanted.from, tell), wanted.from);
+  std::vector<char> out(wanted.count);
+  require(in.read(out.data(), wanted.count, tell), wanted.count);
+  require(in.drop(wanted.behind, tell), wanted.behind);
+  const std::size_t extra = in.drop(kMostBehind, {});
+  if (extra == kMostBehind)
+    refuse(file, tr("expected {} bytes unpacked, got {} more and no end of them: unpack the file first", all, extra));
+  if (in.was_cut())
+    refuse(file, tr("expected packed data up to their check sum, got {} bytes without it: the file is cut, copy or "
+                    "download it again",
+                    packed.size()));
+  more = extra > 0;
   return out;
 }
 

@@ -69,11 +69,9 @@ class NrrdNumbers {
 
   void packed() {
     const std::size_t skip = std::size_t(m_header.byte_skip), all = all_bytes();
-    // Later time points are unpacked only where it costs nothing: what is read last shows where the data end.
-    const bool last = offset() + m_volume.wanted() == all;
+    const PackedPart wanted{skip + offset(), m_volume.wanted(), all - offset() - m_volume.wanted()};
     bool more = false;
-    m_volume.owned = inflated(m_data, Wrapping::gzip, skip + offset(), m_volume.wanted(), m_file, false,
-                              m_options.progress, last ? &more : nullptr);
+    m_volume.owned = inflated_part(m_data, Wrapping::gzip, wanted, m_file, m_options.progress, more);
     if (more) tell_longer(all, tr("more"));
   }
 
@@ -166,6 +164,12 @@ std::optional<std::string> name_beside(std::string_view name) {
   return plain ? std::optional<std::string>(name) : std::nullopt;
 }
 
+std::string remedy_for_name(std::string_view name) {
+  if (name.substr(0, 4) == "LIST" || name.find('%') != std::string_view::npos)
+    return tr(": several files; open it in 3D Slicer and save it as one file first");
+  return tr(": put that file beside the header and write its name alone");
+}
+
 NrrdVolume read_nrrd(std::string_view bytes, const std::string& file, const NrrdOptions& options) {
   require_magic(bytes, file);
   // The first line has no colon: it is passed over as a comment is.
@@ -181,8 +185,8 @@ NrrdVolume read_nrrd(std::string_view bytes, const std::string& file, const Nrrd
     const auto name = name_beside(header.data_file->value);
     if (!options.beside || !name)
       throw core::BadInput({{{file, header.data_file->line, header.data_file->column},
-                             tr("expected the data in this file or in one file of its folder, got {}",
-                                shown(header.data_file->value))}});
+                             tr("expected the data in this file or in one file of its folder, got {}{}",
+                                shown(header.data_file->value), remedy_for_name(header.data_file->value))}});
     other = options.beside(*name);
   } else if (ends_early) {
     refuse(file, "expected an empty line and the data, got the end of the file");

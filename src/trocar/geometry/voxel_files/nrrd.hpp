@@ -76,6 +76,9 @@ Voxels voxels_of(const NrrdVolume& volume, const std::string& file);
 /// The name of a file in the same folder without "./" before it; none: it lies elsewhere, or stands for several.
 std::optional<std::string> name_beside(std::string_view name);
 
+/// What to do about a name for which name_beside() has none, as the end of a message.
+std::string remedy_for_name(std::string_view name);
+
 bool looks_like_nrrd(std::string_view bytes);
 
 }  // namespace trocar::geometry

@@ -46,10 +46,14 @@ constexpr TypeName kNrrdTypes[] = {
     {"uint32_t", NumberType::uint32},
     {"longlong", NumberType::int64},
     {"long long", NumberType::int64},
+    {"long long int", NumberType::int64},
+    {"signed long long", NumberType::int64},
+    {"signed long long int", NumberType::int64},
     {"int64", NumberType::int64},
     {"int64_t", NumberType::int64},
     {"ulonglong", NumberType::uint64},
     {"unsigned long long", NumberType::uint64},
+    {"unsigned long long int", NumberType::uint64},
     {"uint64", NumberType::uint64},
     {"uint64_t", NumberType::uint64},
     {"float", NumberType::real32},
@@ -76,6 +80,8 @@ class HeaderReader {
       : m_fields(fields), m_options(options), m_file(file) {}
 
   NrrdHeader read() {
+    for (const HeaderField& field : m_fields.fields)
+      if (field.name.starts_with("seq_frame")) m_fields.lose(field.line, 1, tracked_sequence());
     type();
     how_packed();
     sizes();
@@ -218,7 +224,9 @@ class HeaderReader {
     else if (name == "ascii" || name == "text" || name == "txt")
       m_out.encoding = NrrdEncoding::text;
     else
-      m_fields.fault(*field, tr("expected encoding raw, gzip or ascii, got {}", shown(field->value)));
+      m_fields.fault(*field, tr("expected encoding raw, gzip or ascii, got {}: open the file in 3D Slicer and save it "
+                                "again, or convert it with 'unu save -f nrrd -e gzip'",
+                                shown(field->value)));
   }
 
   double unit() {

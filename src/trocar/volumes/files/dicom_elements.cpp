@@ -348,8 +348,7 @@ DicomDocument parse_dicom(std::string_view bytes, const std::string& file, bool 
     use_syntax(out, parser, file);
     if (out.syntax == "1.2.840.10008.1.2.1.99") {
       if (beginning_only) throw EndsEarly{};
-      out.inflated =
-          geometry::inflated(bytes.substr(parser.at()), geometry::Wrapping::none, 0, kMostInflated, file, true);
+      out.inflated = geometry::inflated(bytes.substr(parser.at()), geometry::Wrapping::none, 0, kMostInflated, file);
       Parser inside({out.inflated.data(), out.inflated.size()}, false);
       read_root(inside, out.inflated.size(), out);
     } else {

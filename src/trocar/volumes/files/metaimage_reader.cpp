@@ -21,6 +21,7 @@ struct MetaType {
 constexpr MetaType kMetaTypes[] = {
     {"met_char", Element::int8},       {"met_uchar", Element::uint8},       {"met_short", Element::int16},
     {"met_ushort", Element::uint16},   {"met_int", Element::int32},         {"met_uint", Element::uint32},
+    {"met_long", Element::int32},      {"met_ulong", Element::uint32},  // of 4 bytes on every machine [MetaIO]
     {"met_long_long", Element::int64}, {"met_ulong_long", Element::uint64}, {"met_float", Element::real32},
     {"met_double", Element::real64},
 };
@@ -35,6 +36,7 @@ class MetaHeader {
   const HeaderField* data = nullptr;
 
   void read() {
+    refuse_sequences();
     data = m_fields.need("elementdatafile");
     sizes();
     element();
@@ -52,6 +54,13 @@ class MetaHeader {
  private:
   const Source& m_source;
   HeaderFields& m_fields;
+
+  /// Tracked frames of ultrasound, each with a place of its own.
+  void refuse_sequences() {
+    for (const HeaderField& field : m_fields.fields)
+      if (field.name.starts_with("seq_frame") || field.name == "ultrasoundimageorientation")
+        m_fields.lose(field.line, 1, geometry::tracked_sequence());
+  }
 
   bool flag(const char* name) {
     const HeaderField* field = m_fields.find(name);
@@ -164,15 +173,15 @@ Raster read_metaimage(const Source& source) {
     const auto name = geometry::name_beside(header.data->value);
     if (!source.beside || !name)
       throw core::BadInput({{{source.file, header.data->line, header.data->column},
-                             tr("expected LOCAL or one file of the same folder, got {}", shown(header.data->value))}});
+                             tr("expected LOCAL or one file of the same folder, got {}{}", shown(header.data->value),
+                                geometry::remedy_for_name(header.data->value))}});
     other = source.beside(*name);
     data = other;
   }
   if (header.packed) {
     bool more = false;
-    raster.owned =
-        geometry::inflated(data, geometry::Wrapping::zlib, offset, wanted, source.file, false,
-                           told_by(part(source.options.progress, 0, 0.5)), offset + wanted == all ? &more : nullptr);
+    raster.owned = geometry::inflated_part(data, geometry::Wrapping::zlib, {offset, wanted, all - offset - wanted},
+                                           source.file, told_by(part(source.options.progress, 0, 0.5)), more);
     if (more) tell_longer(source, all);
     return raster;
   }

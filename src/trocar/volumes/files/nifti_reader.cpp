@@ -1,5 +1,6 @@
 // NIfTI-1 and NIfTI-2, single files, packed or not. Source: the headers' definition, nifti1.h and nifti2.h of the
 // NIfTI data format working group.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -11,7 +12,7 @@
 
 namespace trocar::volumes {
 
-using geometry::inflated, geometry::Wrapping;
+using geometry::inflated, geometry::inflated_part, geometry::Wrapping;
 
 namespace {
 
@@ -35,13 +36,15 @@ struct Numbers {
 };
 
 enum class Version : unsigned char { none, one, two };
+std::size_t header_size(Version version) { return version == Version::one ? kHeader1 : kHeader2; }
+/// By the first number, which is the header's size: the header itself may be cut.
 Version version_of(std::string_view header, bool& big) {
   for (const bool swapped : {false, true}) {
     if (header.size() < 4) return Version::none;
     const auto size = Numbers{header.data(), swapped}.at<std::int32_t>(0);
     big = swapped;
-    if (size == int(kHeader1) && header.size() >= kHeader1) return Version::one;
-    if (size == int(kHeader2) && header.size() >= kHeader2) return Version::two;
+    if (size == int(kHeader1)) return Version::one;
+    if (size == int(kHeader2)) return Version::two;
   }
   return Version::none;
 }
@@ -151,7 +154,10 @@ Vec3d lps(Vec3d ras) { return {-ras.x, -ras.y, ras.z}; }
 void place_grid(const Header& h, const Source& source, Vec3d& origin, Mat3d& step) {
   const double mm = millimetres(h, source.report);
   Vec3d columns[3];
-  if (h.sform > 0) {
+  const bool no_matrix = std::all_of(h.srow.begin(), h.srow.end(), [](double v) { return v == 0; });
+  if (h.sform > 0 && no_matrix && h.qform > 0)
+    source.report.notes.emplace_back(tr("the sform of the file is all zeros: its qform is taken"));
+  if (h.sform > 0 && !(no_matrix && h.qform > 0)) {
     for (std::size_t j = 0; j < 3; ++j) columns[j] = {h.srow[j], h.srow[4 + j], h.srow[8 + j]};
     origin = {h.srow[3], h.srow[7], h.srow[11]};
   } else if (h.qform > 0) {
@@ -176,7 +182,7 @@ bool looks_like_nifti(std::string_view bytes) {
   if (!is_gzip(bytes)) return version_of(bytes, big) != Version::none;
   std::vector<char> start;
   try {
-    start = inflated(bytes, Wrapping::gzip, 0, kHeader2, "", true);
+    start = inflated(bytes, Wrapping::gzip, 0, kHeader2, "");
   } catch (const std::exception&) {
     return true;  // packed and damaged: NIfTI is what is packed as a whole, and its reader says what is wrong
   }
@@ -186,13 +192,16 @@ bool looks_like_nifti(std::string_view bytes) {
 Raster read_nifti(const Source& source) {
   const bool packed = is_gzip(source.bytes);
   const std::vector<char> start =
-      packed ? inflated(source.bytes, Wrapping::gzip, 0, kHeader2, source.file, true)
+      packed ? inflated(source.bytes, Wrapping::gzip, 0, kHeader2, source.file)
              : std::vector<char>(source.bytes.begin(),
                                  source.bytes.begin() + std::ptrdiff_t(std::min(source.bytes.size(), kHeader2)));
   Raster raster;
   const Version version = version_of({start.data(), start.size()}, raster.big_endian);
   if (version == Version::none)
     refuse(source.file, "expected the header of NIfTI (348 or 540 bytes), got another size");
+  if (start.size() < header_size(version))
+    refuse(source.file, tr("expected the header of NIfTI, {} bytes, got {}: the file is cut, copy or download it again",
+                           header_size(version), start.size()));
   const Numbers numbers{start.data(), raster.big_endian};
   const Header h = version == Version::one ? header1(numbers) : header2(numbers);
   source.report.format = version == Version::one ? "NIfTI-1" : "NIfTI-2";
@@ -201,7 +210,8 @@ Raster read_nifti(const Source& source) {
     refuse(source.file, "expected header and voxels in one file (.nii), got a header alone: convert the pair to .nii");
   if (magic != (version == Version::one ? "n+1" : "n+2"))
     refuse(source.file,
-           "expected the mark of NIfTI (n+1 or n+2), got none: an Analyze file does not say where left is");
+           "expected the mark of NIfTI (n+1 or n+2), got none: an Analyze file does not say where left is; convert the "
+           "original scan to NIfTI, for instance with dcm2niix");
 
   const std::int64_t dims = h.dim[0];
   if (dims < 2 || dims > 7) refuse(source.file, tr("expected 2 to 7 dimensions, got {}", dims));
@@ -233,8 +243,8 @@ Raster read_nifti(const Source& source) {
                     all = wanted * std::size_t(frames), from = first + std::size_t(frame) * wanted;
   bool more = false;
   if (packed) {
-    raster.owned = inflated(source.bytes, Wrapping::gzip, from, wanted, source.file, false,
-                            told_by(part(source.options.progress, 0, 0.5)), frame + 1 == frames ? &more : nullptr);
+    raster.owned = inflated_part(source.bytes, Wrapping::gzip, {from, wanted, first + all - from - wanted}, source.file,
+                                 told_by(part(source.options.progress, 0, 0.5)), more);
   } else if (first > source.bytes.size() || all > source.bytes.size() - first) {
     refuse(source.file,
            tr("expected {} bytes of voxels from byte {} on, got a file of {} bytes", all, first, source.bytes.size()));

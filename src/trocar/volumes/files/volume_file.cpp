@@ -7,7 +7,9 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
 #include <trocar/core/foreign/foreign_file.hpp>
+#include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/geometry/voxel_files/inflate.hpp>
 #include <trocar/volumes/files/dicom.hpp>
 #include <trocar/volumes/files/dicom_elements.hpp>
 
@@ -19,12 +21,34 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostBytes = std::uint64_t(4) << 30;
 constexpr double kStraight = 0.05;  // [degrees]; a hundred slices of 1 mm are a tenth of a millimetre aside then
 
+/// FreeSurfer's own format: version 1, four sizes and a type, the highest byte first.
+bool looks_like_mgh(std::string_view bytes) {
+  if (bytes.size() < 28 || bytes.substr(0, 4) != std::string_view("\0\0\0\1", 4)) return false;
+  for (std::size_t at = 4; at < 24; at += 4)  // sizes below 65536
+    if (bytes[at] != 0 || bytes[at + 1] != 0) return false;
+  return bytes[20] == 0 && bytes[22] == 0 && bytes[23] >= 0 && bytes[23] <= 10;
+}
+bool holds_mgh(std::string_view bytes) {
+  if (bytes.substr(0, 2) != "\x1f\x8b") return looks_like_mgh(bytes);
+  try {
+    const std::vector<char> start = geometry::inflated(bytes, geometry::Wrapping::gzip, 0, 28, "");
+    return looks_like_mgh({start.data(), start.size()});
+  } catch (const core::BadInput&) {
+    return false;
+  }
+}
+
 std::string described(std::string_view bytes) {
   const std::string_view start = bytes.substr(0, 16);
+  if (holds_mgh(bytes)) return tr("a volume of FreeSurfer (.mgh, .mgz): convert it to .nii.gz with mri_convert");
   if (std::string foreign = core::foreign_file(bytes, core::Wanted::volume); !foreign.empty()) return foreign;
   const bool text = std::all_of(start.begin(), start.end(),
                                 [](char c) { return (c >= ' ' && c < 127) || c == '\n' || c == '\r' || c == '\t'; });
   return text ? tr("a text that begins with {}", shown(start)) : shown(start);
+}
+
+bool is_known(std::string_view bytes) {
+  return looks_like_dicom(bytes) || looks_like_nifti(bytes) || looks_like_nrrd(bytes) || looks_like_metaimage(bytes);
 }
 
 Raster read_bytes(const Source& source) {
@@ -46,6 +70,23 @@ struct Opened {
   Raster raster;
 };
 
+/// The header beside a file of voxels that names it; empty: there is none.
+std::string header_beside(const fs::path& voxels) {
+  constexpr std::size_t kMostHeader = 65536;
+  const std::string name = voxels.filename().string();
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(voxels.has_parent_path() ? voxels.parent_path() : ".", error)) {
+    const std::string extension = lowered(entry.path().extension().string());
+    if (extension != ".nhdr" && extension != ".mhd") continue;
+    std::string text(kMostHeader, '\0');
+    std::ifstream in(entry.path(), std::ios::binary);
+    in.read(text.data(), std::streamsize(text.size()));
+    text.resize(std::size_t(in.gcount()));
+    if (text.find(name) != std::string::npos) return entry.path().filename().string();
+  }
+  return "";
+}
+
 Opened open(const fs::path& path, const ReadOptions& options, ReadReport& report) {
   Opened out;
   std::error_code error;
@@ -66,7 +107,12 @@ Opened open(const fs::path& path, const ReadOptions& options, ReadReport& report
   const FileBeside beside = [&](const std::string& name) {
     return core::read_file(path.parent_path() / fs::path(name), kMostBytes);
   };
-  out.raster = read_bytes({out.bytes, path.generic_string(), options, report, beside});
+  const Source source{out.bytes, path.generic_string(), options, report, beside};
+  if (!is_known(source.bytes))
+    if (const std::string header = header_beside(path); !header.empty())
+      refuse(source.file, tr("expected a volume, got the voxels of {}: open {} instead", core::printable(header),
+                             core::printable(header)));
+  out.raster = read_bytes(source);
   return out;
 }
 
