@@ -13,6 +13,7 @@ namespace trocar::volumes {
 namespace {
 
 constexpr int kMostFrames = 65536;
+constexpr const char* kConvert = "export the series again, or convert it to NIfTI, for instance with dcm2niix";
 
 /// Numbers apart by backslashes; none where the attribute is not there or empty.
 std::vector<double> decimals_of(const DicomItem& data, std::uint32_t tag, std::size_t count, const std::string& path,
@@ -37,7 +38,7 @@ std::vector<double> decimals_of(const DicomItem& data, std::uint32_t tag, std::s
 
 constexpr std::uint32_t kSharedGroups = 0x52009229, kFrameGroups = 0x52009230, kDetector = 0x00540022,
                         kPlanePosition = 0x00209113, kPlaneOrientation = 0x00209116, kPixelMeasures = 0x00289110,
-                        kValueTransformation = 0x00289145;
+                        kValueTransformation = 0x00289145, kFloatPixels = 0x7fe00008, kDoublePixels = 0x7fe00009;
 
 /// Reads what stands in the data set itself, in what all frames share, or in what is each frame's own.
 class HeaderOfImage {
@@ -52,6 +53,9 @@ class HeaderOfImage {
   void read() {
     m_out.uid = text_of(m_data, 0x0020000e);
     m_out.instance = text_of(m_data, 0x00080018);
+    m_out.patient = text_of(m_data, 0x00100020);
+    m_out.study = text_of(m_data, 0x0020000d);
+    m_out.frame_of_reference = text_of(m_data, 0x00200052);
     m_out.description = text_of(m_data, 0x0008103e);
     m_out.modality = text_of(m_data, 0x00080060);
     m_out.photometric = text_of(m_data, 0x00280004);
@@ -68,6 +72,7 @@ class HeaderOfImage {
     const auto tilt = decimals(m_data, 0x00181120, 1, "Gantry/Detector Tilt");
     if (!tilt.empty()) m_out.tilt_deg = tilt[0];
     pixels();
+    if (m_out.fault.empty()) padding();
     if (m_out.fault.empty()) frames();
     if (!m_out.fault.empty()) m_out.frames.clear();
   }
@@ -78,7 +83,8 @@ class HeaderOfImage {
   bool m_big;
   DicomHeader& m_out;
   const DicomItem* m_shared;
-  Marks m_marks;  // of the first frame
+  Marks m_marks;      // of the first frame
+  Rescale m_padding;  // without slope and intercept
   int m_count = 1;
 
   int unsigned_short(std::uint32_t tag) const {
@@ -103,9 +109,16 @@ class HeaderOfImage {
     if (m_out.rows == 0 || m_out.columns == 0)
       m_out.fault = "expected an image, got a file without rows and columns";
     else if (samples > 1 || (m_out.photometric != "MONOCHROME2" && m_out.photometric != "MONOCHROME1"))
-      m_out.fault = tr("expected one grey value a pixel, got {} ({} values)", shown(m_out.photometric), samples);
+      m_out.fault =
+          tr("expected one grey value a pixel, got {} ({} values): open the series of grey values that these "
+             "pictures were made of",
+             shown(m_out.photometric), samples);
     else if (m_data.find(0x00283000))
-      m_out.fault = "expected slope and intercept, got values by a table (Modality LUT)";
+      m_out.fault = tr("expected slope and intercept, got values by a table (Modality LUT): {}", tr(kConvert));
+    else if (m_data.find(kFloatPixels) || m_data.find(kDoublePixels))
+      m_out.fault =
+          tr("expected Pixel Data of whole numbers, got Float Pixel Data: open the series in 3D Slicer and "
+             "save it as NRRD");
     m_out.allocated = unsigned_short(0x00280100);
     m_out.stored = unsigned_short(0x00280101);
     m_out.is_signed = unsigned_short(0x00280103) == 1;
@@ -113,8 +126,28 @@ class HeaderOfImage {
     const bool known = m_out.allocated == 8 || m_out.allocated == 16 || m_out.allocated == 32;
     if (m_out.fault.empty() &&
         (!known || m_out.stored < 1 || m_out.stored > m_out.allocated || high != m_out.stored - 1))
-      m_out.fault = tr("expected 8, 16 or 32 bits a pixel with those that count lowest, got {} of {} bits up to bit {}",
-                       m_out.stored, m_out.allocated, high);
+      m_out.fault =
+          tr("expected 8, 16 or 32 bits a pixel with those that count lowest, got {} of {} bits up to bit {}: {}",
+             m_out.stored, m_out.allocated, high, tr(kConvert));
+  }
+
+  /// Numbers that fill up the picture around the patient. [PS3.3, C.7.5.1.1.2]
+  void padding() {
+    constexpr std::uint32_t kValue = 0x00280120, kLimit = 0x00280121;
+    const DicomElement* element = m_data.find(kValue);
+    if (!element || element->value.size() < 2) return;
+    const auto number = [&](std::uint32_t tag) {
+      const int bits = unsigned_short(tag);
+      return m_out.is_signed && bits > 32767 ? bits - 65536 : bits;
+    };
+    const int value = number(kValue);
+    const DicomElement* limit = m_data.find(kLimit);
+    const int other = limit && limit->value.size() >= 2 ? number(kLimit) : value;
+    const double most = std::ldexp(1.0, m_out.stored - (m_out.is_signed ? 1 : 0)) - 1;
+    if (std::max(value, other) > most || std::min(value, other) < (m_out.is_signed ? -most - 1 : 0))
+      return m_out.corrected.push_back(
+          tr("Pixel Padding Value {} does not fit into the {} bits stored: it was ignored", value, m_out.stored));
+    m_padding.padding_from = std::min(value, other), m_padding.padding_to = std::max(value, other);
   }
 
   int frame_count() {
@@ -135,7 +168,7 @@ class HeaderOfImage {
       DicomFrame frame;
       if (!place(own, frame)) return;
       own_places += item_of(own, kPlanePosition) != nullptr;
-      frame.rescale = rescale(own);
+      rescale(own, frame);
       frame.marks = own && f > 0 ? marks_of(m_data, own, m_shared, m_big) : m_marks;
       if (core::is_decimal(instance))
         frame.marks[Mark::instance] = fmt::format("{:.0f}", core::to_double(instance) + f);
@@ -151,12 +184,18 @@ class HeaderOfImage {
     const auto apart = decimals(own, kPixelMeasures, 0x00280030, 2, "Pixel Spacing");
     const auto thickness = decimals(own, kPixelMeasures, 0x00180050, 1, "Slice Thickness");
     if (at.empty())
-      m_out.fault = m_count > 1 ? "expected a place for each frame (Plane Position Sequence), got none"
-                                : "expected Image Position (Patient), got none";
+      m_out.fault = m_count > 1
+                        ? tr("expected a place for each frame (Plane Position Sequence), got none: {}", tr(kConvert))
+                        : tr("expected Image Position (Patient), got none, which Slice Location cannot replace: export "
+                             "the series again with it");
     else if (axes.empty())
-      m_out.fault = "expected Image Orientation (Patient), got none";
-    else if (apart.empty() || !(apart[0] > 0 && apart[1] > 0))
-      m_out.fault = "expected Pixel Spacing, got none";
+      m_out.fault = tr(
+          "expected Image Orientation (Patient), got none: export the series again with it, or open the original one");
+    else if (apart.empty())
+      m_out.fault = tr("expected Pixel Spacing, got none: export the series again with it, or open the original one");
+    else if (!(apart[0] > 0 && apart[1] > 0))
+      m_out.fault = tr("expected Pixel Spacing above 0, got {} x {}: export the series again, or open the original one",
+                       apart[0], apart[1]);
     if (!m_out.fault.empty()) return false;
     frame.position = {at[0], at[1], at[2]};
     frame.between_rows = apart[0], frame.between_columns = apart[1];
@@ -171,13 +210,17 @@ class HeaderOfImage {
     return true;
   }
 
-  Rescale rescale(const DicomItem* own) {
+  void rescale(const DicomItem* own, DicomFrame& frame) {
     const auto intercept = decimals(own, kValueTransformation, 0x00281052, 1, "Rescale Intercept");
     const auto slope = decimals(own, kValueTransformation, 0x00281053, 1, "Rescale Slope");
-    Rescale r;
-    if (!intercept.empty()) r.intercept = intercept[0];
-    if (!slope.empty() && slope[0] != 0) r.slope = slope[0];
-    return r;
+    frame.rescale = m_padding;
+    if (!intercept.empty()) frame.rescale.intercept = intercept[0];
+    if (!slope.empty() && slope[0] != 0) frame.rescale.slope = slope[0];
+    if (!slope.empty() && slope[0] == 0 && m_out.frames.empty())
+      m_out.corrected.emplace_back(tr("Rescale Slope is 0, which no value has: taken as 1"));
+    frame.rescaled = !intercept.empty() && !slope.empty() && slope[0] != 0;
+    for (const DicomItem* item : {item_of(own, kValueTransformation), item_of(m_shared, kValueTransformation), &m_data})
+      if (item && frame.rescale_type.empty()) frame.rescale_type = text_of(*item, 0x00281054);
   }
 
   /// Are the frames slices? They may be a film, too. [PS3.3, C.7.6.6: Frame Increment Pointer]
@@ -205,14 +248,15 @@ class HeaderOfImage {
              m_out.frames.size());
       return;
     }
-    // Only nuclear medicine gives this distance a sign. [PS3.3, C.8.4.15]
-    const double step = m_out.modality == "NM" ? apart[0] : std::fabs(apart[0]);
+    // Its sign says on which side the slices follow each other. The standard defines that for nuclear medicine; the
+    // other kinds of image have no meaning of their own for it. [PS3.3, C.8.4.15]
+    const double step = apart[0];
     const Vec3d normal = cross(m_out.frames[0].row, m_out.frames[0].column);
     for (std::size_t f = 0; f < m_out.frames.size(); ++f) m_out.frames[f].position += double(f) * step * normal;
-    m_out.corrected.push_back(
-        tr("only the first of {} frames has a place: the others were taken as slices {:.4g} mm "
-           "apart along the normal (Spacing Between Slices)",
-           m_out.frames.size(), step));
+    m_out.corrected.push_back(tr(
+        "only the first of {} frames has a place: the others were taken as slices {:.4g} mm apart {} (Spacing Between "
+        "Slices is {:.4g})",
+        m_out.frames.size(), std::fabs(step), step > 0 ? tr("along the normal") : tr("against the normal"), step));
   }
 };
 
@@ -239,10 +283,14 @@ DicomHeader dicom_header(const DicomDocument& file, const std::string& path) {
   return out;
 }
 
+bool same_origin(const DicomHeader& a, const DicomHeader& b) {
+  return a.patient == b.patient && a.study == b.study && a.frame_of_reference == b.frame_of_reference;
+}
+
 bool same_stack(const DicomHeader& a, const DicomFrame& in_a, const DicomHeader& b, const DicomFrame& in_b) {
   if (a.uid.empty() && (a.description != b.description || a.modality != b.modality)) return false;  // taken out
-  return a.uid == b.uid && a.sop_class == b.sop_class && a.rows == b.rows && a.columns == b.columns &&
-         length(in_a.row - in_b.row) < 1e-3 && length(in_a.column - in_b.column) < 1e-3 &&
+  return a.uid == b.uid && same_origin(a, b) && a.sop_class == b.sop_class && a.rows == b.rows &&
+         a.columns == b.columns && length(in_a.row - in_b.row) < 1e-3 && length(in_a.column - in_b.column) < 1e-3 &&
          std::fabs(in_a.between_rows - in_b.between_rows) < 1e-4 &&
          std::fabs(in_a.between_columns - in_b.between_columns) < 1e-4;
 }

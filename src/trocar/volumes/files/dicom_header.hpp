@@ -17,12 +17,15 @@ struct DicomFrame {
   double between_columns = 0, between_rows = 0;  ///< of pixels [mm]
   double thickness = 0;                          ///< [mm]; 0: not said
   Rescale rescale;
+  bool rescaled = false;     ///< Rescale Slope and Rescale Intercept are both there
+  std::string rescale_type;  ///< what values are after it, as the file says: "HU"
   Marks marks;
 };
 
 struct DicomHeader {
   std::string path;
-  std::string uid, instance;  ///< of the series and of this object; empty: taken out
+  std::string uid, instance;                       ///< of the series and of this object; empty: taken out
+  std::string patient, study, frame_of_reference;  ///< their identifiers
   std::string sop_class, description, modality, photometric;
   int columns = 0, rows = 0;
   int allocated = 0, stored = 0;  ///< bits
@@ -40,5 +43,7 @@ struct DicomHeader {
 DicomHeader dicom_header(const DicomDocument& file, const std::string& path);
 /// Do both frames belong to the same stack of slices?
 bool same_stack(const DicomHeader& a, const DicomFrame& in_a, const DicomHeader& b, const DicomFrame& in_b);
+/// Are they of the same patient, study and frame of reference?
+bool same_origin(const DicomHeader& a, const DicomHeader& b);
 
 }  // namespace trocar::volumes

@@ -21,6 +21,10 @@ using geometry::lowered, geometry::name_of, geometry::place_fault, geometry::ref
 /// value = intercept + slope * number
 struct Rescale {
   double slope = 1, intercept = 0;
+  double padding_from = 1, padding_to = 0;  ///< numbers that are no voxels of the patient; none where from > to
+
+  bool has_padding() const { return padding_from <= padding_to; }
+  bool operator==(const Rescale&) const = default;
 };
 
 struct Raster {
