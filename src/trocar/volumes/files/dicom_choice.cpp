@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 
 #include <trocar/core/text.hpp>
+#include <trocar/numerics/portable.hpp>
 #include <trocar/volumes/files/dicom_choice.hpp>
 
 namespace trocar::volumes {
@@ -34,30 +36,55 @@ std::vector<std::size_t> parts_beside(const std::vector<DicomStack>& stacks, std
   return out;
 }
 
+/// Parts of one series without being parted from each other: of other patients, or about as large, such as three planes
+/// of a localizer.
+void add_equals(const std::vector<DicomStack>& stacks, const std::vector<SeriesFacts>& series,
+                std::vector<std::size_t>& candidates) {
+  for (std::size_t s = 1; s < stacks.size(); ++s) {
+    const bool same_series = !series[0].uid.empty() && series[s].uid == series[0].uid;
+    const bool equal = 2 * stacks[s].slices() >= stacks[0].slices() || stacks[s].origin != stacks[0].origin;
+    if (same_series && equal && std::find(candidates.begin(), candidates.end(), s) == candidates.end())
+      candidates.push_back(s);
+  }
+}
+
+std::string choice_among(const std::vector<DicomStack>& stacks, const std::vector<std::size_t>& candidates,
+                         const std::string& key, const std::string& list) {
+  const std::size_t count = candidates.size();
+  const auto any = [&](auto&& holds) {
+    return std::any_of(candidates.begin(), candidates.end(), [&](std::size_t s) { return holds(stacks[s]); });
+  };
+  const DicomStack& first = stacks[candidates[0]];
+  if (any([&](const DicomStack& s) { return s.origin != first.origin; }))
+    return tr(
+        "expected slices of one patient, study and frame of reference in a series, got {} volumes: choose one with "
+        "{}: {}",
+        count, key, list);
+  if (any([](const DicomStack& s) { return s.between; }))
+    return tr("expected slices of one acquisition, got {} whose slices lie between each other: choose one with {}: {}",
+              count, key, list);
+  if (!any([](const DicomStack& s) { return !s.part.empty(); }))
+    return tr("expected slices of one direction and size, got {}: choose one with {}: {}", count, key, list);
+  if (first.told_by == name_of(Mark::instance))
+    return tr(
+        "expected acquisitions, echoes or times that distinguish {} images at each position, got Instance Number "
+        "alone: choose one with {}: {}",
+        count, key, list);
+  return tr("expected one image at each position, got {} acquisitions of unlike extent: choose one with {}: {}", count,
+            key, list);
+}
+
 std::size_t default_stack(const std::vector<DicomStack>& stacks, int file, const std::string& name,
                           const ReadOptions& options, const std::vector<SeriesFacts>& series) {
   std::vector<std::size_t> candidates;
-  if (file < 0) candidates = parts_beside(stacks, 0);
+  if (file < 0) {
+    candidates = parts_beside(stacks, 0);
+    add_equals(stacks, series, candidates);
+  }
   for (std::size_t s = 0; s < stacks.size() && file >= 0; ++s)
     if (holds(stacks[s], file)) candidates.push_back(s);
   if (candidates.size() == 1) return candidates[0];
-  const bool acquisitions =
-      std::any_of(candidates.begin(), candidates.end(), [&](std::size_t s) { return !stacks[s].part.empty(); });
-  const bool by_number = acquisitions && stacks[candidates[0]].told_by == name_of(Mark::instance);
-  const std::string list = described(series, candidates);
-  if (by_number)
-    throw SeriesChoice(name,
-                       tr("expected acquisitions, echoes or times that distinguish {} images at each position, got "
-                          "Instance Number alone: choose one with {}: {}",
-                          candidates.size(), options.series_choice, list),
-                       series);
-  throw SeriesChoice(name,
-                     acquisitions ? tr("expected one image at each position, got {} acquisitions of unlike extent: "
-                                       "choose one with {}: {}",
-                                       candidates.size(), options.series_choice, list)
-                                  : tr("expected slices of one direction and size, got {}: choose one with "
-                                       "{}: {}",
-                                       candidates.size(), options.series_choice, list),
+  throw SeriesChoice(name, choice_among(stacks, candidates, options.series_choice, described(series, candidates)),
                      series);
 }
 
@@ -76,7 +103,58 @@ void require_whole(const DicomFolder& folder, const DicomStack& stack, const std
   }
 }
 
+/// How a slice differs from those of a stack; empty: not.
+std::string difference(const DicomHeader& header, const DicomFrame& frame, const DicomHeader& other,
+                       const DicomFrame& in_other) {
+  if (header.rows != other.rows || header.columns != other.columns)
+    return tr("expected {} x {} pixels as in the other slices, got {} x {}", other.columns, other.rows, header.columns,
+              header.rows);
+  if (std::fabs(frame.between_rows - in_other.between_rows) >= 1e-4 ||
+      std::fabs(frame.between_columns - in_other.between_columns) >= 1e-4)
+    return tr("expected the Pixel Spacing {} x {} mm as in the other slices, got {} x {}", in_other.between_rows,
+              in_other.between_columns, frame.between_rows, frame.between_columns);
+  const Vec3d normal = cross(frame.row, frame.column), other_normal = cross(in_other.row, in_other.column);
+  const double turned = std::max(
+      {length(frame.row - in_other.row), length(frame.column - in_other.column), length(normal - other_normal)});
+  if (turned >= 1e-3)
+    return tr("expected the Image Orientation (Patient) of the other slices, got one turned by {:.2g} degrees",
+              2 * std::asin(std::min(1.0, turned / 2)) * 180 / portable::pi);
+  if (!same_origin(header, other))
+    return tr("expected the patient, study and frame of reference of the other slices, got others");
+  return tr("expected the SOP Class of the other slices, got another kind of object");
+}
+
 }  // namespace
+
+std::vector<core::Fault> faults_of_set_aside(const std::vector<DicomStack>& stacks, const DicomStack& chosen,
+                                             const std::vector<DicomHeader>& files) {
+  constexpr std::size_t kMostNamed = 10;
+  const auto header = [&](const ImageAt& i) -> const DicomHeader& { return files[std::size_t(i.file)]; };
+  const auto frame = [&](const ImageAt& i) -> const DicomFrame& { return header(i).frames[std::size_t(i.frame)]; };
+  const ImageAt& first = chosen.images[0];
+  const Vec3d normal = cross(frame(first).row, frame(first).column);
+  double low = dot(frame(first).position, normal), high = low;
+  for (const ImageAt& i : chosen.images) {
+    low = std::min(low, dot(frame(i).position, normal));
+    high = std::max(high, dot(frame(i).position, normal));
+  }
+  std::vector<core::Fault> out;
+  for (const DicomStack& stack : stacks) {
+    if (&stack == &chosen || stack.between || header(first).uid.empty() ||
+        header(first).uid != header(stack.images[0]).uid)
+      continue;
+    for (const ImageAt& i : stack.images) {
+      const double along = dot(frame(i).position, normal);
+      const bool among =
+          along > low && along < high && std::fabs(dot(cross(frame(i).row, frame(i).column), normal)) > 0.9;
+      if (among && out.size() < kMostNamed)
+        out.push_back({{header(i).path, 0, 0},
+                       tr("{}: it was set aside, export the series again",
+                          difference(header(i), frame(i), header(first), frame(first)))});
+    }
+  }
+  return out;
+}
 
 std::size_t choose_stack(const DicomFolder& folder, const std::vector<DicomStack>& stacks, int file,
                          const std::string& name, const ReadOptions& options, ReadReport& report) {

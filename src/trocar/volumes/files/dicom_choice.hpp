@@ -21,4 +21,9 @@ std::size_t choose_stack(const DicomFolder& folder, const std::vector<DicomStack
 int choose_group(const DicomStack& stack, int file, const std::string& name, const ReadOptions& options,
                  ReadReport& report);
 
+/// Slices of the same series that lie among those of the stack and differ from them: where slices are missing, these
+/// are why.
+std::vector<core::Fault> faults_of_set_aside(const std::vector<DicomStack>& stacks, const DicomStack& chosen,
+                                             const std::vector<DicomHeader>& files);
+
 }  // namespace trocar::volumes

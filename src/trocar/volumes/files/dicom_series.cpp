@@ -1,5 +1,6 @@
 // DICOM images as a volume: the stack is chosen, put in order, and decoded one file after the other.
 #include <algorithm>
+#include <cstring>
 #include <map>
 
 #include <fmt/format.h>
@@ -114,22 +115,77 @@ class VolumeOfImages {
     if (first.tilt_deg != 0) m_report.notes.push_back(tr("the gantry was tilted by {:.3g} degrees", first.tilt_deg));
     if (first.photometric == "MONOCHROME1")
       m_report.notes.push_back("MONOCHROME1: small values are meant to be shown bright; the values are as in the file");
-    if (first.modality == "CT") raster.unit = "HU";
+    require_one_rescale();
+    if (first.modality == "CT") raster.unit = unit_of(at);
+    raster.element = common_element();
     raster.rescale.resize(m_images.size());
+  }
+
+  /// Slope and intercept are there in all slices or in none, and mean the same.
+  void require_one_rescale() const {
+    std::vector<std::size_t> with, without;
+    for (std::size_t i = 0; i < m_images.size(); ++i) {
+      (frame(i).rescaled ? with : without).push_back(i);
+      if (frame(i).rescale_type != frame(0).rescale_type)
+        refuse(header(i).path,
+               tr("expected the Rescale Type {} as in the other slices, got {}: export the series again",
+                  shown(frame(0).rescale_type), shown(frame(i).rescale_type)));
+    }
+    if (with.empty() || without.empty()) return;
+    const bool is_missing = with.size() >= without.size();
+    refuse(header(is_missing ? without[0] : with[0]).path,
+           is_missing
+               ? tr("expected Rescale Slope and Rescale Intercept as in {} other slices, got a slice without them: "
+                    "export the series again",
+                    with.size())
+               : tr("expected no Rescale Slope and Rescale Intercept, as in {} other slices, got a slice with "
+                    "them: export the series again",
+                    without.size()));
+  }
+
+  /// Of CT.
+  std::string unit_of(const DicomFrame& at) {
+    if (!at.rescaled) {
+      m_report.notes.emplace_back(
+          tr("Rescale Slope or Rescale Intercept is missing or 0: the values are no Hounsfield units"));
+      return "";
+    }
+    if (at.rescale_type.empty() || at.rescale_type == "HU") return "HU";
+    m_report.notes.push_back(tr("Rescale Type is {}: the values are no Hounsfield units", shown(at.rescale_type)));
+    return at.rescale_type;
+  }
+
+  /// A type that holds the numbers of all slices, which may be signed in some of them only.
+  Element common_element() const {
+    Element out = header(0).element();
+    for (std::size_t i = 1; i < m_images.size(); ++i) {
+      const Element other = header(i).element();
+      if (other == out) continue;
+      const bool small = std::max(out, other) <= Element::uint16 || out == Element::int32;
+      out = small && other != Element::uint32 ? Element::int32 : Element::real64;
+      if (out == Element::real64) break;
+    }
+    return out;
   }
 
   void put(Raster& raster, std::size_t slice, const std::vector<char>& pixels) {
     const DicomHeader& from = header(slice);
-    if (raster.owned.empty()) {
-      raster.element = from.element();
-      raster.owned.resize(raster.wanted());
-    }
-    if (from.element() != raster.element)
-      refuse(from.path,
-             tr("expected {} as in the other slices, got {}", name_of(raster.element), name_of(from.element())));
-    const std::size_t bytes = pixels.size() / from.frames.size();
-    std::copy_n(pixels.begin() + std::ptrdiff_t(bytes * std::size_t(m_images[slice].frame)), bytes,
-                raster.owned.begin() + std::ptrdiff_t(bytes * slice));
+    if (raster.owned.empty()) raster.owned.resize(raster.wanted());
+    const std::size_t width = width_of(from.element()), count = frame_pixels(from);
+    const char* frame_of_file = pixels.data() + count * width * std::size_t(m_images[slice].frame);
+    char* to = raster.owned.data() + count * width_of(raster.element) * slice;
+    if (from.element() == raster.element)
+      std::copy_n(frame_of_file, count * width, to);
+    else
+      geometry::with_type(raster.element, [&](auto wide) {
+        geometry::with_type(from.element(), [&](auto narrow) {
+          for (std::size_t i = 0; i < count; ++i) {
+            const auto value =
+                static_cast<decltype(wide)>(geometry::number_at<decltype(narrow)>(frame_of_file + i * width, false));
+            std::memcpy(to + i * sizeof value, &value, sizeof value);
+          }
+        });
+      });
     raster.rescale[slice] = frame(slice).rescale;
   }
 
@@ -144,9 +200,7 @@ class VolumeOfImages {
 
   /// One slope and intercept for all says more than one a slice.
   static void share_rescale(Raster& raster) {
-    const auto same = [&](const Rescale& r) {
-      return r.slope == raster.rescale[0].slope && r.intercept == raster.rescale[0].intercept;
-    };
+    const auto same = [&](const Rescale& r) { return r == raster.rescale[0]; };
     if (std::all_of(raster.rescale.begin(), raster.rescale.end(), same)) raster.rescale.resize(1);
   }
 };
@@ -167,7 +221,14 @@ Raster read_stacks(const DicomFolder& folder, int file, const std::string& name,
   const DicomStack& stack = stacks[choose_stack(folder, stacks, file, name, options, report)];
   const int group = choose_group(stack, file, name, options, report);
   tell_copies(stack, folder.files, report);
-  return VolumeOfImages(folder.files, name, options, report).read(stack, group, pixels);
+  try {
+    return VolumeOfImages(folder.files, name, options, report).read(stack, group, pixels);
+  } catch (const core::BadInput& bad) {
+    std::vector<core::Fault> faults = faults_of_set_aside(stacks, stack, folder.files);
+    if (faults.empty()) throw;
+    faults.insert(faults.end(), bad.faults().begin(), bad.faults().end());
+    throw core::BadInput(faults);
+  }
 }
 
 std::vector<char> pixels_of_file(const DicomHeader& header, const ReadOptions& options,

@@ -61,6 +61,27 @@ class Stacks {
         m_stacks[s].images.push_back({int(f), int(k)});
       }
     }
+    for (const auto& [uid, candidates] : of_series) name_origins(candidates);
+  }
+
+  /// Which patient, study or frame of reference a stack is of, where its series has several.
+  void name_origins(const std::vector<std::size_t>& stacks) {
+    struct Origin {
+      const char* name;
+      std::string DicomHeader::*value;
+    };
+    const Origin origins[] = {{"Patient ID", &DicomHeader::patient},
+                              {"Study Instance UID", &DicomHeader::study},
+                              {"Frame of Reference UID", &DicomHeader::frame_of_reference}};
+    for (const Origin& origin : origins) {
+      const auto value = [&](std::size_t s) -> const std::string& { return file_of(m_stacks[s], 0).*origin.value; };
+      const bool several =
+          std::any_of(stacks.begin(), stacks.end(), [&](std::size_t s) { return value(s) != value(stacks[0]); });
+      if (!several) continue;
+      for (const std::size_t s : stacks)
+        m_stacks[s].origin = fmt::format("{} {}", origin.name, value(s).empty() ? tr("not said") : value(s));
+      return;
+    }
   }
 
   std::vector<std::vector<int>> levels(const DicomStack& stack) const {
@@ -80,9 +101,9 @@ class Stacks {
     std::vector<int> all;
     for (const std::vector<int>& level : at) all.insert(all.end(), level.begin(), level.end());
     stack.groups = {{"", std::move(all)}};
-    if (!crowded(at)) return out.push_back(std::move(stack));
     std::vector<Marks> marks;
     for (std::size_t i = 0; i < stack.images.size(); ++i) marks.push_back(frame_of(stack, int(i)).marks);
+    if (!crowded(at)) return part_interleaved(std::move(stack), marks, out);
     ImageGroups told = grouped(at, marks);
     const bool by_number = told.told_by == name_of(Mark::instance);  // which may be of anything
     if ((told.groups.empty() || by_number) && drop_renamed(stack, at)) return part(std::move(stack), out);
@@ -98,10 +119,26 @@ class Stacks {
     for (ImageGroup& group : told.groups) out.push_back(parted(stack, group));
   }
 
+  /// Acquisitions whose slices lie between each other.
+  void part_interleaved(DicomStack stack, const std::vector<Marks>& marks, std::vector<DicomStack>& out) const {
+    const DicomFrame& first = frame_of(stack, 0);
+    const Vec3d normal = normalised(cross(first.row, first.column));
+    std::vector<double> along;
+    for (std::size_t i = 0; i < stack.images.size(); ++i)
+      along.push_back(dot(frame_of(stack, int(i)).position, normal));
+    const ImageGroups told = interleaved(along, marks);
+    if (told.groups.empty()) return out.push_back(std::move(stack));
+    stack.told_by = told.told_by;
+    stack.between = true;
+    for (const ImageGroup& group : told.groups) out.push_back(parted(stack, group));
+  }
+
   static DicomStack parted(const DicomStack& whole, const ImageGroup& group) {
     DicomStack out;
     out.part = group.name;
     out.told_by = whole.told_by;
+    out.origin = whole.origin;
+    out.between = whole.between;
     out.series = whole.series;
     out.copies = whole.copies;
     out.groups.emplace_back();
@@ -209,7 +246,7 @@ SeriesFacts facts_of(const DicomStack& stack, const std::vector<DicomHeader>& fi
           int(of.size()),
           {first.columns, first.rows, int(stack.slices())},
           std::string(plane_of(first.frames[std::size_t(stack.images[0].frame)])) +
-              (stack.part.empty() ? "" : ", " + stack.part),
+              (stack.origin.empty() ? "" : ", " + stack.origin) + (stack.part.empty() ? "" : ", " + stack.part),
           int(stack.groups.size())};
 }
 

@@ -22,6 +22,8 @@ struct DicomStack {
   std::vector<ImageGroup> groups;           ///< time points: of each the indices of its images; one at least
   std::string told_by;                      ///< what tells the groups apart, where there are several
   std::string part;                         ///< of a series that was parted: "Acquisition Number 2"
+  std::string origin;                       ///< whose it is, where a series has several: "Patient ID 7"
+  bool between = false;                     ///< its slices lie between those of the other parts
   int series = 0;                           ///< stacks that were parted from each other have the same
   std::vector<std::pair<int, int>> copies;  ///< files left out, and those that they are copies of
   std::string fault;                        ///< why it is no volume, or empty

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -186,7 +188,58 @@ class Grouping {
   }
 };
 
+/// Positions of a part: are they evenly apart?
+bool is_even(std::vector<double> along) {
+  constexpr double kUneven = 0.1;  // of the distance, as where slices are put in order
+  std::sort(along.begin(), along.end());
+  const double apart = (along.back() - along.front()) / double(along.size() - 1);
+  for (std::size_t i = 1; i < along.size(); ++i)
+    if (std::fabs(along[i] - along[i - 1] - apart) > kUneven * apart + 0.01) return false;
+  return true;
+}
+
+/// Two images at least in each part, evenly apart, over half of the whole extent.
+bool lie_between_each_other(const Parts& parts, std::span<const double> along) {
+  double least = INFINITY, greatest = -INFINITY, low = -INFINITY, high = INFINITY;
+  for (const std::vector<int>& part : parts) {
+    std::vector<double> own;
+    for (const int i : part) own.push_back(along[std::size_t(i)]);
+    if (own.size() < 2 || !is_even(own)) return false;
+    const auto [first, last] = std::minmax_element(own.begin(), own.end());
+    least = std::min(least, *first), greatest = std::max(greatest, *last);
+    low = std::max(low, *first), high = std::min(high, *last);
+  }
+  return high - low >= 0.5 * (greatest - least);
+}
+
 }  // namespace
+
+ImageGroups interleaved(std::span<const double> along, std::span<const Marks> marks) {
+  for (const Mark mark : {Mark::image_type, Mark::acquisition}) {
+    std::map<std::string, std::vector<int>, decltype(&mark_less)> by_value(&mark_less);
+    for (std::size_t i = 0; i < marks.size(); ++i) by_value[marks[i][mark]].push_back(int(i));
+    if (by_value.size() < 2) continue;
+    Parts parts;
+    std::set<std::string> times;
+    for (auto& [value, images] : by_value) {
+      times.insert(marks[std::size_t(images[0])][Mark::acquisition_time]);
+      parts.push_back(std::move(images));
+    }
+    // Numbers that are given to parts of one acquisition do not count. Times may have been taken out.
+    const bool one_time = mark == Mark::acquisition && times.size() == 1 && !times.begin()->empty();
+    if (one_time || !lie_between_each_other(parts, along)) continue;
+    ImageGroups out;
+    out.alike = false;
+    out.told_by = name_of(mark);
+    for (std::vector<int>& images : parts) {
+      const std::string& value = marks[std::size_t(images[0])][mark];
+      out.groups.push_back(
+          {fmt::format("{} {}", name_of(mark), value.empty() ? "not said" : value), std::move(images)});
+    }
+    return out;
+  }
+  return {};
+}
 
 ImageGroups grouped(const std::vector<std::vector<int>>& levels, std::span<const Marks> marks) {
   return Grouping(levels, marks).run();

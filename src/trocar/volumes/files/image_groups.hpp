@@ -28,4 +28,9 @@ struct ImageGroups {
 /// @param marks   of each image
 ImageGroups grouped(const std::vector<std::vector<int>>& levels, std::span<const Marks> marks);
 
+/// Images of several acquisitions or kinds, each evenly spaced and of about the same extent, that lie between each
+/// other. None: they are slices of one, or acquisitions that follow each other along the normal.
+/// @param along  the position of each image along the normal, no two the same [mm]
+ImageGroups interleaved(std::span<const double> along, std::span<const Marks> marks);
+
 }  // namespace trocar::volumes

@@ -39,6 +39,24 @@ double median_gap(const std::vector<Level>& levels) {
   return gaps[gaps.size() / 2];
 }
 
+/// One distance up to somewhere and another one behind it, each at least twice.
+void refuse_two_spacings(const std::vector<Level>& levels, const std::string& file) {
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < levels.size(); ++i) gaps.push_back(levels[i].along - levels[i - 1].along);
+  if (gaps.size() < 4) return;
+  const double first = gaps.front(), last = gaps.back();
+  const auto is = [](double gap, double wanted) { return std::fabs(gap - wanted) <= kUneven * wanted + kSamePosition; };
+  if (is(first, last) || is(last, first)) return;
+  std::size_t change = 0;
+  while (change < gaps.size() && is(gaps[change], first)) ++change;
+  const bool only_two =
+      std::all_of(gaps.begin() + std::ptrdiff_t(change), gaps.end(), [&](double gap) { return is(gap, last); });
+  if (change < 2 || gaps.size() - change < 2 || !only_two) return;
+  refuse(file, tr("expected slices evenly apart, got {:.4g} mm up to {:.2f} mm along the slices' normal and {:.4g} mm "
+                  "behind it: open one of the parts alone, or resample them first, for instance in 3D Slicer",
+                  first, levels[change].along, last));
+}
+
 void require_none_missing(const std::vector<Level>& levels, double spacing, const std::string& file) {
   std::string missing;
   int count = 0;
@@ -85,6 +103,7 @@ SliceStack stack_slices(std::span<const SlicePlace> places, Vec3d row, Vec3d col
     notes.push_back(tr("a single slice: taken as {:.3g} mm thick", thickness > 0 ? thickness : 1));
     return out;
   }
+  refuse_two_spacings(levels, file);
   require_none_missing(levels, median_gap(levels), file);
   out.step = (places[std::size_t(levels.back().image)].position - out.origin) / double(levels.size() - 1);
   const double spacing = dot(out.step, normal);
