@@ -1,6 +1,7 @@
 // Steps of a script that are about a patient's scan: read, segmented, seen, and made organs and vessels of.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -26,19 +27,23 @@ namespace {
 namespace keys = scene::keys;
 using scene::JsonObject;
 
+constexpr double kMostValue = 1e30;  // of a scan's voxels, as its readers keep them
+
 scene::Key segment_key() {
   return scene::needed(keys::text("segment", "its name; made where a tool draws and there is none"));
 }
 std::vector<scene::Key> rule_keys(std::vector<scene::Key> list) {
-  list.push_back(keys::number("only_from", -100000, 100000, "only voxels of the scan with at least this value"));
-  list.push_back(keys::number("only_to", -100000, 100000, "and at most this"));
+  list.push_back(
+      keys::number("only_from", -kMostValue, kMostValue, "only voxels of the scan with at least this value"));
+  list.push_back(keys::number("only_to", -kMostValue, kMostValue, "and at most this"));
   list.push_back(keys::text("inside", "only voxels of this segment; \"none\": of no segment yet"));
   return list;
 }
 
 volumes::EditRules rules_of(const JsonObject& o, const Scan& scan) {
   volumes::EditRules rules;
-  if (o.has("only_from") || o.has("only_to")) rules.values = {{o.number("only_from", -1e6), o.number("only_to", 1e6)}};
+  if (o.has("only_from") || o.has("only_to"))
+    rules.values = {{o.number("only_from", -kMostValue), o.number("only_to", kMostValue)}};
   if (o.has("inside"))
     rules.inside = o.text("inside") == "none" ? std::uint16_t(0) : scan.segment_there(o.text("inside"));
   return rules;
@@ -94,10 +99,23 @@ Command read_scan() {
           }};
 }
 
+/// Steps name segments: of two with one name they mean the first.
+void tell_of_same_names(const volumes::Labels& labels, std::vector<std::string>& notes) {
+  constexpr int kToldNames = 3;
+  std::map<std::string, std::uint16_t> first;
+  int told = 0;
+  for (const volumes::Segment& s : labels.segments)
+    if (const auto [known, is_new] = first.emplace(s.name, s.label); !is_new && told++ < kToldNames)
+      notes.push_back(
+          tr("labels {} and {} are both called \"{}\": steps mean the first. \"segment\": \"{}\" is the other",
+             known->second, s.label, s.name, s.label));
+}
+
 Command read_label_map() {
   return {{"labels", "Reads a label map onto the scan's grid.", file_keys("its file")},
           [](const JsonObject& o, Session& session) {
-            const std::vector<std::string> notes = session.scan().take_labels(o.text("file"), options_of(o));
+            std::vector<std::string> notes = session.scan().take_labels(o.text("file"), options_of(o));
+            tell_of_same_names(session.scan().labels(), notes);
             session.said().push_back({{"labels", session.scan().labels().segments.size()}, {"notes", notes}});
           }};
 }
@@ -119,8 +137,8 @@ Command name_segment() {
 
 Command threshold() {
   return {{"threshold", "All voxels between two values.",
-           rule_keys({segment_key(), scene::needed(keys::number("from", -100000, 100000, "least value")),
-                      scene::needed(keys::number("to", -100000, 100000, "greatest value"))})},
+           rule_keys({segment_key(), scene::needed(keys::number("from", -kMostValue, kMostValue, "least value")),
+                      scene::needed(keys::number("to", -kMostValue, kMostValue, "greatest value"))})},
           [](const JsonObject& o, Session& session) {
             Scan& scan = session.scan();
             const std::uint16_t label = scan.segment(o.text("segment"));
@@ -134,8 +152,8 @@ Command grow() {
   return {{"grow", "From seeds to all that hangs together between two values.",
            rule_keys({segment_key(),
                       scene::needed(keys::points("seeds_mm", -10000, 10000, 1, "places, as scenes have them")),
-                      scene::needed(keys::number("from", -100000, 100000, "least value")),
-                      scene::needed(keys::number("to", -100000, 100000, "greatest value"))})},
+                      scene::needed(keys::number("from", -kMostValue, kMostValue, "least value")),
+                      scene::needed(keys::number("to", -kMostValue, kMostValue, "greatest value"))})},
           [](const JsonObject& o, Session& session) {
             Scan& scan = session.scan();
             const std::uint16_t label = scan.segment(o.text("segment"));
@@ -273,8 +291,8 @@ Command combine() {
 Command measure() {
   return {{"measure",
            "Reports a segment's volume and the scan's values in it.",
-           {segment_key(), keys::number("mean_from", -100000, 100000, "a mean below this is a fault"),
-            keys::number("mean_to", -100000, 100000, "one above, too")}},
+           {segment_key(), keys::number("mean_from", -kMostValue, kMostValue, "a mean below this is a fault"),
+            keys::number("mean_to", -kMostValue, kMostValue, "one above, too")}},
           [](const JsonObject& o, Session& session) {
             const Scan& scan = session.scan();
             const std::uint16_t label = scan.segment_there(o.text("segment"));
@@ -283,7 +301,7 @@ Command measure() {
                                       {"mL", volumes::millilitres(scan.labels(), label)},
                                       {"mean", s.mean},
                                       {"deviation", s.deviation}});
-            if (s.mean < o.number("mean_from", -1e9) || s.mean > o.number("mean_to", 1e9))
+            if (s.mean < o.number("mean_from", -kMostValue) || s.mean > o.number("mean_to", kMostValue))
               o.fault("segment", tr("expected a mean value from {:g} to {:g}, got {:.1f}", o.number("mean_from"),
                                     o.number("mean_to"), s.mean));
           }};
@@ -313,7 +331,7 @@ Command slice() {
            {scene::needed(keys::name("name", "of the picture")),
             keys::choice("plane", {"axial", "coronal", "sagittal"}, "default axial"),
             keys::vec3("at_mm", -10000, 10000, "a place in it, as scenes have it; default: the middle"),
-            keys::number("centre", -100000, 100000, "of the window, default 40"),
+            keys::number("centre", -kMostValue, kMostValue, "of the window, default 40"),
             keys::number("width", 1, 200000, "of the window, default 400"), keys::flag("labels", "default true")}},
           [](const JsonObject& o, Session& session) {
             if (!session.draws()) return;
