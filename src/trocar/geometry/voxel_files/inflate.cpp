@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostRatio = 1032;  // what deflate can make of a byte at best [RFC 1951]
 constexpr std::size_t kPart = std::size_t(1) << 20;
-constexpr std::size_t kMostBehind = std::size_t(256) << 20;  // unpacked in less than a second
+constexpr std::size_t kMostBehind = std::size_t(64) << 20;  // unpacked in well under a second
 
 int window_bits(Wrapping wrapping) {
   return wrapping == Wrapping::gzip ? 15 + 16 : wrapping == Wrapping::zlib ? 15 : -15;
