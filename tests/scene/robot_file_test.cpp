@@ -2,6 +2,7 @@
 // files of other kinds that are taken for robots or for JSON.
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -200,6 +201,44 @@ TEST(ForeignFile, IsNamedWithWhatIsReadInstead) {
   EXPECT_NE(told("PK\x03\x04...").find("a ZIP archive: unpack it"), std::string::npos);
   for (const char* json : {"{\"a\": 1}", "// a: b\n{}", "[1]", "\"a: b\"", "nonsense", "", "true", "a, b: c"})
     EXPECT_TRUE(core::foreign_file(json, core::Wanted::json).empty()) << json;
+}
+
+TEST(ForeignFile, FormatsThatBytesDoNotTellAreNamedByTheirEnding) {
+  const auto named = [](const std::string& bytes, const char* file) {
+    return core::foreign_file(bytes, core::Wanted::json, file);
+  };
+  const std::string zip("PK\x03\x04", 4), hdf = "\x89HDF\r\n";
+  const std::tuple<std::string, const char*, const char*> cases[] = {{"MeshVersionFormatted 2", "a", "Medit"},
+                                                                     {"*Heading\n*Node\n", "a.inp", "Abaqus"},
+                                                                     {"*NODE\n", "a", "Abaqus"},
+                                                                     {"$ NASTRAN\nBEGIN BULK", "a.bdf", "Nastran"},
+                                                                     {"    -1\n  2411\n", "a.unv", "UNV"},
+                                                                     {"*KEYWORD\n*NODE\n", "a", "LS-DYNA"},
+                                                                     {"mesh3d\n", "a", "Netgen"},
+                                                                     {"8 3 0 0\n", "a.node", "TetGen"},
+                                                                     {"Point(1) = {0,0,0,1};", "a.geo", "gmsh -3"},
+                                                                     {"DBRep_DrawableShape", "a", "STEP"},
+                                                                     {"MM\x10\x02", "a.3DS", "3DS"},
+                                                                     {"\xff\xff\xfe", "lh.pial", "mris_convert"},
+                                                                     {hdf, "a.med", "MED"},
+                                                                     {hdf, "a.cgns", "CGNS"},
+                                                                     {"CDF\x01", "a.exo", "Exodus"},
+                                                                     {hdf, "a", "HDF5"},
+                                                                     {"<GIFTI/>", "a.gii", "GIFTI"},
+                                                                     {"<?xml version=\"1.0\" ?><Xdmf/>", "a", "Xdmf"},
+                                                                     {zip, "a.3mf", "3MF"},
+                                                                     {zip + "... model.usdc", "a", "USDZ"},
+                                                                     {zip + "... Document.xml", "a", "FreeCAD"},
+                                                                     {zip + "... doc.kml", "a", "KMZ"},
+                                                                     {zip + "... arr_0.npy", "a", "NumPy"},
+                                                                     {zip, "a.mrb", "3D Slicer"}};
+  for (const auto& [bytes, file, name] : cases) {
+    EXPECT_NE(named(bytes, file).find(name), std::string::npos) << file << ": " << named(bytes, file);
+    EXPECT_NE(named(bytes, file).find(": "), std::string::npos) << "every one has a remedy";
+  }
+  EXPECT_TRUE(named("{\"nodes\": []}", "a.mesh").empty()) << "JSON by another name";
+  using namespace std::string_literals;
+  EXPECT_EQ(named("\xff\xfe{\0}\0"s, "a.json"), "UTF-16: save it as UTF-8");
 }
 
 TEST(ForeignFile, RobotsOfOtherFormatsAreNamedToo) {

@@ -9,6 +9,7 @@
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/foreign/foreign_file.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/kinematics/chains/excluded_range.hpp>
@@ -101,6 +102,8 @@ Json check_one(const fs::path& path, const Said& said) {
   if (is_mesh_file(path)) return describe_mesh(path, said.unit);
   if (is_scan_file(path)) return describe_scan(path, said.scan);
   if (scene::is_robot_file(path)) return describe_mechanism(path);
+  if (const std::string foreign = core::foreign_file_at(path, core::Wanted::json); !foreign.empty())
+    throw core::BadInput({{{path.generic_string(), 1, 1}, tr("expected JSON, got {}", foreign)}});
   std::vector<core::Fault> faults;
   const scene::JsonDocument document = scene::load_json(path, faults);
   if (path.extension() == ".json" && document.root.find("links")) return describe_mechanism(path);

@@ -425,7 +425,7 @@ const JsonMember* JsonValue::find(std::string_view key) const {
 
 JsonDocument parse_json(std::string_view text, std::string file, std::vector<Fault>& faults, const JsonLimits& limits) {
   JsonDocument document{std::move(file), {}};
-  if (const std::string foreign = foreign_file(text, Wanted::json); !foreign.empty()) {
+  if (const std::string foreign = foreign_file(text, Wanted::json, document.file); !foreign.empty()) {
     document.root.kind = Kind::broken;
     tell(faults, {{document.file, 1, 1}, tr("expected JSON, got {}", foreign)});
     return document;
