@@ -133,6 +133,13 @@ TEST(Gltf, MatricesMayBeRounded) {
   EXPECT_NE(faults_of_nodes(R"({"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.99]})"), "");
 }
 
+TEST(Gltf, AMatrixCountsWhereANodeHasATranslationToo) {
+  const SurfaceFile file = with_nodes(
+      R"({"mesh": 0, "translation": [9, 0, 0], "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1]})");
+  EXPECT_NEAR(file.parts.at(0).mesh.positions[1].x, 6, 1e-12);
+  EXPECT_EQ(file.notes.front(), "1 translations, rotations or scales of nodes with a matrix left out");
+}
+
 TEST(Gltf, QuantizedPositionsAreRead) {
   MeshBytes f;
   for (const Vec3d& p : axes_mesh().positions) f.all<std::int16_t>(p.x * 10000, -p.y * 10000, p.z * 10000, 77);

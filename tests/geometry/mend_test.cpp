@@ -1,4 +1,5 @@
 // mend() on meshes with everything wrong at once.
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include <trocar/geometry/remesh/simplified.hpp>
 #include <trocar/geometry/remesh/smoothed.hpp>
 #include <trocar/geometry/repair/mend.hpp>
+#include <trocar/geometry/repair/parted.hpp>
 
 #include "broken_meshes.hpp"
 
@@ -84,6 +86,32 @@ TEST(Mend, WhatCannotBeMendedIsToldAndTheRestIsMended) {
   int closed = 0;
   for (const Shell& shell : half.after.shells.list) closed += shell.closed();
   EXPECT_EQ(closed, 1);
+}
+
+TEST(Mend, OfManySheetsTheLargestAreTold) {
+  TriMesh soup;
+  for (int i = 0; i < 500; ++i) {
+    const double x = 0.01 * i, side = 1e-4 * (1 + i % 7);
+    append(soup, {{{x, 0, 0}, {x + side, 0, 0}, {x, side, 0}}, {{0, 1, 2}}});
+  }
+  const MendedMesh out = mend(soup);
+  EXPECT_LT(out.left.size(), 8u);
+  EXPECT_NE(std::find_if(out.left.begin(), out.left.end(),
+                         [](const std::string& words) { return words.ends_with("more sheets are left open"); }),
+            out.left.end());
+}
+
+TEST(Mend, AnEdgeWithThousandsOfTrianglesIsPartedInGoodTime) {
+  TriMesh fan{{{0, 0, 0}, {0, 0, 0.01}}, {}};
+  constexpr int kLeaves = 20'001;
+  for (int i = 0; i < kLeaves; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / kLeaves;
+    fan.positions.push_back({0.01 * std::cos(angle), 0.01 * std::sin(angle), 0});
+    fan.triangles.push_back({0, 1, i + 2});
+  }
+  const TriMesh out = parted(fan).mesh;
+  EXPECT_EQ(out.triangles.size(), std::size_t(kLeaves));
+  EXPECT_EQ(examine(out, {1e-6, 1, false}).crowded_edges.size(), 0u);
 }
 
 TEST(Mend, AWallThatIsOpenAtBothEndsKeepsItsLumen) {

@@ -275,7 +275,7 @@ TEST(SurfaceFiles, WhatIsNoSurfaceIsSaidToBeNone) {
   EXPECT_EQ(surface_faults("OFF\n8 6 0\n"), expected + "OFF: save the mesh as glTF, OBJ or STL");
   EXPECT_EQ(surface_faults("ISO-10303-21;\n"), expected + "STEP: name the file .step, and import it as a drawing");
   EXPECT_EQ(surface_faults("\x1b[31mred"), expected + "'?[31mred'");
-  EXPECT_EQ(surface_faults("v 0 0 0\n"), "a:1:1: expected triangles, got none");
+  EXPECT_EQ(surface_faults("vn 0 0 1\n"), "a:1:1: expected triangles, got none");
 }
 
 TEST(SurfaceFiles, VerticesAtTheSamePlaceBecomeTheFirstOfThem) {

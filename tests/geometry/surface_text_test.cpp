@@ -1,7 +1,12 @@
 // OBJ, STL, PLY and VTK: what each of them has of its own, and how faults are told.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/geometry/repair/examine.hpp>
 #include <trocar/geometry/surface_files/surface_file.hpp>
 
 #include "surface_bytes.hpp"
@@ -95,13 +100,15 @@ TEST(StlFiles, AHeadThatAnnouncesMoreThanThereIsIsRefused) {
             "a.stl:1:1: at byte 0: expected a head of 84 bytes of a binary STL, or the word solid, got 3 bytes");
 }
 
-TEST(StlFiles, CoordinatesThatAreNoNumbersAreFaultsAndNormalsAreNotLookedAt) {
+TEST(StlFiles, FacetsWhoseCornersAreNoNumbersAreLeftOutAndNormalsAreNotLookedAt) {
   std::string bytes = axes_stl_binary();
   const std::string nan("\x00\x00\xc0\x7f", 4);
   bytes.replace(84, 4, nan);
-  EXPECT_EQ(text_faults(bytes, "a.stl"), "");
+  EXPECT_EQ(only_mesh(bytes).triangles.size(), 4u);
   bytes.replace(84 + 12 + 4, 4, nan);
-  EXPECT_NE(text_faults(bytes, "a.stl").find("at byte 100: expected a y coordinate, got nan"), std::string::npos);
+  EXPECT_EQ(only_mesh(bytes).triangles.size(), 3u);
+  EXPECT_EQ(read_surfaces(bytes, "a.stl").notes,
+            (std::vector<std::string>{"1 facets with coordinates that are not numbers left out"}));
 }
 
 TEST(StlFiles, TextSaysWhatIsMissingWhere) {
@@ -204,9 +211,96 @@ TEST(VtkGrids, FacesOfEveryKindAreASurfaceAndOtherCellsAreLeftOut) {
             "a:8:3: expected 3 nodes of a cell of type 5, got 2");
 }
 
+TEST(VtkGrids, CellsWithAVolumeThatAreNoTetrahedraAreAFaultWithTheRemedy) {
+  const std::string hexahedron =
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n"
+      "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\nCELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\n";
+  EXPECT_NE(text_faults(hexahedron).find("got 1 other cells with a volume (hexahedra, polyhedra): convert"),
+            std::string::npos)
+      << text_faults(hexahedron);
+}
+
+TEST(SurfaceFiles, APointCloudIsAFaultWithTheRemedy) {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+      "0 0 0\n1 0 0\n";
+  for (const std::string& bytes : {ply, std::string("v 0 0 0\nv 1 0 0\np 1 2\n")})
+    EXPECT_NE(text_faults(bytes).find("got points only (a point cloud): reconstruct a surface first"),
+              std::string::npos)
+        << bytes;
+  EXPECT_NE(text_faults("v 0 0 0\nv 1 0 0\nl 1 2\n").find("1 lines left out"), std::string::npos)
+      << "notes belong to the refusal";
+}
+
+TEST(ObjFiles, APolygonOfManyCornersIsCutInHalvesAndACylinderOfThemIsABody) {
+  for (const int corners : {40, 3000}) {
+    std::string obj, top = "f", bottom = "f";
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2 * 3.14159265358979 * i / corners;
+      for (const int z : {0, 50})
+        obj += fmt::format("v {:.6f} {:.6f} {}\n", 30 * std::cos(angle), 30 * std::sin(angle), z);
+      top += fmt::format(" {}", 2 * i + 2);
+      bottom += fmt::format(" {}", 2 * (corners - 1 - i) + 1);
+    }
+    for (int i = 0; i < corners; ++i) {
+      const int next = (i + 1) % corners;
+      obj += fmt::format("f {} {} {} {}\n", 2 * i + 1, 2 * next + 1, 2 * next + 2, 2 * i + 2);
+    }
+    TriMesh mesh = only_mesh(obj + top + '\n' + bottom + '\n');
+    EXPECT_EQ(int(mesh.triangles.size()), 4 * corners - 4);
+    for (Vec3d& p : mesh.positions) p = 1e-3 * p;
+    EXPECT_TRUE(examine(mesh).is_body()) << corners;
+    std::vector<int> at(mesh.positions.size());
+    for (const auto& t : mesh.triangles)
+      for (const int v : t) ++at[std::size_t(v)];
+    EXPECT_LT(*std::max_element(at.begin(), at.end()), 40) << "no corner has them all";
+  }
+}
+
+TEST(SurfaceFiles, AHeadMayNameTheUnit) {
+  std::string stl = axes_stl_binary();
+  const std::string head = "Binary STL UNITS=in";
+  stl.replace(0, 40, head + std::string(40 - head.size(), ' '));
+  const SurfaceFile file = read_surfaces(stl, "a");
+  EXPECT_DOUBLE_EQ(file.metres, 0.0254);
+  EXPECT_EQ(file.notes.back(), "its head names the unit: coordinates are units of 25.4 mm");
+  EXPECT_EQ(read_surfaces("# File units = millimeters\n" + kAxesObj, "a").metres, 1e-3);
+  EXPECT_EQ(read_surfaces(with(kAxesPly, "by hand", "Unit: cm"), "a").metres, 1e-2);
+  for (const char* none : {"# units\n", "# unit cell: m\n", "# UNITS=parsec\n", "# communit=mm\n"})
+    EXPECT_EQ(read_surfaces(none + kAxesObj, "a").metres, 0) << none;
+}
+
+TEST(SurfaceFiles, AllSignsOfThePatientsAxesAreObeyedAndAnotherOrderIsRefused) {
+  const auto read = [](const std::string& space) {
+    return joined(read_surfaces("# SPACE=" + space + "\n" + kAxesObj, "a")).positions;
+  };
+  const std::vector<Vec3d> plain = joined(read_surfaces(kAxesObj, "a")).positions;
+  for (const std::string space : {"LPS", "LAS", "RPS", "RAS", "LPI", "LAI", "RPI", "RAI"}) {
+    const double left = space[0] == 'L' ? 1 : -1, front = space[1] == 'A' ? 1 : -1, up = space[2] == 'S' ? 1 : -1;
+    const std::vector<Vec3d> turned = read(space);
+    for (std::size_t i = 0; i < plain.size(); ++i)
+      EXPECT_EQ(turned[i], (Vec3d{left * plain[i].x, up * plain[i].z, front * plain[i].y})) << space;
+    EXPECT_NEAR(volume(joined(read_surfaces("# SPACE=" + space + "\n" + kAxesObj, "a"))), 1, 1e-12)
+        << space << ": triangles of a mirrored mesh run the other way round";
+  }
+  EXPECT_EQ(read("left-anterior-superior"), read("LAS"));
+  EXPECT_NE(text_faults("# SPACE=SAL\n" + kAxesObj).find("save the mesh in LPS"), std::string::npos);
+  EXPECT_EQ(read("sRGB"), plain);
+  EXPECT_EQ(joined(read_surfaces("# COLORSPACE=RAS\n" + kAxesObj, "a")).positions, plain);
+}
+
+TEST(SurfaceFiles, ZeroBytesBehindATextAreCounted) {
+  EXPECT_EQ(read_surfaces(kAxesStl + std::string("\0\0\x1a", 3), "a").notes,
+            (std::vector<std::string>{"2 zero bytes behind the text left out"}));
+}
+
 TEST(PolydataFiles, OtherDataSetsAreRefused) {
-  EXPECT_EQ(text_faults(with(kAxesVtk, "POLYDATA", "STRUCTURED_POINTS")),
-            "a:4:9: expected POLYDATA or UNSTRUCTURED_GRID, as surfaces need, got 'STRUCTURED_POINTS'");
+  EXPECT_EQ(
+      text_faults(with(kAxesVtk, "POLYDATA", "STRUCTURED_POINTS")),
+      "a:4:9: expected a mesh (POLYDATA or UNSTRUCTURED_GRID), got an image (STRUCTURED_POINTS): save it as NRRD or "
+      "MetaImage, and open it as a scan");
+  EXPECT_EQ(text_faults(with(kAxesVtk, "POLYDATA", "RECTILINEAR_GRID")),
+            "a:4:9: expected POLYDATA or UNSTRUCTURED_GRID, as surfaces need, got 'RECTILINEAR_GRID'");
   EXPECT_EQ(text_faults(with(kAxesVtk, "3 1 2 3\n", "3 1 2 4\n")),
             "a:13:7: expected the number of a point from 0 to 3, got 4");
   EXPECT_NE(text_faults(with(kAxesVtk, "POINTS 4", "POINTS 500000000")), "");

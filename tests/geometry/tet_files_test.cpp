@@ -180,7 +180,8 @@ TEST(TetFiles, FaultsSayWhereAndWhatWasExpected) {
   EXPECT_EQ(faults_of(replaced(kVtk, "UNSTRUCTURED_GRID", "POLYDATA")),
             "a.msh:4:9: expected UNSTRUCTURED_GRID, as tetrahedra need, got 'POLYDATA'");
   EXPECT_EQ(faults_of(replaced(kVtk, "5 10 10", "5 9 9")),
-            "a.msh:1:1: expected tetrahedra, got 2 quadrangles, 1 triangles");
+            "a.msh:1:1: expected tetrahedra, got 2 quadrangles, 1 triangles: convert other cells to "
+            "tetrahedra, for instance by Tetrahedralize in ParaView");
   EXPECT_EQ(faults_of(replaced(kVtk, "5 10 10", "10 10 10")),
             "a.msh:9:3: expected 4 nodes of a cell of type 10, got 3");
 }
@@ -294,6 +295,13 @@ TEST(TetFiles, MeshesAlongThePatientsAxesAreTurnedIntoOurs) {
     EXPECT_EQ(turned.mesh.points[i], (Vec3d{-p.x, p.z, p.y}));
   }
   EXPECT_EQ(turned.notes.size(), plain.notes.size() + 1);
+}
+
+TEST(TetFiles, AMirroredSpaceTurnsTheCellsToo) {
+  const TetFacts plain = inspect(read_tets(kVtk, "a").mesh);
+  const TetFacts turned = inspect(read_tets(replaced(kVtk, "any title", "SPACE=LAS"), "a").mesh);
+  EXPECT_EQ(turned.inverted, plain.inverted);
+  EXPECT_DOUBLE_EQ(turned.volume, plain.volume);
 }
 
 TEST(TetFiles, AGridOfFacesIsASurfaceAndOneWithTetrahedraIsNot) {

@@ -111,9 +111,20 @@ Json describe_surface(const fs::path& path, std::optional<double> given) {
   return out;
 }
 
+constexpr std::size_t kMostParts = 50, kShownParts = 3;  // all are listed up to so many; of more these
+
 void print_parts(const Json& m) {
   fmt::print("{}", tr("  {}, 1 unit is {:g} mm\n", m["format"].get<std::string>(), m["unit_mm"].get<double>()));
-  for (const Json& part : m["surface_parts"]) {
+  const Json& parts = m["surface_parts"];
+  std::vector<const Json*> shown;
+  for (const Json& part : parts) shown.push_back(&part);
+  if (shown.size() > kMostParts) {  // the largest only
+    std::stable_sort(shown.begin(), shown.end(),
+                     [](const Json* a, const Json* b) { return (*a)["triangles"] > (*b)["triangles"]; });
+    shown.resize(kShownParts);
+  }
+  for (const Json* one : shown) {
+    const Json& part = *one;
     const Json& size = part["size_mm"];
     const double volume = part["volume_ml"];
     fmt::print("{}", tr("  part \"{}\": {} triangles, {:.4g} x {:.4g} x {:.4g} mm, {}\n",
@@ -123,6 +134,7 @@ void print_parts(const Json& m) {
                         : volume > 0               ? tr("about {:.4g} ml, with holes", volume)
                                                    : std::string(tr("an open sheet: it encloses nothing"))));
   }
+  if (shown.size() < parts.size()) fmt::print("{}", tr("  and {} more parts\n", parts.size() - shown.size()));
   for (const Json& note : m["notes"]) fmt::print("  {}\n", note.get<std::string>());
 }
 

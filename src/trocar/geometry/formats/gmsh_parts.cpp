@@ -89,7 +89,9 @@ void GmshParts::resolve() {
     for (int k = 0; k < 4; ++k) corners[k] = index_of(cell.tags[k], cell.at);
     mesh.cells.push_back(corners);
   }
-  if (cells.empty() && in.faults() == 0) in.lose(0, "expected tetrahedra, got " + left_out.instead());
+  if (cells.empty() && in.faults() == 0)
+    in.lose(0,
+            tr("expected tetrahedra, got {}: mesh it in 3D (gmsh -3), or save a surface as STL", left_out.instead()));
 }
 
 int GmshParts::index_of(std::int64_t tag, std::size_t at) {

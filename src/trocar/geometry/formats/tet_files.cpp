@@ -34,7 +34,10 @@ TetFile read_tets(std::string_view bytes, const std::string& path, double scale)
   MeshSource in(bytes, path);
   TetFile file = read_known_tets(in, scale);
   if (file.axes == PatientAxes::none) return file;
+  if (file.axes == PatientAxes::other) in.lose(0, axes_fault());
   turn_to_our_axes(file.axes, file.mesh.points);
+  if (is_mirrored(file.axes))
+    for (auto& cell : file.mesh.cells) std::swap(cell[2], cell[3]);
   file.notes.push_back(turned_in_words(file.axes));
   return file;
 }

@@ -33,6 +33,9 @@ VtkHeader read_vtk_header(VtkValues& values, bool needs_grid) {
   at = in.at();
   const std::string dataset = values.word();
   const bool is_grid = dataset == "unstructured_grid";
+  if (dataset == "structured_points")
+    in.lose(at, tr("expected a mesh (POLYDATA or UNSTRUCTURED_GRID), got an image (STRUCTURED_POINTS): save it as NRRD "
+                   "or MetaImage, and open it as a scan"));
   if (needs_grid && !is_grid) in.lose(at, tr("expected UNSTRUCTURED_GRID, as tetrahedra need, got {}", in.shown(at)));
   if (!is_grid && dataset != "polydata")
     in.lose(at, tr("expected POLYDATA or UNSTRUCTURED_GRID, as surfaces need, got {}", in.shown(at)));

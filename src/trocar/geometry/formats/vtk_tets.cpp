@@ -21,7 +21,9 @@ class VtkTets {
   TetFile read() {
     for (std::size_t c = 0; c < m_grid.cells.count(); ++c) cell(c);
     if (m_out.mesh.cells.empty() && m_in.faults() == 0)
-      m_in.lose(0, "expected tetrahedra, got " + m_left_out.instead());
+      m_in.lose(0, tr("expected tetrahedra, got {}: convert other cells to tetrahedra, for instance by "
+                      "Tetrahedralize in ParaView",
+                      m_left_out.instead()));
     m_in.finish();
     m_out.format = m_grid.format();
     m_out.axes = m_grid.axes();

@@ -140,7 +140,9 @@ Diagnosis examine(const TriMesh& mesh, const ExamineOptions& options) {
   look_at_vertices(good, edges, options.tolerance, d);
   look_at_triangles(good, options.sliver_deg, d);
   look_at_shells(d);
-  if (options.crossings) {
+  const bool mostly_twice = 2 * d.duplicate_triangles.size() > mesh.triangles.size();  // all of them cross all others
+  if (options.crossings && mostly_twice) d.all_crossings = false;
+  if (options.crossings && !mostly_twice) {
     Crossings found = self_crossings(good);
     d.crossings = std::move(found.pairs);
     d.all_crossings = found.all;

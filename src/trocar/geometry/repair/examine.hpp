@@ -52,7 +52,7 @@ struct Diagnosis {
   Shells shells;
   std::vector<int> inward;                    ///< closed shells that face inwards and are no cavities
   std::vector<std::array<int, 2>> crossings;  ///< triangles
-  bool all_crossings = true;                  ///< or there are more than were looked for
+  bool all_crossings = true;  ///< or there are more than were looked for, as where most triangles are there twice
 
   int open_edges() const;
   /// Closed, each edge with two triangles that face the same way, outwards, nothing crosses or is degenerate. Several

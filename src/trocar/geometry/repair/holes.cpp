@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -82,11 +83,22 @@ class HoleClosing {
     for (std::size_t r = 0; r < m_rims.size(); ++r)
       if (!m_closed[r]) lids[joined.root(shell_of(m_rims[r]))] += 0.5 * fan_twice_area(m_mesh, m_rims[r]);
     const auto is_sheet = [&](int s) { return !m_options.sheets && lids[s] > kSheetLids * area[s]; };
+    std::vector<double> sheets;
     for (int s = 0; s < int(area.size()); ++s)
-      if (is_sheet(s))
-        m_out.left.push_back(tr("a sheet of {:.3g} cm2 is left open: it encloses nothing", 1e4 * area[s]));
+      if (is_sheet(s)) sheets.push_back(area[s]);
+    tell_of_sheets(std::move(sheets));
     for (std::size_t r = 0; r < m_rims.size(); ++r)
       if (is_sheet(joined.root(shell_of(m_rims[r])))) m_closed[r] = true;
+  }
+
+  /// The largest ones; a soup of triangles has as many as triangles.
+  void tell_of_sheets(std::vector<double> areas) {
+    constexpr std::size_t kToldSheets = 3;
+    const std::size_t told = std::min(areas.size(), kToldSheets);
+    std::partial_sort(areas.begin(), areas.begin() + std::ptrdiff_t(told), areas.end(), std::greater<>());
+    for (std::size_t i = 0; i < told; ++i)
+      m_out.left.push_back(tr("a sheet of {:.3g} cm2 is left open: it encloses nothing", 1e4 * areas[i]));
+    if (areas.size() > told) m_out.left.push_back(tr("{} more sheets are left open", areas.size() - told));
   }
 
   void close(const Rim& rim) {

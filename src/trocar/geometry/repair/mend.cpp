@@ -44,7 +44,9 @@ class MeshMending {
   void take(Repaired done) {
     m_out.mesh = std::move(done.mesh);
     m_out.changes.insert(m_out.changes.end(), done.changes.begin(), done.changes.end());
-    m_out.left.insert(m_out.left.end(), done.left.begin(), done.left.end());
+    for (std::string& words : done.left)  // two repairs may leave the same
+      if (std::find(m_out.left.begin(), m_out.left.end(), words) == m_out.left.end())
+        m_out.left.push_back(std::move(words));
   }
 
   void clean() {
@@ -121,8 +123,13 @@ class MeshMending {
 
   void tell_what_is_left() {
     if (m_out.after.is_body()) return m_out.left.clear();  // what one repair left, another has mended
+    std::vector<std::string>& left = m_out.left;
+    const auto is_told = [&left](const std::string& words) {
+      return std::any_of(left.begin(), left.end(), [&](const std::string& l) { return l.starts_with(words); });
+    };
     for (const Finding& f : findings(m_out.after))
-      if (f.fault != MeshFault::several_shells && f.fault != MeshFault::slivers) m_out.left.push_back(f.words);
+      if (f.fault != MeshFault::several_shells && f.fault != MeshFault::slivers && !is_told(f.words))
+        left.push_back(f.words);
   }
 };
 

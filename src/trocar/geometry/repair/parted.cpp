@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <queue>
 
 #include <trocar/geometry/remesh/editable.hpp>
 #include <trocar/geometry/repair/parted.hpp>
@@ -55,6 +56,39 @@ LeafPair flattest(const std::vector<Leaf>& leaves) {
   return best;
 }
 
+/// Takes neighbours with the least between them away, if possible of both directions, until three are left at most.
+std::vector<LeafPair> nearest_taken(std::vector<Leaf>& leaves) {
+  using Gap = std::pair<double, std::size_t>;  // what is between a leaf and the next one
+  const std::size_t n = leaves.size();
+  std::vector<std::size_t> next(n), before(n);
+  std::vector<bool> gone(n);
+  std::priority_queue<Gap, std::vector<Gap>, std::greater<>> gaps;
+  const auto gap = [&](std::size_t i) {
+    const Leaf &a = leaves[i], &b = leaves[next[i]];
+    return Gap{wedge(a, b) + (a.use.upwards == b.use.upwards ? 10 : 0), i};
+  };
+  for (std::size_t i = 0; i < n; ++i) next[i] = (i + 1) % n, before[i] = (i + n - 1) % n;
+  for (std::size_t i = 0; i < n; ++i) gaps.push(gap(i));
+  std::vector<LeafPair> pairs;
+  for (std::size_t left = n; left > 3 && !gaps.empty();) {
+    const Gap least = gaps.top();
+    gaps.pop();
+    const std::size_t i = least.second, k = next[i];
+    if (gone[i] || gap(i) != least) continue;  // its neighbour has been taken
+    pairs.push_back({leaves[i].use, leaves[k].use});
+    gone[i] = gone[k] = true;
+    next[before[i]] = next[k];
+    before[next[k]] = before[i];
+    gaps.push(gap(before[i]));
+    left -= 2;
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    if (!gone[i]) leaves[kept++] = leaves[i];
+  leaves.resize(kept);
+  return pairs;
+}
+
 std::vector<LeafPair> paired(std::vector<Leaf> leaves) {
   std::vector<LeafPair> pairs;
   if (in_turn(leaves)) {
@@ -63,19 +97,7 @@ std::vector<LeafPair> paired(std::vector<Leaf> leaves) {
       pairs.push_back({leaves[i % leaves.size()].use, leaves[(i + 1) % leaves.size()].use});
     return pairs;
   }
-  while (leaves.size() > 3) {  // neighbours with the least between them, if possible of both directions
-    std::size_t best = 0;
-    double least = 1e9;
-    for (std::size_t i = 0; i < leaves.size(); ++i) {
-      const Leaf &a = leaves[i], &b = leaves[(i + 1) % leaves.size()];
-      const double cost = wedge(a, b) + (a.use.upwards == b.use.upwards ? 10 : 0);
-      if (cost < least) least = cost, best = i;
-    }
-    const std::size_t other = (best + 1) % leaves.size();
-    pairs.push_back({leaves[best].use, leaves[other].use});
-    leaves.erase(leaves.begin() + std::ptrdiff_t(std::max(best, other)));
-    leaves.erase(leaves.begin() + std::ptrdiff_t(std::min(best, other)));
-  }
+  if (leaves.size() > 3) pairs = nearest_taken(leaves);
   if (leaves.size() >= 2) pairs.push_back(flattest(leaves));
   return pairs;
 }

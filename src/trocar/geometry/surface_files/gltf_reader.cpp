@@ -34,6 +34,7 @@ class GltfReader {
     check_extensions();
     m_gltf.in().finish();
     for (const GltfPlaced& placed : gltf_placed(m_gltf)) add_part(placed);
+    m_left_out.add("translations, rotations or scales of nodes with a matrix", beside_matrices());
     m_left_out.add("skins (the shape is the one without them)", std::int64_t(m_gltf.list("skins").size()));
     m_left_out.add("animations", std::int64_t(m_gltf.list("animations").size()));
     m_left_out.add("bytes behind the file's end", std::int64_t(m_gltf.bytes_behind()));
@@ -47,6 +48,14 @@ class GltfReader {
   SurfaceFile m_file;
   SurfaceLeftOut m_left_out;
   std::size_t m_vertices = 0, m_triangles = 0, m_primitives = 0;  ///< of all parts
+
+  /// The matrix counts where a node has both, which the format forbids.
+  std::int64_t beside_matrices() {
+    std::int64_t count = 0;
+    for (const core::JsonValue& node : m_gltf.list("nodes"))
+      for (const char* key : {"translation", "rotation", "scale"}) count += node.find("matrix") && node.find(key);
+    return count;
+  }
 
   void check_version() {
     const GltfItem asset = m_gltf.member(m_gltf.root(), "asset"), version = m_gltf.member(asset, "version");
@@ -94,6 +103,7 @@ class GltfReader {
   void add(GltfItem primitive, TriMesh& mesh) {
     bound_items(m_gltf.in(), ++m_primitives, "primitives");
     const std::size_t mode = m_gltf.whole(primitive, "mode").value_or(4);
+    m_file.points += mode == 0;
     if (mode < 4) return m_left_out.add(mode == 0 ? "primitives of points" : "primitives of lines");
     if (mode > 6) return m_gltf.fault(primitive, tr("expected a mode from 0 to 6, got {}", mode));
     if (m_gltf.member(primitive, "targets")) m_left_out.add("lists of morph targets");

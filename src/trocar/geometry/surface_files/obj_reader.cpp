@@ -19,9 +19,9 @@ class ObjSurface {
     m_in.set_records_on_lines(true);
     m_runs.push_back({m_name, 0});
     while (!m_in.only_padding_left()) line();
-    SurfaceFile file;
+    SurfaceFile file = m_head;
     file.format = "OBJ";
-    file.axes = m_axes;
+    if (m_polygons.count() == 0) file.points = std::int64_t(m_positions.size());
     for (std::size_t r = 0; r < m_runs.size(); ++r) add_part(file, r);
     merge_names(file);
     m_left_out.tell(file.notes);
@@ -39,7 +39,7 @@ class ObjSurface {
   std::vector<Vec3d> m_positions;
   PolygonList m_polygons;
   std::vector<Run> m_runs;
-  PatientAxes m_axes = PatientAxes::none;
+  SurfaceFile m_head;  ///< what comments say
   SurfaceLeftOut m_left_out;
 
   void line() {
@@ -68,7 +68,7 @@ class ObjSurface {
 
   /// What 3D Slicer writes in front of all vertices.
   void comment(std::string_view text) {
-    if (m_positions.empty() && m_axes == PatientAxes::none) m_axes = patient_axes_in(text);
+    if (m_positions.empty()) take_head(m_head, text);
   }
 
   /// To the end of the line, and of those that it continues in.

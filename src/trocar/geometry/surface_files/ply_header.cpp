@@ -4,6 +4,7 @@
 
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/ply_header.hpp>
+#include <trocar/geometry/surface_files/surface_reader.hpp>
 
 namespace trocar::geometry {
 namespace {
@@ -46,8 +47,7 @@ class PlyHeaderReader {
     const std::size_t at = m_in.at();
     if (word.empty()) m_in.lose(at, "expected end_header, got the end of the file");
     if (word == "comment" || word == "obj_info") {
-      const PatientAxes axes = patient_axes_in(m_in.line());
-      if (axes != PatientAxes::none) m_header.axes = axes;
+      take_head(m_header.head, m_in.line());
       return;
     }
     m_in.word();

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <trocar/geometry/formats/mesh_source.hpp>
-#include <trocar/geometry/formats/patient_axes.hpp>
+#include <trocar/geometry/surface_files/surface_file.hpp>
 
 namespace trocar::geometry {
 
@@ -39,7 +39,7 @@ struct PlyElement {
 
 struct PlyHeader {
   MeshSource::Form form = MeshSource::Form::text;
-  PatientAxes axes = PatientAxes::none;  ///< that a comment names
+  SurfaceFile head;  ///< what comments say of axes and of the unit
   std::vector<PlyElement> elements;
 };
 

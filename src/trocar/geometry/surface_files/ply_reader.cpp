@@ -146,8 +146,7 @@ class PlyReader {
   }
 
   SurfaceFile assembled(const PlyHeader& header) {
-    SurfaceFile file;
-    file.axes = header.axes;
+    SurfaceFile file = header.head;
     file.format = header.form == MeshSource::Form::text     ? "PLY, text"
                   : header.form == MeshSource::Form::binary ? "PLY, binary"
                                                             : "PLY, binary, big-endian";

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -8,6 +9,9 @@ namespace {
 
 constexpr std::size_t kMostEars = 1024;              ///< corners of a polygon that is cut ear by ear
 constexpr std::int64_t kMostEarSteps = 200'000'000;  ///< corners looked at, in all polygons of a file: a second
+
+constexpr std::size_t kMostFan = 32;  ///< corners of a convex polygon that is cut as a fan
+constexpr double kStraight = 1e-9;    ///< of a polygon's size: a corner that turns back so little is rounded
 
 struct PlanePoint {
   double x, y;
@@ -38,11 +42,36 @@ std::vector<PlanePoint> flattened(std::span<const Vec3d> positions, std::span<co
   return flat;
 }
 
-bool is_convex(const std::vector<PlanePoint>& p) {
+/// Twice the smallest area of a corner and its neighbours.
+double least_turn(const std::vector<PlanePoint>& p) {
   const std::size_t n = p.size();
-  for (std::size_t i = 0; i < n; ++i)
-    if (turn(p[i], p[(i + 1) % n], p[(i + 2) % n]) < 0) return false;
-  return true;
+  double least = turn(p[n - 1], p[0], p[1]);
+  for (std::size_t i = 0; i + 1 < n; ++i) least = std::min(least, turn(p[i], p[i + 1], p[(i + 2) % n]));
+  return least;
+}
+
+/// Do its corners turn back by no more than files round places? Then halves of it are as good as convex.
+bool is_rounded(const std::vector<PlanePoint>& p, double least) {
+  double size2 = 0;
+  for (const PlanePoint& q : p) {
+    const double x = q.x - p[0].x, y = q.y - p[0].y;
+    size2 = std::max(size2, x * x + y * y);
+  }
+  return least > -kStraight * size2;
+}
+
+/// In halves, again and again: a fan of many corners is all needles, whose boxes cover each other.
+void cut_in_halves(std::span<const int> corners, std::vector<std::array<int, 3>>& triangles) {
+  std::vector<std::array<std::size_t, 2>> waiting{{0, corners.size() - 1}};
+  while (!waiting.empty()) {
+    const auto [first, last] = waiting.back();
+    waiting.pop_back();
+    if (last - first < 2) continue;
+    const std::size_t middle = first + (last - first) / 2;
+    triangles.push_back({corners[first], corners[middle], corners[last]});
+    waiting.push_back({middle, last});
+    waiting.push_back({first, middle});
+  }
 }
 
 class EarCutter {
@@ -105,7 +134,10 @@ void PolygonCutter::cut(std::span<const Vec3d> positions, std::span<const int> c
   if (corners.size() == 3) triangles.push_back({corners[0], corners[1], corners[2]});
   if (corners.size() <= 3) return;
   std::vector<PlanePoint> flat = flattened(positions, corners);
-  const bool convex = is_convex(flat);
+  const double least = least_turn(flat);
+  const bool convex = least >= 0, many = corners.size() > kMostFan;
+  if (many && (least > 0 || (corners.size() > kMostEars && is_rounded(flat, least))))
+    return cut_in_halves(corners, triangles);
   if (convex || corners.size() > kMostEars || m_steps > kMostEarSteps) {
     m_fans += !convex;
     for (std::size_t k = 2; k < corners.size(); ++k) triangles.push_back({corners[0], corners[k - 1], corners[k]});

@@ -1,4 +1,5 @@
-// Polygons of files into triangles: as a fan where they are convex, else ear by ear in the plane that fits them best.
+// Polygons of files into triangles: as a fan where they are convex, in halves where they have many corners, else ear by
+// ear in the plane that fits them best.
 //
 //   PolygonCutter cutter;                     // one a file: its work is bounded over all polygons
 //   cutter.cut(positions, corners, triangles);

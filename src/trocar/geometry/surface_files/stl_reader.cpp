@@ -34,6 +34,13 @@ bool is_stl_text(const MeshSource& in) {
   return !has_stl_size(in.all()) && !has_zeros && begins_with_solid(in);
 }
 
+/// Has one of these little-endian numbers all bits of its exponent set, as what is no number and infinity do?
+bool is_broken(std::string_view floats) {
+  for (std::size_t i = 0; i + 4 <= floats.size(); i += 4)
+    if ((floats[i + 3] & 0x7f) == 0x7f && (floats[i + 2] & 0x80) != 0) return true;
+  return false;
+}
+
 class StlBinary {
  public:
   StlBinary(MeshSource& in, SurfaceFile& file, const std::string& name) : m_in(in), m_file(file), m_name(name) {}
@@ -49,15 +56,21 @@ class StlBinary {
       m_in.lose(kStlTitle, tr("expected {} triangles, which is what {} bytes are the size of, got {} announced", most,
                               bytes.size(), count));
     bound_items(m_in, count, "triangles");
-    m_file.axes = patient_axes_in(bytes.substr(0, kStlTitle));
+    take_head(m_file, bytes.substr(0, kStlTitle));
     m_file.parts.push_back({m_name, {}});
     std::vector<Vec3d>& corners = m_file.parts.front().mesh.positions;
     corners.reserve(3 * std::size_t(count));
+    std::int64_t broken = 0;
     for (std::size_t t = 0; t < count; ++t) {
+      if (is_broken(bytes.substr(kStlHead + kStlTriangle * t + 12, 36))) {
+        ++broken;
+        continue;
+      }
       m_in.go_to(kStlHead + kStlTriangle * t + 12);
       for (int k = 0; k < 3; ++k) corners.push_back(read_surface_point(m_in, 4));
     }
     SurfaceLeftOut left_out;
+    left_out.add("facets with coordinates that are not numbers", broken);
     left_out.add("bytes behind the last triangle", std::int64_t(bytes.size() - kStlHead - kStlTriangle * count));
     left_out.tell(m_file.notes);
   }
@@ -96,7 +109,7 @@ class StlText {
   void begin_solid() {
     m_in.word();
     const std::string_view line = m_in.line();
-    if (m_file.axes == PatientAxes::none) m_file.axes = patient_axes_in(line);
+    take_head(m_file, line);
     const std::string name(line.substr(0, 200));
     const bool again = m_open && m_file.parts.back().mesh.positions.empty();
     if (!again) m_file.parts.push_back({m_name, {}});

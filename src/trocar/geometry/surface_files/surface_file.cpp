@@ -10,6 +10,7 @@
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/polygons.hpp>
 #include <trocar/geometry/surface_files/surface_reader.hpp>
+#include <trocar/geometry/surface_files/unit_guess.hpp>
 
 namespace trocar::geometry {
 namespace {
@@ -49,14 +50,19 @@ SurfaceFile read_known(MeshSource& in, const std::string& path, const std::strin
   const std::string foreign = core::foreign_file(bytes.substr(in.at()), core::Wanted::mesh);
   if (foreign.empty() && looks_like_obj(in)) return read_obj(in, name);
   if (foreign.empty() && ends_like(path, ".stl")) return read_stl(in, name);  // one whose size is wrong
-  in.lose(in.at(), tr("expected {}, got {}", kSurfaceFormats, foreign.empty() ? in.shown(in.at()) : foreign));
+  const std::string known = core::foreign_file(bytes.substr(in.at()), core::Wanted::mesh, path);
+  in.lose(in.at(), tr("expected {}, got {}", kSurfaceFormats, known.empty() ? in.shown(in.at()) : known));
 }
 
 /// What the file says of the patient's axes holds for all of its parts.
 void take_axes(SurfaceFile& file) {
   if (file.axes == PatientAxes::none) return;
-  for (SurfacePart& part : file.parts) turn_to_our_axes(file.axes, part.mesh.positions);
-  file.metres = kPatientUnit;
+  for (SurfacePart& part : file.parts) {
+    turn_to_our_axes(file.axes, part.mesh.positions);
+    if (is_mirrored(file.axes))
+      for (auto& t : part.mesh.triangles) std::swap(t[1], t[2]);
+  }
+  if (file.metres == 0) file.metres = kPatientUnit;
   file.notes.push_back(turned_in_words(file.axes));
 }
 
@@ -73,7 +79,39 @@ std::size_t items_of(const SurfaceFile& file, bool vertices) {
   return sum;
 }
 
+/// Zeros behind a text are what a transfer has lost; behind the sign for the end of a text (0x1a) they fill a block.
+void tell_of_zeros(const MeshSource& in, SurfaceFile& file) {
+  const bool text = file.format == "OBJ" || std::string_view(file.format).ends_with("text");
+  const std::string_view bytes = in.all();
+  const std::size_t last = bytes.find_last_not_of(std::string_view("\0\x1a \t\f\v\r\n", 8));
+  if (!text || last == bytes.npos) return;
+  const std::string_view tail = bytes.substr(last, bytes.find('\x1a', last) - last);
+  const auto zeros = std::count(tail.begin(), tail.end(), '\0');
+  if (zeros > 0) file.notes.push_back(tr("{} zero bytes behind the text left out", zeros));
+}
+
+[[noreturn]] void lose_without_triangles(MeshSource& in, const SurfaceFile& file) {
+  std::string message = file.points > 0 ? tr("expected triangles, got points only (a point cloud): reconstruct a "
+                                             "surface first, for instance in MeshLab")
+                                        : tr("expected triangles, got none");
+  if (!file.notes.empty()) message += " (" + joined_notes(file.notes) + ")";
+  in.lose(0, message);
+}
+
 }  // namespace
+
+void take_head(SurfaceFile& file, std::string_view line) {
+  if (file.axes == PatientAxes::none) file.axes = patient_axes_in(line);
+  if (file.metres == 0) file.metres = unit_in_head(line);
+  file.has_unit_in_head = file.metres > 0;
+}
+
+std::string joined_notes(const std::vector<std::string>& notes) {
+  constexpr std::size_t kMostNotes = 4;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(notes.size(), kMostNotes); ++i) out += (i ? "; " : "") + notes[i];
+  return notes.size() > kMostNotes ? tr("{} and {} more", out, notes.size() - kMostNotes) : out;
+}
 
 SurfaceFile read_surfaces(std::string_view bytes, const std::string& path, const FilesBeside& beside) {
   if (bytes.size() > kMaxMeshBytes)
@@ -81,17 +119,27 @@ SurfaceFile read_surfaces(std::string_view bytes, const std::string& path, const
   MeshSource in(bytes, path);
   SurfaceFile file = read_known(in, path, std::filesystem::path(path).stem().string(), beside);
   in.finish();
+  tell_of_zeros(in, file);
+  file.points += std::int64_t(items_of(file, true));
   std::erase_if(file.parts, [](const SurfacePart& part) { return part.mesh.triangles.empty(); });
-  if (file.parts.empty()) in.lose(0, "expected triangles, got none");
+  if (file.parts.empty()) lose_without_triangles(in, file);
   bound_items(in, items_of(file, true), "vertices");
   bound_items(in, items_of(file, false), "triangles");
+  if (file.axes == PatientAxes::other) in.lose(0, axes_fault());
   take_axes(file);
+  if (file.has_unit_in_head)
+    file.notes.push_back(tr("its head names the unit: coordinates are {}", unit_in_words(file.metres)));
   return file;
 }
 
 SurfaceFile read_surface_file(const std::filesystem::path& path) {
   const std::string bytes = core::read_file(path, kMaxMeshBytes);
   return read_surfaces(bytes, path.string(), [&path](const std::string& name) {
+    if (name.find("://") != name.npos)
+      throw core::BadInput({{{path.string(), 0, 0},
+                             tr("expected a buffer beside the file, got an address on the internet, {}: save the file "
+                                "with its buffers in it, as .glb",
+                                in_quotes(name))}});
     if (!stays_in_folder(name))
       throw core::BadInput({{{path.string(), 0, 0}, "expected a file beside this one, got " + in_quotes(name)}});
     return core::read_file(path.parent_path() / name, kMaxMeshBytes);

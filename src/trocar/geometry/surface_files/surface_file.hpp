@@ -14,6 +14,7 @@
 // Files are taken as hostile: what they announce is believed as far as the bytes reach, never further.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -40,6 +41,8 @@ struct SurfaceFile {
   std::string format;                    ///< "STL, binary"
   std::vector<std::string> notes;        ///< what was left out: lines, skins, animations; what was turned
   double metres = 0;                     ///< in the file's unit where the file says so (glTF: 1; SPACE: 0.001), or 0
+  bool has_unit_in_head = false;         ///< a line of its head names it: UNITS=in
+  std::int64_t points = 0;               ///< of no triangle, as of a point cloud, or how many lists of them
   PatientAxes axes = PatientAxes::none;  ///< that the file names
 };
 
@@ -53,6 +56,9 @@ using FilesBeside = std::function<std::string(const std::string& name)>;
 SurfaceFile read_surfaces(std::string_view bytes, const std::string& path, const FilesBeside& beside = {});
 /// The same for a file; others are looked for in its folder, and nowhere else.
 SurfaceFile read_surface_file(const std::filesystem::path& path);
+
+/// "3 lines left out; 2 points left out": the first four and how many more.
+std::string joined_notes(const std::vector<std::string>& notes);
 
 /// All parts as one mesh, in their order, nothing merged.
 TriMesh joined(const SurfaceFile& file);

@@ -27,6 +27,9 @@ double checked_coordinate(MeshSource& in, std::size_t at, double value);
 /// Three coordinates of `width` bytes where binary.
 Vec3d read_surface_point(MeshSource& in, int width);
 
+/// Takes what a line of the head says of axes and of the unit; of several the first that does.
+void take_head(SurfaceFile& file, std::string_view line);
+
 /// Throws where there are more things (vertices, triangles) than kMostSurfaceItems.
 void bound_items(MeshSource& in, std::size_t count, const char* things);
 

@@ -64,6 +64,35 @@ std::vector<LengthUnit> likeliest_first(double longest) {
 
 }  // namespace
 
+double unit_in_head(std::string_view line) {
+  struct NamedUnit {
+    std::string_view names;
+    double metres;
+  };
+  constexpr NamedUnit kNamed[] = {{" mm millimeter millimeters millimetre millimetres ", 1e-3},
+                                  {" cm centimeter centimeters centimetre centimetres ", 1e-2},
+                                  {" m meter meters metre metres ", 1},
+                                  {" in inch inches ", 0.0254},
+                                  {" ft foot feet ", 0.3048},
+                                  {" um micron microns micrometer micrometers micrometre micrometres ", 1e-6}};
+  std::string text(line.substr(0, 1000));
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
+  const std::size_t key = text.find("unit");
+  if (key == text.npos || (key > 0 && is_letter(text[key - 1]))) return 0;
+  std::size_t at = key + 4 + (text.substr(key + 4, 1) == "s");
+  const std::size_t sign = text.find_first_not_of(" \t", at);
+  if (sign == text.npos || (text[sign] != '=' && text[sign] != ':')) return 0;
+  at = std::min(text.find_first_not_of(" \t\"'", sign + 1), text.size());
+  std::size_t end = at;
+  while (end < text.size() && is_letter(text[end])) ++end;
+  const std::string word = ' ' + text.substr(at, end - at) + ' ';
+  for (const NamedUnit& unit : kNamed)
+    if (word.size() > 2 && unit.names.find(word) != std::string_view::npos) return unit.metres;
+  return 0;
+}
+
 Extent extent_of(const TriMesh& closed) { return {bounds(closed.positions), std::fabs(volume(closed))}; }
 
 Extent in_unit(const Extent& extent, double unit) {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <trocar/geometry/surfaces/tri_mesh.hpp>
@@ -50,6 +51,9 @@ struct UnitChoice {
 /// @param said  metres in the file's unit where the file says so, else 0
 /// @param by    the option or key that sets a unit, as a person writes it: "--unit-mm"
 UnitChoice choose_unit(const Extent& extent, double said, const char* by);
+
+/// Metres in the unit that a line of a file's head names: "UNITS=in", "File units = meters"; 0 where it names none.
+double unit_in_head(std::string_view line);
 
 /// "millimetres"; other units by their length.
 std::string unit_in_words(double metres);

@@ -42,6 +42,11 @@ class VtkSurface {
     m_in.finish();
     if (m_polygons.count() + m_strips.count() == 0 && m_tetrahedra > 0)
       m_in.lose(0, tr("expected triangles, got {} tetrahedra", m_tetrahedra));
+    if (m_polygons.count() + m_strips.count() == 0 && m_solids > 0)
+      m_in.lose(0,
+                tr("expected triangles or tetrahedra, got {} other cells with a volume (hexahedra, polyhedra): convert "
+                   "them to tetrahedra, for instance by Tetrahedralize in ParaView",
+                   m_solids));
     assemble();
     return std::move(m_file);
   }
@@ -53,7 +58,14 @@ class VtkSurface {
   SurfacePart m_part;
   SurfaceFile m_file;
   SurfaceLeftOut m_left_out;
-  std::int64_t m_tetrahedra = 0;
+  std::int64_t m_tetrahedra = 0, m_solids = 0;
+
+  /// Hexahedra, voxels, wedges, pyramids and polyhedra.
+  static bool is_solid(std::string_view name) {
+    for (const char* part : {"hexa", "voxel", "wedge", "pyramid", "polyhedr", "prism"})
+      if (name.find(part) != name.npos) return true;
+    return false;
+  }
 
   /// The first corners of list l.
   void take(const VtkLists& lists, std::size_t l, std::int64_t corners, PolygonList& to) {
@@ -85,6 +97,7 @@ class VtkSurface {
         return;
       default:
         m_tetrahedra += type && type->is_tet;
+        m_solids += type && is_solid(type->name);
         m_left_out.add(type ? type->name : tr("cells of type {}", m_data.types[c]));
     }
   }

@@ -24,10 +24,16 @@ geometry::TriMesh mended(const fs::path& path, const geometry::TriMesh& mesh, st
   geometry::MendedMesh out = geometry::mend(mesh);
   if (out.after.is_body() && !out.mesh.triangles.empty() && out.after.encloses()) {
     for (const geometry::Change& change : out.changes) notes.push_back(tr("mended: {}", change.words));
+    const auto pieces = std::count_if(out.after.shells.list.begin(), out.after.shells.list.end(),
+                                      [](const geometry::Shell& shell) { return !shell.is_cavity; });
+    if (pieces > 1)
+      notes.push_back(
+          tr("{} separate pieces are taken as one body; \"part\" takes one of the file's parts, if it has several",
+             pieces));
     return std::move(out.mesh);
   }
-  std::string left;
-  for (const std::string& words : out.left) left += (left.empty() ? "" : "; ") + words;
+  std::string left = geometry::joined_notes(out.left);
+  if (!notes.empty()) left += tr(" (of the file: {})", geometry::joined_notes(notes));
   throw core::BadInput(
       {{{path.generic_string(), 0, 0},
         tr("expected a surface that can be closed, got: {}; close or thicken it in the program that made it",

@@ -23,7 +23,8 @@ namespace keys = scene::keys;
 using scene::JsonObject;
 using scene::JsonValue;
 
-constexpr double kCells = 700;  // of a body whose cells nobody has chosen
+constexpr double kMostPlace = 2000;  // [mm] of a body in a scene
+constexpr double kCells = 700;       // of a body whose cells nobody has chosen
 
 /// The part of a drawing that is meant; none: told through `o`.
 const CadPart* chosen_part(const JsonObject& o, const std::vector<CadPart>& parts) {
@@ -54,12 +55,25 @@ std::optional<DrawnPart> drawn_part(const JsonObject& o, const fs::path& path, c
   return out;
 }
 
-void put_surface(const JsonObject& o, Draft& draft, const geometry::TriMesh& mesh, JsonValue& solid) {
+/// False: a fault, told through `o`, of a key that can set it right.
+bool is_near(const JsonObject& o, Vec3d centre) {
+  const double most = std::max({std::fabs(centre.x), std::fabs(centre.y), std::fabs(centre.z)});
+  if (most <= kMostPlace) return true;
+  o.fault("file", tr("expected a body within {:g} mm of the origin, got its middle at ({:.6g}, {:.6g}, {:.6g}): "
+                     "\"centre_mm\" sets its middle, for instance [0, 0, 0]",
+                     kMostPlace, centre.x, centre.y, centre.z));
+  return false;
+}
+
+/// False: a fault, told through `o`.
+bool put_surface(const JsonObject& o, Draft& draft, const geometry::TriMesh& mesh, JsonValue& solid) {
   const geometry::Bounds box = geometry::bounds(mesh.positions);
   const Vec3d middle = (box.low + box.high) / 2.0;
   const Vec3d centre = o.has("centre_mm") ? o.vec3("centre_mm") : middle * 1e3 + o.vec3("place_mm");
+  if (!is_near(o, centre)) return false;
   scene::put(solid, "surface", surface_beside(draft.document(), o.text("name"), mesh, centre));
   draft.say(tr("{:.2f} mL in {} triangles", 1e6 * geometry::volume(mesh), mesh.triangles.size()));
+  return true;
 }
 
 /// Control points are where the file has them: what moves a body moves it afterwards.
@@ -133,8 +147,8 @@ void from_file(const JsonObject& o, Draft& draft) {
     mesh = std::move(there->mesh);
     if (part->nurbs && o.text("as") != "surface")
       put_nurbs(o, draft, *part, there->scale, solid);
-    else
-      put_surface(o, draft, mesh, solid);
+    else if (!put_surface(o, draft, mesh, solid))
+      return;
     draft.say(there->notes);
   } else {
     std::optional<FileMesh> there = mesh_from_file(o, path);
@@ -142,7 +156,7 @@ void from_file(const JsonObject& o, Draft& draft) {
     if (o.text("as") == "nurbs")
       return o.fault("as", "expected a STEP or IGES file: to triangles one is fitted, by fit_spline");
     mesh = std::move(there->mesh);
-    put_surface(o, draft, mesh, solid);
+    if (!put_surface(o, draft, mesh, solid)) return;
     draft.say(there->notes);
   }
   scene::put(solid, "cell_mm", number(cell_mm(o, mesh)));

@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
+#include <trocar/core/text.hpp>
+#include <trocar/geometry/surfaces/tri_mesh.hpp>
 #include <trocar/geometry/volumes/embed.hpp>
 #include <trocar/geometry/volumes/lattice.hpp>
 #include <trocar/scene/compile/body_surface.hpp>
@@ -46,6 +49,15 @@ void weigh(tissue::NetworkDescription& network, double mass) {
   for (double& m : network.mass) m *= mass / sum;
 }
 
+std::string too_thin(const geometry::TriMesh& mesh, double cell) {
+  const geometry::Bounds box = geometry::bounds(mesh.positions);
+  const Vec3d size = 1e3 * (box.high - box.low);
+  return tr(
+      "one of {:.3g} x {:.3g} x {:.3g} mm, which holds no cell of {:g} mm: make \"cell_mm\" smaller, or correct "
+      "\"unit_mm\" of its file",
+      size.x, size.y, size.z, 1e3 * cell);
+}
+
 }  // namespace
 
 void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim::Model& model,
@@ -57,6 +69,7 @@ void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
   options.along = fine.along;
   options.apart = shape.apart();
   const geometry::Lattice lattice = geometry::make_lattice(fine.mesh, solid.cell, options);
+  if (lattice.nodes.empty()) throw std::invalid_argument(too_thin(fine.mesh, solid.cell));
 
   tissue::LatticeMaterial material;
   const tissue::BulkShare share = tissue::bulk_share(tissue.young, tissue.poisson);
