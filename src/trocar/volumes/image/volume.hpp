@@ -22,7 +22,7 @@ struct Volume {
   std::vector<std::int16_t> stored;  ///< the first axis fastest, the third slowest
   double scale = 1, offset = 0;      ///< value = offset + scale * stored; scale > 0
   double error = 0;                  ///< greatest difference to the file's values; 0 where all are kept
-  std::string unit;                  ///< "HU" of CT; empty where nobody said
+  std::string unit;                  ///< of CT: "HU", or what the file says instead; empty where it is not known
 
   double value_of(std::int16_t number) const { return offset + scale * number; }
   double value(int i, int j, int k) const { return value_of(stored[grid.index(i, j, k)]); }
