@@ -175,6 +175,29 @@ void place_grid(const Header& h, const Source& source, Vec3d& origin, Mat3d& ste
   step = Mat3d::from_columns(mm * lps(columns[0]), mm * lps(columns[1]), mm * lps(columns[2]));
 }
 
+/// @param least  bytes before the voxels, at least
+void take_voxels(const Source& source, const Header& h, std::int64_t frames, std::size_t least, bool packed,
+                 Raster& raster) {
+  if (!(h.vox_offset >= 0 && h.vox_offset <= 1e9))
+    refuse(source.file, tr("expected voxels within the file, got them at byte {}", h.vox_offset));
+  const int frame = choose_frame(source, frames, "time points");
+  // Writers of old left the offset 0 and meant: right behind the header.
+  const std::size_t first = std::max(std::size_t(h.vox_offset), least), wanted = raster.wanted(),
+                    all = wanted * std::size_t(frames), from = first + std::size_t(frame) * wanted;
+  bool more = false;
+  if (packed) {
+    raster.owned = inflated_part(source.bytes, Wrapping::gzip, {from, wanted, first + all - from - wanted}, source.file,
+                                 told_by(part(source.options.progress, 0, 0.5)), more);
+  } else if (first > source.bytes.size() || all > source.bytes.size() - first) {
+    refuse(source.file,
+           tr("expected {} bytes of voxels from byte {} on, got a file of {} bytes", all, first, source.bytes.size()));
+  } else {
+    raster.bytes = source.bytes.substr(from, wanted);
+    more = source.bytes.size() - first > all;
+  }
+  if (more) tell_longer(source, all);
+}
+
 }  // namespace
 
 bool looks_like_nifti(std::string_view bytes) {
@@ -233,26 +256,7 @@ Raster read_nifti(const Source& source) {
   raster.element = element_of(h, source.file);
   if (h.slope != 0 && std::isfinite(h.slope) && std::isfinite(h.intercept) && (h.slope != 1 || h.intercept != 0))
     raster.rescale = {{h.slope, h.intercept}};
-  const std::size_t least = version == Version::one ? 352 : 544;
-  if (!(h.vox_offset >= 0 && h.vox_offset <= 1e9))
-    refuse(source.file, tr("expected voxels within the file, got them at byte {}", h.vox_offset));
-  const std::int64_t frames = dim(4);
-  const int frame = choose_frame(source, frames, "time points");
-  // Writers of old left the offset 0 and meant: right behind the header.
-  const std::size_t first = std::max(std::size_t(h.vox_offset), least), wanted = raster.wanted(),
-                    all = wanted * std::size_t(frames), from = first + std::size_t(frame) * wanted;
-  bool more = false;
-  if (packed) {
-    raster.owned = inflated_part(source.bytes, Wrapping::gzip, {from, wanted, first + all - from - wanted}, source.file,
-                                 told_by(part(source.options.progress, 0, 0.5)), more);
-  } else if (first > source.bytes.size() || all > source.bytes.size() - first) {
-    refuse(source.file,
-           tr("expected {} bytes of voxels from byte {} on, got a file of {} bytes", all, first, source.bytes.size()));
-  } else {
-    raster.bytes = source.bytes.substr(from, wanted);
-    more = source.bytes.size() - first > all;
-  }
-  if (more) tell_longer(source, all);
+  take_voxels(source, h, dim(4), version == Version::one ? 352 : 544, packed, raster);
   return raster;
 }
 
