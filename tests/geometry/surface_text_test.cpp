@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/geometry/remesh/remeshed.hpp>
 #include <trocar/geometry/repair/examine.hpp>
 #include <trocar/geometry/surface_files/surface_file.hpp>
 
@@ -250,6 +251,10 @@ TEST(ObjFiles, APolygonOfManyCornersIsCutInHalvesAndACylinderOfThemIsABody) {
     EXPECT_EQ(int(mesh.triangles.size()), 4 * corners - 4);
     for (Vec3d& p : mesh.positions) p = 1e-3 * p;
     EXPECT_TRUE(examine(mesh).is_body()) << corners;
+    const Remeshed even = remeshed(mesh, 0.006);  // of 3000 corners in a second: needles are not split
+    EXPECT_TRUE(examine(even.mesh).is_body()) << corners;
+    EXPECT_NEAR(volume(even.mesh) / volume(mesh), 1, 0.02) << corners;
+    EXPECT_LT(even.mesh.triangles.size(), 1500u) << corners;
     std::vector<int> at(mesh.positions.size());
     for (const auto& t : mesh.triangles)
       for (const int v : t) ++at[std::size_t(v)];

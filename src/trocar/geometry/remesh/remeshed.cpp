@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include <trocar/geometry/remesh/editable.hpp>
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kLongEdge = 4.0 / 3, kShortEdge = 4.0 / 5;  ///< of the wanted length [Botsch & Kobbelt 2004]
 constexpr double kLeastTurnKept = 0.5;                       ///< cosine between a triangle before and after a change
+constexpr int kHalvings = 3;  ///< of the wanted length: up to there a mesh that is far too fine is coarsened first
 
 constexpr const char* kTooFine = "longer edges expected: the surface would have too many triangles";
 
@@ -27,9 +29,20 @@ class Remeshing {
 
   void round() {
     split_long();
-    collapse_short();
+    collapse_short(kShortEdge * m_edge);
     flip_edges();
     relax();
+  }
+  /// A mesh that is far too fine is coarsened in steps first, so that no needle is split along its whole length, and no
+  /// vertex takes hundreds of others at once.
+  void coarsen() {
+    if (!is_far_too_fine()) return;
+    m_may_be_long = true;
+    for (int halvings = 12; halvings >= kHalvings; --halvings) {
+      collapse_short(std::ldexp(m_edge, -halvings));
+      if (halvings % 2 == 0) flip_edges();
+    }
+    m_may_be_long = false;
   }
   TriMesh taken() const { return m_work.taken(); }
   double off(Vec3d p) const { return std::sqrt(m_tree.distance2(p)); }
@@ -43,6 +56,17 @@ class Remeshing {
   double m_sharp;
   std::vector<int> m_ring;
   std::vector<char> m_border;  ///< of vertices, while edges are flipped
+
+  bool m_may_be_long = false;  ///< may edges become longer than they should be?
+
+  /// Is every tenth edge shorter than 1/32 of what is wanted?
+  bool is_far_too_fine() const {
+    std::int64_t all = 0, tiny = 0;
+    for (int f = 0; f < m_work.faces(); ++f)
+      for (int k = 0; k < 3; ++k, ++all)
+        tiny += edge_length(m_work.face(f)[k], m_work.face(f)[(k + 1) % 3]) < m_edge / 32;
+    return 10 * tiny > all;
+  }
 
   double edge_length(int a, int b) const { return length(m_work.place(a) - m_work.place(b)); }
 
@@ -81,11 +105,11 @@ class Remeshing {
     }
   }
 
-  void collapse_short() {
+  void collapse_short(double shorter) {
     for (int f = 0; f < m_work.faces(); ++f)
       for (int k = 0; m_work.alive(f) && k < 3; ++k) {
         const int a = m_work.face(f)[k], b = m_work.face(f)[(k + 1) % 3];
-        if (edge_length(a, b) >= kShortEdge * m_edge) continue;
+        if (edge_length(a, b) >= shorter) continue;
         if (collapsed(a, b)) break;
       }
   }
@@ -104,6 +128,7 @@ class Remeshing {
     if (!m_work.can_collapse(from, into)) return false;
     if (!may_move(from, into, place) || !may_move(into, from, place)) return false;
     for (const int v : {from, into}) {
+      if (m_may_be_long) break;
       m_work.neighbours(v, m_ring);
       for (const int w : m_ring)
         if (length(m_work.place(w) - place) > kLongEdge * m_edge) return false;
@@ -213,6 +238,7 @@ Remeshed remeshed(const TriMesh& mesh, double edge, const RemeshOptions& options
   if (mesh.triangles.empty()) return out;
   if (area(mesh) / (0.433 * edge * edge) > options.most_triangles) throw std::invalid_argument(kTooFine);
   Remeshing work(mesh, edge, options);
+  work.coarsen();
   for (int round = 0; round < options.rounds; ++round) work.round();
   out.mesh = work.taken();
   out.mean_edge = mean_edge_of(out.mesh);
