@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/core/hash.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/volumes/files/dicom.hpp>
 #include <trocar/volumes/files/dicom_choice.hpp>
+#include <trocar/volumes/files/dicom_digests.hpp>
 #include <trocar/volumes/files/dicom_pixels.hpp>
 #include <trocar/volumes/files/slice_stack.hpp>
 
@@ -17,46 +17,6 @@ namespace trocar::volumes {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// All frames of a file, decoded; what had to be corrected goes into the notes.
-using PixelsOf = std::function<std::vector<char>(int file, std::vector<std::string>& notes)>;
-
-/// The frames of the file that was asked for last, as files have many.
-class LastPixels {
- public:
-  explicit LastPixels(PixelsOf read) : m_read(std::move(read)) {}
-
-  const std::vector<char>& of(int file) {
-    if (file == m_file) return m_pixels;
-    m_file = -1;
-    m_notes.clear();
-    m_pixels = m_read(file, m_notes);
-    m_file = file;
-    return m_pixels;
-  }
-  const std::vector<std::string>& notes() const { return m_notes; }  ///< on that file
-
- private:
-  PixelsOf m_read;
-  std::vector<char> m_pixels;
-  std::vector<std::string> m_notes;
-  int m_file = -1;
-};
-
-PixelsDigest digest_of(const std::vector<DicomHeader>& files, LastPixels& pixels) {
-  return [&files, &pixels](ImageAt image) {
-    const DicomHeader& header = files[std::size_t(image.file)];
-    const Rescale& r = header.frames[std::size_t(image.frame)].rescale;
-    try {
-      const std::vector<char>& all = pixels.of(image.file);
-      const std::size_t bytes = all.size() / header.frames.size();
-      return fmt::format("{} {} {}", core::hex(core::hash_bytes(all.data() + bytes * std::size_t(image.frame), bytes)),
-                         r.slope, r.intercept);
-    } catch (const core::BadInput&) {
-      return std::string();
-    }
-  };
-}
 
 /// The chosen images as a volume.
 class VolumeOfImages {
@@ -213,11 +173,17 @@ void tell_copies(const DicomStack& stack, const std::vector<DicomHeader>& files,
     report.notes.push_back(tr("images that are there twice are read once; left out: {}", few_of(names)));
 }
 
+std::vector<DicomStack> stacks_of(const DicomFolder& folder, LastPixels& pixels, const std::string& name) {
+  PixelDigests digests(folder.files, pixels);
+  return dicom_stacks(
+      folder.files, [&](ImageAt image) { return digests.of(image); }, name);
+}
+
 /// @param file  of the folder's files: it was named; -1: none was
 Raster read_stacks(const DicomFolder& folder, int file, const std::string& name, const ReadOptions& options,
                    ReadReport& report, const PixelsOf& pixels_of) {
   LastPixels pixels(pixels_of);
-  const std::vector<DicomStack> stacks = dicom_stacks(folder.files, digest_of(folder.files, pixels), name);
+  const std::vector<DicomStack> stacks = stacks_of(folder, pixels, name);
   const DicomStack& stack = stacks[choose_stack(folder, stacks, file, name, options, report)];
   const int group = choose_group(stack, file, name, options, report);
   tell_copies(stack, folder.files, report);
@@ -283,7 +249,7 @@ std::vector<SeriesFacts> dicom_series(const fs::path& path, const ReadOptions& o
     return pixels_of_file(folder.files[std::size_t(file)], options, notes);
   });
   std::vector<SeriesFacts> out;
-  for (const DicomStack& stack : dicom_stacks(folder.files, digest_of(folder.files, pixels), path.generic_string()))
+  for (const DicomStack& stack : stacks_of(folder, pixels, path.generic_string()))
     out.push_back(facts_of(stack, folder.files));
   return out;
 }
