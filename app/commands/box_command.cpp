@@ -86,7 +86,7 @@ std::vector<sim::Input> inputs_of(const SimulateChoice& o, const attempt::Lesson
   });
 }
 
-/// What whoever reads the software box does, where it matters to its hands.
+/// What the reader of the software box does, where it matters to its hands.
 void tell_of_reader(devices::PortReader before, devices::PortReader now, double seconds) {
   using devices::PortReader;
   if (now == PortReader::stopped)

@@ -6,6 +6,7 @@
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/devices/steady_now.hpp>
 #include <trocar/devices/tracker/tracker_thread.hpp>
 
 #include "commands/command.hpp"
@@ -17,23 +18,14 @@ namespace {
 
 using devices::TrackerThread;
 
-constexpr double kUnseenMs = 500;  // as in an attempt
-
 struct TrackerChoice {
   std::string place;
   double seconds = 0;
 };
 
-std::int64_t steady_nanoseconds() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-double age_ms(const TrackerThread::Heard<devices::TrackedPose>& tool) {
-  return 1e-6 * double(steady_nanoseconds() - tool.at);
-}
+std::int64_t age(const TrackerThread::Heard<devices::TrackedPose>& tool) { return devices::steady_now() - tool.at; }
 bool is_seen(const TrackerThread::Heard<devices::TrackedPose>& tool) {
-  return tool.times > 0 && tool.unseen.empty() && age_ms(tool) < kUnseenMs;
+  return tool.times > 0 && tool.unseen.empty() && age(tool) < devices::kUnseen;
 }
 
 Json tool_json(const TrackerThread::Heard<devices::TrackedPose>& tool) {
@@ -42,7 +34,7 @@ Json tool_json(const TrackerThread::Heard<devices::TrackedPose>& tool) {
   if (tool.times == 0) return out;
   const Vec3d at = tool.what.place;
   out["at_mm"] = {1000 * at.x, 1000 * at.y, 1000 * at.z};
-  out["age_ms"] = age_ms(tool);
+  out["age_ms"] = 1e-6 * double(age(tool));
   return out;
 }
 
@@ -60,16 +52,16 @@ Json seen_json(const TrackerThread& tracker) {
 
 void show_tool(const TrackerThread::Heard<devices::TrackedPose>& tool) {
   const std::string& name = tool.what.name;
-  const double age = age_ms(tool);
+  const double ms = 1e-6 * double(age(tool));
   if (is_seen(tool)) {
     fmt::print("{}", tr("  {:20} {:9.1f} {:9.1f} {:9.1f} mm  {:5.0f} ms old  {} times\n", name,
-                        1000 * tool.what.place.x, 1000 * tool.what.place.y, 1000 * tool.what.place.z, age, tool.times));
+                        1000 * tool.what.place.x, 1000 * tool.what.place.y, 1000 * tool.what.place.z, ms, tool.times));
   } else if (tool.times == 0) {
     fmt::print("{}", tr("  {:20} not seen ({})\n", name, tool.unseen));
   } else if (tool.unseen.empty()) {
-    fmt::print("{}", tr("  {:20} not seen for {:.1f} s\n", name, 1e-3 * age));
+    fmt::print("{}", tr("  {:20} not seen for {:.1f} s\n", name, 1e-3 * ms));
   } else {
-    fmt::print("{}", tr("  {:20} not seen for {:.1f} s ({})\n", name, 1e-3 * age, tool.unseen));
+    fmt::print("{}", tr("  {:20} not seen for {:.1f} s ({})\n", name, 1e-3 * ms, tool.unseen));
   }
 }
 
@@ -89,8 +81,8 @@ int monitor_tracker(const TrackerChoice& o, bool json) {
   const Place place = parse_place(o.place, "tracker");
   attempt::catch_interrupts();
   const TrackerThread tracker(place.address, place.port);
-  const std::int64_t end = o.seconds > 0 ? steady_nanoseconds() + std::int64_t(1e9 * o.seconds) : INT64_MAX;
-  while (!attempt::interrupted() && steady_nanoseconds() < end) {
+  const std::int64_t end = o.seconds > 0 ? devices::steady_now() + std::int64_t(1e9 * o.seconds) : INT64_MAX;
+  while (!attempt::interrupted() && devices::steady_now() < end) {
     std::this_thread::sleep_for(std::chrono::milliseconds(json ? 100 : 1000));
     if (json)
       fmt::print("{}\n", seen_json(tracker).dump());

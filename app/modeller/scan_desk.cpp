@@ -135,9 +135,10 @@ std::optional<LostSegments> lost_segments(const std::filesystem::path& folder) {
 
 void ScanDesk::take_what_was_read() {
   if (!m_reading.valid() || m_reading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  std::vector<std::string> notes;
   try {
     std::unique_ptr<modeller::Scan> read = m_reading.get();
-    if (m_keeps_labels && m_scan) read->take_labels(m_scan->labels());
+    if (m_keeps_labels && m_scan) notes = read->take_labels(m_scan->labels());
     m_caster.reset();
     m_scan = std::move(read);
   } catch (const volumes::SeriesChoice& choice) {
@@ -183,6 +184,7 @@ void ScanDesk::take_what_was_read() {
   ++m_look, ++m_block_wanted;
   say(tr("{} x {} x {} voxels of {:.2f} x {:.2f} x {:.2f} mm", v.grid.size[0], v.grid.size[1], v.grid.size[2],
          v.grid.spacing.x, v.grid.spacing.y, v.grid.spacing.z));
+  for (const std::string& note : notes) m_message.text += "; " + note;
   for (const std::string& note : m_scan->report().notes) m_message.text += "; " + note;
 }
 

@@ -120,11 +120,6 @@ Json summary(const reports::Report& r) {
   return out;
 }
 
-/// Of its page. A row may say anything of its uuid, which must not lead elsewhere.
-fs::path folder_of(const Store& store, const Attempt& a) {
-  return store.folder() / "reports" / (training::is_uuid(a.uuid) ? a.uuid : fmt::format("attempt-{}", a.number));
-}
-
 int report(Store& store, const Options& o, bool json) {
   Attempt attempt = chosen(store, o);
   if (!o.compare.empty()) {
@@ -150,7 +145,7 @@ int report(Store& store, const Options& o, bool json) {
   }
   const bool page = !o.out.empty() || (!json && o.csv.empty() && o.trace.empty());
   if (page) {
-    const fs::path folder = o.out.empty() ? folder_of(store, r.attempt) : fs::path(o.out);
+    const fs::path folder = o.out.empty() ? page_folder(store, r.attempt) : fs::path(o.out);
     attempt::make_folder(folder);
     if (!o.no_pictures && !r.attempt.recording.empty()) reports::add_pictures(r, r.attempt.recording, folder);
     result["report"] = reports::write_report(folder, r);

@@ -41,8 +41,8 @@ std::vector<fs::path> pages_of(const Store& store, const std::string& trainee) {
   std::vector<fs::path> pages;
   for (const Attempt& a : store.list({.trainee = trainee})) {
     std::error_code error;
-    const fs::path page = store.folder() / "reports" / a.uuid;
-    if (training::is_uuid(a.uuid) && fs::exists(page, error)) pages.push_back(page);
+    const fs::path page = page_folder(store, a);
+    if (fs::exists(page, error)) pages.push_back(page);
   }
   return pages;
 }
@@ -101,6 +101,10 @@ void say_gone(const Store& store, const std::string& trainee, const Store::Forgo
 }
 
 }  // namespace
+
+fs::path page_folder(const Store& store, const Attempt& a) {
+  return store.folder() / "reports" / (training::is_uuid(a.uuid) ? a.uuid : fmt::format("attempt-{}", a.number));
+}
 
 std::string no_attempts_of(const Store& store, const std::string& trainee) {
   std::string known;

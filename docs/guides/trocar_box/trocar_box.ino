@@ -1,8 +1,8 @@
 // Instrument box for Trocar: 48 potentiometers and 32 switches at an Arduino Nano or Uno.
 // docs/guides/box_build.md has the parts, the wiring and how to try it.
 //
-// Six MCP3208 (8 channels of 12 bits each) and two MCP23S17 (16 switches each) share the SPI bus. What is not fitted
-// reads 0, or open. Channels and switches are measured all the time, so that an answer begins at once.
+// Six MCP3208 (8 channels of 12 bits each) and two MCP23S17 (16 switches each) share the SPI bus.
+// Channels and switches are measured all the time, so that an answer begins at once.
 #include <SPI.h>
 
 #include "box_protocol.h"
@@ -10,7 +10,8 @@
 const long kBaud = 38400;            // as "baud" of box.json; 57600 or more for all 48 channels in frames
 const bool kRaw = false;             // true: "protocol": "raw"
 const uint8_t kConverters[] = {4, 5, 6, 7, 8, 9};  // pins that select the MCP3208, channels rising
-const uint8_t kSwitches = 10;        // pin that selects both MCP23S17, whose addresses are 0 and 1
+const uint8_t kSwitches = 10;        // pin that selects the MCP23S17, whose addresses are 0 and 1
+const uint8_t kSwitchChips = 2;      // that are fitted: 0, 1 or 2. The switches of others are open
 
 const SPISettings kConverterBus(1000000, MSBFIRST, SPI_MODE0);  // the MCP3208 allow 2 MHz at 5 V
 const SPISettings kSwitchBus(4000000, MSBFIRST, SPI_MODE0);
@@ -65,7 +66,7 @@ void setup() {
   digitalWrite(kSwitches, HIGH);
   SPI.begin();
   write_switches(0, kConfiguration, 0x08, 0x08);  // addresses count from here on; until then both take address 0
-  for (uint8_t address = 0; address < 2; ++address) write_switches(address, kPullUps, 0xff, 0xff);
+  for (uint8_t address = 0; address < kSwitchChips; ++address) write_switches(address, kPullUps, 0xff, 0xff);
   Serial.begin(kBaud);
 }
 
@@ -74,7 +75,9 @@ void measure() {
   measured.code[next_channel] = read_channel(next_channel);
   if (++next_channel < trocar_box::kChannels) return;
   next_channel = 0;
-  measured.bits = ~(uint32_t(read_switches(0)) | uint32_t(read_switches(1)) << 16);
+  measured.bits = 0;
+  for (uint8_t address = 0; address < kSwitchChips; ++address)
+    measured.bits |= uint32_t(uint16_t(~read_switches(address))) << 16 * address;
 }
 
 void loop() {

@@ -59,7 +59,7 @@ const GuideState* Findings::guide_at(std::uint64_t tick) const {
 
 Findings findings_of_result(const std::string& result_json) {
   Findings found;
-  const Json result = Json::parse(result_json, nullptr, false);
+  const Json result = training::json_in(result_json);
   if (!result.is_object() || !result.contains("assessment") || !result["assessment"].is_object()) return found;
   const Json& assessment = result["assessment"];
   std::vector<std::pair<std::uint64_t, std::size_t>> done;

@@ -45,7 +45,7 @@ constexpr FlagName kFlags[] = {
     {tissue::StepReport::kBeyondLinear, "beyond_linear",
      "An organ has turned further than its model allows: its forces and its shape are inaccurate."},
     {sim::StepReport::kEventsFull, "events_full",
-     "More has happened than the record of events holds: further events are not counted. Restart the exercise."},
+     "More happened at one moment than can be counted: some of its events are not assessed."},
 };
 
 }  // namespace
@@ -136,7 +136,10 @@ void Session::watch_tick() {
     m_tip[t] = tip;
   }
   if (m_monitor) m_monitor->update(m_lesson.model, m_state, m_report);
-  if (m_monitor && m_monitor->rules().events().lost()) m_flags |= sim::StepReport::kEventsFull;
+  if (m_monitor && m_monitor->rules().events().lost()) {
+    warn_of(sim::StepReport::kEventsFull & ~m_flags);
+    m_flags |= sim::StepReport::kEventsFull;
+  }
   m_trace.update(m_lesson.model, m_state, m_report);
   if (m_exercise_from < 0 && m_monitor && m_monitor->seconds() > 0)
     m_exercise_from = double(m_state.tick) * sim::kTick - m_monitor->seconds();

@@ -126,6 +126,7 @@ std::unique_ptr<Video> Video::open(const fs::path& path, PictureSize size) {
   std::error_code error;
   if (fs::is_directory(path, error))
     throw core::EnvironmentLacks(tr("cannot write the film {}: it is a folder", path.string()));
+  core::remove_unfinished(fs::absolute(path).parent_path(), path.filename().string());
   const fs::path part = core::unfinished_name(fs::absolute(path));  // absolute: never an option, never a protocol
   make_empty(part);
   std::vector<std::string> words{"-y", "-loglevel", "error", "-f", "rawvideo", "-pixel_format", "rgb24"};

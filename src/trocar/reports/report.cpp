@@ -7,6 +7,7 @@
 #include <trocar/core/log.hpp>
 #include <trocar/pictures/headless.hpp>
 #include <trocar/reports/report.hpp>
+#include <trocar/training/store/json_fields.hpp>
 
 namespace trocar::reports {
 
@@ -22,7 +23,7 @@ std::optional<double> number_in(const Json& result, const std::string& pointer) 
 
 Report gather(const training::Store* store, Attempt attempt) {
   Report r;
-  Json result = Json::parse(attempt.result, nullptr, false);
+  Json result = training::json_in(attempt.result);
   if (result.is_object()) r.result = std::move(result);
   if (r.result.contains("failure")) r.result.erase("assessment");  // an older result may hold one
   if (!attempt.trace.empty()) try {

@@ -15,7 +15,6 @@ using namespace kinematics;
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr double kNoLimit = 1e5;      // a limit beyond this is none [rad, m]
 constexpr int kMostTries = 20;        // for each pose within limits that is wanted
 constexpr int kPlainSequence = 8;     // freedoms up to which Halton's sequence fills a cube as it is
 constexpr std::int64_t kLeap = 1009;  // beyond, every so many of its points; no base divides it [Kocis & Whiten 1997]
@@ -34,7 +33,7 @@ Mechanism led(const Mechanism& m) {
   }
   for (int u = 0; u < m.u_count(); ++u) {
     const auto q = std::size_t(m.independent[std::size_t(u)]);
-    const bool limited = m.low[q] > -kNoLimit && m.high[q] < kNoLimit;
+    const bool limited = m.low[q] > -kinematics::kNoLimit && m.high[q] < kinematics::kNoLimit;
     if (follows[std::size_t(u)] || (!limited && m.measures[q] != Measure::angle)) continue;
     out.drives.push_back(
         {m.coordinates[q], u, 0, limited ? m.low[q] : -portable::pi, limited ? m.high[q] : portable::pi});

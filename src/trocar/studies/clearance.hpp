@@ -3,10 +3,11 @@
 //   const ClearanceReport r = clearance_over_motion(m, {});
 //   r.least;  r.pairs[0].first; r.pairs[0].handles;             // how near, which links, and where
 //
-// Parts that a joint or a closure connects are neighbours, and meant to touch there (link_pairs.hpp): they are told of
-// only where they are in each other off the joint, and deeper than drawn. Another pair that overlaps in every pose is
-// modelled so (hinged on one pin) and is reported separately. A mechanism without drives is led by the coordinates that
-// its loops leave free. Poses of several drives are of Halton's sequence, until enough of them are within limits.
+// Parts that a joint or a closure connects are neighbours, and meant to touch there (link_pairs.hpp): they are
+// reported only where they are in each other off the joint, and deeper than drawn. Another pair that overlaps in every
+// pose is modelled so (hinged on one pin) and is reported separately. A mechanism without drives is led by the
+// coordinates that its loops leave free. Poses of several drives are of Halton's sequence, until enough of them are
+// within limits.
 #pragma once
 
 #include <string>

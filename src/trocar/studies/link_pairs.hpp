@@ -6,8 +6,8 @@
 // that depth on.
 //
 //   const LinkPairs pairs(m, {});
-//   const std::vector<double> drawn = pairs.drawn(pose);             // of the pose as described
-//   pairs.gap(pairs.all()[0], pose, drawn);
+//   const std::vector<double> drawn = pairs.drawn(m, pose);   // of the pose as described
+//   pairs.gap(pairs.all()[0], m, pose, drawn);
 #pragma once
 
 #include <span>

@@ -17,7 +17,7 @@ std::string capital(std::string text) {
 
 std::vector<Doing> doings_of_result(const std::string& result_json) {
   std::vector<Doing> doings;
-  const Json result = Json::parse(result_json, nullptr, false);
+  const Json result = training::json_in(result_json);
   const Json::json_pointer at("/surgeon/performed");
   if (!result.is_object() || !result.contains(at) || !result[at].is_array()) return doings;
   for (const Json& d : result[at])

@@ -10,18 +10,13 @@
 #include <trocar/attempt/tracker/tracked_source.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/devices/steady_now.hpp>
 #include <trocar/numerics/portable.hpp>
 
 namespace trocar::attempt {
 namespace {
 
-constexpr std::int64_t kUnseen = 500'000'000;  // [ns] a tool that was not seen for so long is away
-constexpr std::size_t kNamesTold = 5;          // of tools that are seen instead
-
-std::int64_t steady_now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
+constexpr std::size_t kNamesTold = 5;  // of tools that are seen instead
 
 /// By whole turns nearest to `before`.
 double unwrapped_roll(double roll, double before) {
@@ -81,7 +76,7 @@ TrackedSource::TrackedSource(InputSource& own, const sim::Model& model, const Tr
 std::string TrackedSource::missing() const {
   const std::string place = m_tracker.place();
   if (!m_tracker.status().connected) return tr("the tracker at {} has disconnected", place);
-  const std::int64_t now = steady_now();
+  const std::int64_t now = devices::steady_now();
   std::map<std::string, std::string> led_by;  // what is sent, and which tool of the file takes it
   for (const Led& led : m_led) {
     const std::string& name = led.tool->transform;
@@ -90,7 +85,7 @@ std::string TrackedSource::missing() const {
     if (const auto [other, is_new] = led_by.emplace(seen->what.name, name); !is_new && other->second != name)
       return tr("the tools {} and {} cannot be distinguished: the tracker cuts both names to {}. Shorten one of them.",
                 other->second, name, seen->what.name);
-    if (seen->at + kUnseen >= now) continue;
+    if (seen->at + devices::kUnseen >= now) continue;
     return seen->unseen.empty() ? tr("the tracked tool {} is not visible", name)
                                 : tr("the tracked tool {} is not visible ({})", name, seen->unseen);
   }
@@ -102,7 +97,7 @@ std::string TrackedSource::never_seen(const std::string& name, const std::string
   std::string others;
   std::size_t count = 0;
   for (const auto& heard : m_tracker.poses())
-    if (count++ < kNamesTold) others += (others.empty() ? "" : ", ") + heard.what.name;
+    if (heard.times > 0 && count++ < kNamesTold) others += (others.empty() ? "" : ", ") + heard.what.name;
   return others.empty() ? tr("the tracked tool {} has not been seen yet", name)
                         : tr("the tracked tool {} has not been seen yet; the tracker sends {}", name, others);
 }
@@ -137,7 +132,7 @@ void TrackedSource::follow(Led& led, const devices::TrackedPose& seen, const sim
 
 bool TrackedSource::next(const sim::State& state, sim::Input& input) {
   if (!m_own.next(state, input)) return false;
-  const std::int64_t now = steady_now();
+  const std::int64_t now = devices::steady_now();
   const bool stood_still = m_last_next != 0 && now - m_last_next > kStoodStill;
   m_last_next = now;
   for (Led& led : m_led) {

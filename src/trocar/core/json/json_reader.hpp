@@ -57,7 +57,7 @@ struct JsonDocument {
 inline constexpr int kMaxJsonDepth = 64;
 inline constexpr int kMaxJsonValues = 500'000;
 inline constexpr std::size_t kMaxJsonKeys = 256;  ///< in one object
-inline constexpr std::size_t kMaxFaults = 1000;   ///< told of one reading
+inline constexpr std::size_t kMaxFaults = 1000;   ///< reported of one text
 
 /// How much a text may hold: asked while it is read, so that what is refused takes neither time nor memory.
 struct JsonLimits {

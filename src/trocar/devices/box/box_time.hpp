@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cstdint>
 
+#include <trocar/devices/steady_now.hpp>
+
 namespace trocar::devices {
 
 using BoxTime = std::int64_t;  ///< [ns]
@@ -12,10 +14,7 @@ using BoxTime = std::int64_t;  ///< [ns]
 constexpr BoxTime box_time(double seconds) noexcept { return BoxTime(seconds * 1e9); }
 constexpr double box_seconds(BoxTime time) noexcept { return double(time) * 1e-9; }
 
-inline BoxTime box_now() noexcept {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
+inline BoxTime box_now() noexcept { return steady_now(); }
 
 inline constexpr int kBitsPerByte = 10;  ///< on the line: start bit, eight, stop bit
 /// How long the line needs for so many bytes.

@@ -12,7 +12,7 @@ namespace trocar::devices {
 enum class PortReader : unsigned char { none, asks, stopped };
 
 /// Until `stop` says so, which is asked some fifty times a second.
-/// @param changed  is told what whoever reads does now: the port was opened or closed, requests stopped or continue
+/// @param changed  is called when the reader opens or closes the port, and when its requests stop or continue
 void serve(SoftwareBox& box, PseudoTerminal& terminal, const std::function<bool()>& stop,
            const std::function<void(PortReader)>& changed = {});
 

@@ -14,17 +14,13 @@
 #include <trocar/core/text.hpp>
 #include <trocar/devices/haptics/seam_device.hpp>
 #include <trocar/devices/haptics/seam_protocol.hpp>
+#include <trocar/devices/steady_now.hpp>
 
 namespace trocar::devices {
 namespace {
 
 constexpr int kMostDatagrams = 64;  // datagrams looked at in one read()
 constexpr auto kListenAgain = std::chrono::milliseconds(1);
-
-std::int64_t steady_nanoseconds() noexcept {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 /// For devices that do not state their abilities: soft and weak.
 HapticCapabilities modest() {
@@ -105,7 +101,7 @@ bool SeamDevice::take_datagram(HapticSample& sample, bool& any) noexcept {
   }
   const std::optional<HapticSample> said = read_sample(datagram);
   if (!said) return true;
-  if (!m_has_peer) m_first_sample = steady_nanoseconds();
+  if (!m_has_peer) m_first_sample = steady_now();
   m_peer = from;
   m_has_peer = true;
   m_number = said->number;
@@ -119,7 +115,7 @@ const HapticCapabilities* SeamDevice::new_capabilities() noexcept {
 }
 
 bool SeamDevice::may_push() const noexcept {
-  return m_has_stated || steady_nanoseconds() - m_first_sample >= std::int64_t(1e9 * kPatience);
+  return m_has_stated || steady_now() - m_first_sample >= std::int64_t(1e9 * kPatience);
 }
 
 bool SeamDevice::read(HapticSample& sample) noexcept {

@@ -9,6 +9,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/devices/steady_now.hpp>
 #include <trocar/devices/tcp_client.hpp>
 #include <trocar/devices/tracker/tracker_thread.hpp>
 
@@ -17,11 +18,6 @@ namespace {
 
 constexpr int kLookEvery = 50;                              // whether it is over [ms]
 constexpr auto kTryAgain = std::chrono::milliseconds(300);  // after every end and every refusal of a connection
-
-std::int64_t steady_now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 /// The place of a name; null: the list is full. Who sends ever new names is heard with the first ones only.
 template <class T>

@@ -15,6 +15,8 @@
 
 namespace trocar::devices {
 
+inline constexpr std::int64_t kUnseen = 500'000'000;  ///< a tool that was not seen for so long is away [ns]
+
 class TrackerThread {
  public:
   TrackerThread(std::string address, int port);

@@ -541,8 +541,7 @@ void turn_in_jaws(const SutureWork& w, int hand, const ToolModel& model, const T
 }
 
 /// Where the grip bears no more the needle slides: the jaws have it where it is now, strained by what they bear. One
-/// that is pushed against a jaw with more than the jaws' grip spreads them and comes out.                  [needle in
-/// jaws]
+/// that is pushed against a jaw with more than the jaws' grip spreads them and comes out. [needle in jaws]
 void slide_in_jaws(const SutureModel& m, const SutureState& s, const SutureWork& w, int hand, const ToolShape& shape,
                    ToolState& tool) noexcept {
   constexpr double kSpread = 0.0015;  // [m] of the needle beside the jaws' mid-plane

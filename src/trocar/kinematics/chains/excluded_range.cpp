@@ -9,7 +9,6 @@
 namespace trocar::kinematics {
 namespace {
 
-constexpr double kNoLimit = 1e5;    // a limit beyond this is none [rad, m]
 constexpr double kRounding = 1e-3;  // of a range: files round angles
 
 struct Interval {
@@ -32,21 +31,23 @@ std::vector<ExcludedRange> excluded_ranges(const Mechanism& m) {
   std::vector<ExcludedRange> out;
   for (const int i : m.dependents) {
     const auto q = std::size_t(i);
-    ExcludedRange led{i, m.offset[q], m.offset[q], {}};
+    ExcludedRange led{i, m.offset[q], m.offset[q], -1};
     bool known = true;
+    int leaders = 0;
     for (int k = m.expand_start[q]; k < m.expand_start[q + 1]; ++k) {
       const Mechanism::Entry& e = m.expand[std::size_t(k)];
       const Interval leader = range_of(m, e.u);
       if (e.ratio == 0) continue;
       known = known && leader.bounded();
-      led.leaders.push_back(m.independent[std::size_t(e.u)]);
+      led.leader = m.independent[std::size_t(e.u)];
+      ++leaders;
       led.low += e.ratio * (e.ratio > 0 ? leader.low : leader.high);
       led.high += e.ratio * (e.ratio > 0 ? leader.high : leader.low);
     }
     const double slack = kRounding * (led.high - led.low) + 1e-9;
-    if (led.leaders.size() == 1 && known && std::isfinite(led.high - led.low) &&
+    if (leaders == 1 && known && std::isfinite(led.high - led.low) &&
         (led.low < m.low[q] - slack || led.high > m.high[q] + slack))
-      out.push_back(std::move(led));
+      out.push_back(led);
   }
   return out;
 }
@@ -55,13 +56,10 @@ std::string words(const Mechanism& m, const ExcludedRange& range) {
   const auto q = std::size_t(range.coordinate);
   const bool angle = m.measures[q] == Measure::angle;
   const double unit = angle ? 180 / portable::pi : 1e3;
-  std::string leaders;
-  for (const int l : range.leaders) leaders += (leaders.empty() ? "" : ", ") + m.coordinates[std::size_t(l)];
   return tr(
       "{} follows {}, which leads it from {:.4g} to {:.4g} {}; its own limits are {:.4g} to {:.4g}. It cannot go "
-      "beyond "
-      "them: correct its limits, or its ratio (\"multiplier\").",
-      m.coordinates[q], leaders.empty() ? tr("nothing") : leaders, unit * range.low, unit * range.high,
+      "beyond them: correct its limits, or its ratio (\"multiplier\").",
+      m.coordinates[q], m.coordinates[std::size_t(range.leader)], unit * range.low, unit * range.high,
       angle ? tr("degrees") : tr("mm"), unit * m.low[q], unit * m.high[q]);
 }
 

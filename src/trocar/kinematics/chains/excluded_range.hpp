@@ -13,7 +13,7 @@ namespace trocar::kinematics {
 struct ExcludedRange {
   int coordinate = 0;        ///< into q
   double low = 0, high = 0;  ///< where it is led [rad, m]
-  std::vector<int> leaders;  ///< into q: the one that leads it
+  int leader = -1;           ///< into q
 };
 
 /// Of all coordinates that follow one other. Leaders go as far as their drives, else as their limits; one without

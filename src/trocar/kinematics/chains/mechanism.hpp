@@ -28,6 +28,8 @@
 
 namespace trocar::kinematics {
 
+inline constexpr double kNoLimit = 1e5;  ///< a limit beyond this is none [rad, m]
+
 enum class Motion : unsigned char { none, turn, slide };
 
 struct Body {
@@ -96,7 +98,7 @@ struct Mechanism {
 
   std::vector<std::string> coordinates;  ///< of q
   std::vector<Measure> measures;         ///< (q) length or angle
-  std::vector<double> low, high, start;  ///< (q); without limits: infinite
+  std::vector<double> low, high, start;  ///< (q); without limits: beyond kNoLimit
   std::vector<int> independent;          ///< (u) into q
   std::vector<int> dependents;           ///< other coordinates, in an order in which each needs earlier ones only
   struct Share {

@@ -28,7 +28,10 @@ int culprit(const Model& model, const State& state, std::initializer_list<BodyId
 }
 
 void emit_torn(StepContext& c, int hand, BodyId body) noexcept {
-  if (c.report.event_count < kMaxEvents) c.report.events[c.report.event_count++] = {Event::torn, hand, body.code()};
+  if (c.report.event_count < kMaxEvents)
+    c.report.events[c.report.event_count++] = {Event::torn, hand, body.code()};
+  else
+    c.report.flags |= StepReport::kEventsFull;
 }
 
 }  // namespace trocar::sim

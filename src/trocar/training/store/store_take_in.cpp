@@ -105,6 +105,8 @@ void Store::take_in_files(Database& db) {
         notice(tr("{} is no result of an attempt and stays where it is", file.string()));
       if (!a || !is_own(file, *a)) continue;
       if (a->trainee.empty()) a->trainee = "guest";
+      const bool own = same_folder(folder, m_folder / "waiting") || folder == own_temporary_folder();
+      if (!own) mark_unverified(*a);  // it may come from anybody
       const std::string trace = read_file(trace_of(file), kLargestTrace);
       a->trace.assign(trace.begin(), trace.end());
       found.emplace_back(std::move(*a), file);

@@ -48,6 +48,23 @@ constexpr Syntax kPacked[] = {
     {"1.2.840.10008.1.2.4.91", DicomPacking::jpeg_2000},
 };
 
+bool tag_less(const DicomElement& a, const DicomElement& b) { return a.tag < b.tag; }
+
+/// Puts the elements of a data set in order where it ends, by damage too: they are searched once for each frame.
+class InOrderAtEnd {
+ public:
+  explicit InOrderAtEnd(DicomItem& item) : m_elements(item.elements) {}
+  ~InOrderAtEnd() {
+    if (!std::is_sorted(m_elements.begin(), m_elements.end(), tag_less))
+      std::stable_sort(m_elements.begin(), m_elements.end(), tag_less);
+  }
+  InOrderAtEnd(const InOrderAtEnd&) = delete;
+  InOrderAtEnd& operator=(const InOrderAtEnd&) = delete;
+
+ private:
+  std::vector<DicomElement>& m_elements;
+};
+
 /// The bytes given are a file's beginning, and it continues.
 struct EndsEarly {};
 /// Why no element can follow.
@@ -79,6 +96,7 @@ class Parser {
   /// Elements up to `end`, or to the mark that ends an item of undefined length. What was read before damage stays in
   /// `out`.
   void data_set(std::size_t end, bool to_mark, int depth, DicomItem& out) {
+    const InOrderAtEnd in_order(out);
     while (m_at < end) {
       const std::size_t from = m_at;
       const ElementHead e = element(end);
@@ -284,9 +302,9 @@ void use_syntax(DicomDocument& out, Parser& parser, const std::string& file) {
 }  // namespace
 
 const DicomElement* DicomItem::find(std::uint32_t tag) const {
-  const auto found =
-      std::find_if(elements.begin(), elements.end(), [&](const DicomElement& e) { return e.tag == tag; });
-  return found == elements.end() ? nullptr : &*found;
+  const auto found = std::lower_bound(elements.begin(), elements.end(), tag,
+                                      [](const DicomElement& e, std::uint32_t wanted) { return e.tag < wanted; });
+  return found == elements.end() || found->tag != tag ? nullptr : &*found;
 }
 
 bool looks_like_dicom(std::string_view bytes) {

@@ -17,7 +17,7 @@ namespace trocar::volumes {
 struct DicomElement;
 /// A data set: the file's own, or that of an item of a sequence.
 struct DicomItem {
-  std::vector<DicomElement> elements;
+  std::vector<DicomElement> elements;                 ///< by their tags, those of one tag as in the file
   const DicomElement* find(std::uint32_t tag) const;  ///< the first of this tag, or null
 };
 struct DicomElement {

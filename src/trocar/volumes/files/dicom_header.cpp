@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -38,7 +39,16 @@ std::vector<double> decimals_of(const DicomItem& data, std::uint32_t tag, std::s
 
 constexpr std::uint32_t kSharedGroups = 0x52009229, kFrameGroups = 0x52009230, kDetector = 0x00540022,
                         kPlanePosition = 0x00209113, kPlaneOrientation = 0x00209116, kPixelMeasures = 0x00289110,
-                        kValueTransformation = 0x00289145, kFloatPixels = 0x7fe00008, kDoublePixels = 0x7fe00009;
+                        kValueTransformation = 0x00289145, kRescaleType = 0x00281054, kFloatPixels = 0x7fe00008,
+                        kDoublePixels = 0x7fe00009;
+
+std::string text_of_first(std::initializer_list<const DicomItem*> items, std::uint32_t tag) {
+  constexpr std::size_t kMost = 256;  // [bytes], as each frame has its own
+  std::string out;
+  for (const DicomItem* item : items)
+    if (item && out.empty()) out = text_of(*item, tag, kMost);
+  return out;
+}
 
 /// Reads what stands in the data set itself, in what all frames share, or in what is each frame's own.
 class HeaderOfImage {
@@ -48,7 +58,9 @@ class HeaderOfImage {
         m_damage(file.damage),
         m_big(file.big_endian),
         m_out(out),
-        m_shared(item_of(&m_data, kSharedGroups)) {}
+        m_shared(item_of(&m_data, kSharedGroups)),
+        m_marks_of(m_data, m_shared, m_big),
+        m_common_type(text_of_first({item_of(m_shared, kValueTransformation), &m_data}, kRescaleType)) {}
 
   void read() {
     m_out.uid = text_of(m_data, 0x0020000e);
@@ -62,7 +74,7 @@ class HeaderOfImage {
     if (const std::string own = text_of(m_data, 0x00080016); !own.empty()) m_out.sop_class = own;
     const DicomItem* first = item_of(&m_data, kFrameGroups);
     const bool has_places = !text_of(m_data, 0x00200032).empty() || item_of(first, kPlanePosition);
-    m_marks = marks_of(m_data, first, m_shared, m_big);
+    m_marks = m_marks_of.of(first);
     const std::string kind =
         other_than_slices({m_out.sop_class, m_out.modality, m_marks[Mark::image_type], has_places});
     if (!kind.empty()) return void(m_out.fault = tr("expected slices of a patient, got {}", kind));
@@ -83,8 +95,11 @@ class HeaderOfImage {
   bool m_big;
   DicomHeader& m_out;
   const DicomItem* m_shared;
-  Marks m_marks;      // of the first frame
-  Rescale m_padding;  // without slope and intercept
+  FrameMarks m_marks_of;
+  std::string m_common_type;                              // Rescale Type of frames without their own
+  std::map<std::uint32_t, std::vector<double>> m_common;  // numbers of frames without their own, by their tags
+  Marks m_marks;                                          // of the first frame
+  Rescale m_padding;                                      // without slope and intercept
   int m_count = 1;
 
   int unsigned_short(std::uint32_t tag) const {
@@ -99,7 +114,14 @@ class HeaderOfImage {
   }
   std::vector<double> decimals(const DicomItem* own, std::uint32_t group, std::uint32_t tag, std::size_t count,
                                const char* name) {
-    for (const DicomItem* item : {item_of(own, group), item_of(m_shared, group), item_of(&m_data, kDetector)})
+    const DicomItem* item = item_of(own, group);
+    if (item && item->find(tag)) return decimals(*item, tag, count, name);
+    const auto known = m_common.find(tag);
+    return known != m_common.end() ? known->second : m_common[tag] = decimals_of_all(group, tag, count, name);
+  }
+  /// What the file says of all frames.
+  std::vector<double> decimals_of_all(std::uint32_t group, std::uint32_t tag, std::size_t count, const char* name) {
+    for (const DicomItem* item : {item_of(m_shared, group), item_of(&m_data, kDetector)})
       if (item && item->find(tag)) return decimals(*item, tag, count, name);
     return decimals(m_data, tag, count, name);
   }
@@ -169,7 +191,7 @@ class HeaderOfImage {
       if (!place(own, frame)) return;
       own_places += item_of(own, kPlanePosition) != nullptr;
       rescale(own, frame);
-      frame.marks = own && f > 0 ? marks_of(m_data, own, m_shared, m_big) : m_marks;
+      frame.marks = own && f > 0 ? m_marks_of.of(own) : m_marks;
       if (core::is_decimal(instance))
         frame.marks[Mark::instance] = fmt::format("{:.0f}", core::to_double(instance) + f);
       m_out.frames.push_back(std::move(frame));
@@ -219,8 +241,8 @@ class HeaderOfImage {
     if (!slope.empty() && slope[0] == 0 && m_out.frames.empty())
       m_out.corrected.emplace_back(tr("Rescale Slope is 0, which no value has: taken as 1"));
     frame.rescaled = !intercept.empty() && !slope.empty() && slope[0] != 0;
-    for (const DicomItem* item : {item_of(own, kValueTransformation), item_of(m_shared, kValueTransformation), &m_data})
-      if (item && frame.rescale_type.empty()) frame.rescale_type = text_of(*item, 0x00281054);
+    frame.rescale_type = text_of_first({item_of(own, kValueTransformation)}, kRescaleType);
+    if (frame.rescale_type.empty()) frame.rescale_type = m_common_type;
   }
 
   /// Are the frames slices? They may be a film, too. [PS3.3, C.7.6.6: Frame Increment Pointer]

@@ -55,6 +55,8 @@ constexpr Place kPlaces[] = {
     {Mark::instance, 0, 0x00200013, Form::text},
 };
 
+constexpr std::size_t kMostMark = 128;  // [bytes]; each of up to 65536 frames has marks of its own
+
 /// "20261130", "100500.5" as "2026-11-30 10:05:00.500": later ones come later among texts, too.
 std::string date_and_time(std::string date, std::string time) {
   const auto only_digits = [](std::string& text, const char* more) {
@@ -103,7 +105,7 @@ std::string value_at(const DicomItem& data, std::uint32_t tag, Form form, bool b
   if (!element) return "";
   switch (form) {
     case Form::text:
-      return short_text(text_of(data, tag));
+      return short_text(text_of(data, tag, kMostMark));
     case Form::u16:
       return binary_numbers<std::uint16_t>(element->value, big_endian);
     case Form::u32:
@@ -113,11 +115,17 @@ std::string value_at(const DicomItem& data, std::uint32_t tag, Form form, bool b
     case Form::real64:
       return binary_numbers<double>(element->value, big_endian);
     case Form::date_time: {
-      const std::string text = text_of(data, tag);
+      const std::string text = text_of(data, tag, kMostMark);
       return date_and_time(text.substr(0, 8), text.size() > 8 ? text.substr(8, text.find_first_of("+-&") - 8) : "");
     }
   }
   return "";
+}
+
+/// The item of a frame's groups, or of those of all frames, in which a mark is looked for. Directions of diffusion are
+/// a sequence within that of diffusion.
+const DicomItem* item_at(const DicomItem* groups, const Place& place) {
+  return item_of(place.sequence == kGradient ? item_of(groups, kDiffusion) : groups, place.sequence);
 }
 
 }  // namespace
@@ -150,10 +158,10 @@ bool mark_less(const std::string& a, const std::string& b) {
   return a < b;
 }
 
-std::string text_of(const DicomItem& data, std::uint32_t tag) {
+std::string text_of(const DicomItem& data, std::uint32_t tag, std::size_t most) {
   const DicomElement* element = data.find(tag);
   if (!element) return "";
-  std::string text(element->value.substr(0, 4096));
+  std::string text(element->value.substr(0, most));
   while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
   return core::printable(text);
 }
@@ -163,25 +171,28 @@ const DicomItem* item_of(const DicomItem* data, std::uint32_t sequence, std::siz
   return element && number < element->items.size() ? &element->items[number] : nullptr;
 }
 
-Marks marks_of(const DicomItem& data, const DicomItem* own, const DicomItem* shared, bool big_endian) {
-  Marks out;
+FrameMarks::FrameMarks(const DicomItem& data, const DicomItem* shared, bool big_endian)
+    : m_big_endian(big_endian),
+      m_acquisition_time(date_and_time(text_of(data, 0x00080022, kMostMark), text_of(data, 0x00080032, kMostMark))),
+      m_content_time(date_and_time(text_of(data, 0x00080023, kMostMark), text_of(data, 0x00080033, kMostMark))) {
   for (const Place& place : kPlaces) {
+    const DicomItem* item = place.sequence == 0 ? &data : item_at(shared, place);
+    m_common.push_back(item ? value_at(*item, place.tag, place.form, big_endian) : "");
+  }
+}
+
+Marks FrameMarks::of(const DicomItem* own) const {
+  Marks out;
+  for (std::size_t p = 0; p < std::size(kPlaces); ++p) {
+    const Place& place = kPlaces[p];
     std::string& value = out[place.mark];
     if (!value.empty()) continue;
-    if (place.sequence == 0) {
-      value = value_at(data, place.tag, place.form, big_endian);
-      continue;
-    }
-    for (const DicomItem* group : {own, shared}) {
-      // Directions of diffusion are a sequence within that of diffusion.
-      const DicomItem* item =
-          place.sequence == kGradient ? item_of(item_of(group, kDiffusion), kGradient) : item_of(group, place.sequence);
-      if (item && value.empty()) value = value_at(*item, place.tag, place.form, big_endian);
-    }
+    const DicomItem* item = place.sequence == 0 ? nullptr : item_at(own, place);
+    if (item) value = value_at(*item, place.tag, place.form, m_big_endian);
+    if (value.empty()) value = m_common[p];
   }
-  if (out[Mark::acquisition_time].empty())
-    out[Mark::acquisition_time] = date_and_time(text_of(data, 0x00080022), text_of(data, 0x00080032));
-  out[Mark::content_time] = date_and_time(text_of(data, 0x00080023), text_of(data, 0x00080033));
+  if (out[Mark::acquisition_time].empty()) out[Mark::acquisition_time] = m_acquisition_time;
+  out[Mark::content_time] = m_content_time;
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include <trocar/volumes/files/dicom_elements.hpp>
 
@@ -48,12 +49,23 @@ struct Marks {
 /// Numbers by size, then other text by its letters.
 bool mark_less(const std::string& a, const std::string& b);
 
-/// The marks of a frame.
-/// @param own, shared  what the file says of this frame, and of all; null: nothing
-Marks marks_of(const DicomItem& data, const DicomItem* own, const DicomItem* shared, bool big_endian);
+/// The marks of a file's frames. What the file says of all frames is looked up once.
+class FrameMarks {
+ public:
+  /// @param shared  what the file says of all frames; null: nothing
+  FrameMarks(const DicomItem& data, const DicomItem* shared, bool big_endian);
+  /// @param own  what it says of this frame; null: nothing
+  Marks of(const DicomItem* own) const;
+
+ private:
+  bool m_big_endian;
+  std::vector<std::string> m_common;  // at each place where a mark is looked for
+  std::string m_acquisition_time, m_content_time;
+};
 
 /// An attribute's text without its padding, what a terminal would obey spelled out; empty where it is not there.
-std::string text_of(const DicomItem& data, std::uint32_t tag);
+/// @param most  bytes that are taken
+std::string text_of(const DicomItem& data, std::uint32_t tag, std::size_t most = 4096);
 
 /// The item of a sequence in a data set, or null.
 const DicomItem* item_of(const DicomItem* data, std::uint32_t sequence, std::size_t number = 0);
