@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <fstream>
+#include <optional>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -22,27 +24,62 @@ constexpr int kDeepest = 6;
 constexpr std::size_t kBeginning = std::size_t(1) << 16;  // most headers are shorter
 constexpr std::uint64_t kMostFileBytes = std::uint64_t(1) << 31;
 
-std::vector<fs::path> files_below(const fs::path& folder) {
-  std::vector<fs::path> out;
-  std::error_code error;
-  fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error), end;
-  if (error) refuse(folder.generic_string(), tr("expected a folder that can be read, got {}", error.message()));
-  for (; it != end; it.increment(error)) {
-    if (error) break;
-    if (it.depth() >= kDeepest) it.disable_recursion_pending();
-    if (!it->is_regular_file(error)) continue;
-    if (out.size() >= kMostFiles)
-      refuse(folder.generic_string(), tr("expected at most {} files in the folder, got more", kMostFiles));
-    out.push_back(it->path());
-  }
-  std::sort(out.begin(), out.end());
-  return out;
+std::string no_file(const std::string& got) { return tr("expected a file that can be read, got {}", got); }
+
+LeftOut unreadable(const fs::path& path, const std::string& why) {
+  return {path.generic_string(), why, "", "", true, true, false};
 }
 
-std::string beginning_of(const fs::path& path) {
+/// The files of a folder and of the folders below it. What cannot be read is left out, as slices may be missing by it.
+class FilesBelow {
+ public:
+  explicit FilesBelow(const fs::path& folder) : m_folder(folder) {
+    visit(folder, 0);
+    std::sort(files.begin(), files.end());
+    std::sort(left_out.begin(), left_out.end(), [](const LeftOut& a, const LeftOut& b) { return a.path < b.path; });
+  }
+
+  std::vector<fs::path> files;
+  std::vector<LeftOut> left_out;
+
+ private:
+  const fs::path& m_folder;
+
+  void visit(const fs::path& folder, int depth) {
+    std::error_code error;
+    fs::directory_iterator it(folder, error), end;
+    for (; !error && it != end; it.increment(error)) take(*it, depth);
+    if (!error) return;  // an iterator that fails becomes the end
+    const std::string why = tr("expected a folder that can be read, got {}", error.message());
+    if (depth == 0) refuse(folder.generic_string(), why);
+    left_out.push_back(unreadable(folder, why));
+  }
+
+  void take(const fs::directory_entry& entry, int depth) {
+    std::error_code error;
+    if (!entry.is_symlink(error) && entry.is_directory(error)) return below(entry.path(), depth);
+    const bool is_file = entry.is_regular_file(error);
+    if (error) return left_out.push_back(unreadable(entry.path(), no_file(error.message())));
+    if (!is_file) return;
+    if (files.size() >= kMostFiles)
+      refuse(m_folder.generic_string(), tr("expected at most {} files in the folder, got more", kMostFiles));
+    files.push_back(entry.path());
+  }
+
+  void below(const fs::path& folder, int depth) {
+    if (depth < kDeepest) return visit(folder, depth + 1);
+    left_out.push_back({folder.generic_string(), tr("a folder more than {} levels down: open it itself", kDeepest), "",
+                        "", true, false, false});
+  }
+};
+
+/// Empty where it cannot be read.
+std::optional<std::string> beginning_of(const fs::path& path) {
   std::string bytes(kBeginning, '\0');
   std::ifstream in(path, std::ios::binary);
+  if (!in) return {};
   in.read(bytes.data(), std::streamsize(bytes.size()));
+  if (in.bad()) return {};
   bytes.resize(std::size_t(in.gcount()));
   return bytes;
 }
@@ -79,6 +116,31 @@ std::string kind_of(const std::string& beginning) {
   return known.empty() ? tr("no DICOM file") : known;
 }
 
+/// A file with slices, or one that is left out.
+/// @returns its images
+std::size_t add_file(const fs::path& path, DicomFolder& out) {
+  const std::string name = path.generic_string();
+  const std::optional<std::string> beginning = beginning_of(path);
+  if (!beginning) {
+    out.left_out.push_back(unreadable(path, no_file(tr("one that cannot be opened or read"))));
+    return 0;
+  }
+  if (!looks_like_dicom(*beginning)) {
+    out.left_out.push_back({name, kind_of(*beginning), "", "", false, false, false});
+    return 0;
+  }
+  DicomHeader header = header_of(path, *beginning);
+  const std::size_t images = header.frames.size();
+  if (header.fault.empty()) {
+    out.files.push_back(std::move(header));
+    return images;
+  }
+  const bool is_list =
+      is_dicom_directory(header.sop_class) || geometry::lowered(path.filename().string()) == "dicomdir";
+  out.left_out.push_back({name, header.fault, header.uid, header.instance, header.broken, true, is_list});
+  return 0;
+}
+
 }  // namespace
 
 void open_dicom(const fs::path& path, OpenedDicom& out) {
@@ -88,26 +150,14 @@ void open_dicom(const fs::path& path, OpenedDicom& out) {
 
 DicomFolder read_dicom_folder(const fs::path& folder, const Progress& progress) {
   DicomFolder out;
-  const std::vector<fs::path> files = files_below(folder);
+  FilesBelow below(folder);
+  out.left_out = std::move(below.left_out);
   std::size_t images = 0;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    tell(progress, double(i) / double(files.size()));
-    const std::string beginning = beginning_of(files[i]);
-    if (!looks_like_dicom(beginning)) {
-      out.left_out.push_back({files[i].generic_string(), kind_of(beginning), "", "", false, false, false});
-      continue;
-    }
-    DicomHeader header = header_of(files[i], beginning);
-    if (!header.fault.empty()) {
-      out.left_out.push_back(
-          {header.path, header.fault, header.uid, header.instance, header.broken, true,
-           is_dicom_directory(header.sop_class) || geometry::lowered(files[i].filename().string()) == "dicomdir"});
-      continue;
-    }
-    images += header.frames.size();
+  for (std::size_t i = 0; i < below.files.size(); ++i) {
+    tell(progress, double(i) / double(below.files.size()));
+    images += add_file(below.files[i], out);
     if (images > kMostImages)
       refuse(folder.generic_string(), tr("expected at most {} images in the folder, got more", kMostImages));
-    out.files.push_back(std::move(header));
   }
   return out;
 }

@@ -10,7 +10,7 @@
 
 namespace trocar::volumes {
 
-/// A file that gives no slices.
+/// A file that gives no slices, or a folder that was not searched.
 struct LeftOut {
   std::string path, why, series_uid, instance;  ///< why: as a message
   bool broken = false;                          ///< whole, it may have been a slice of its series
