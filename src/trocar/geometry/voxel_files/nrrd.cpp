@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -59,7 +60,7 @@ class NrrdNumbers {
     if (m_header.byte_skip < 0) m_data.remove_prefix(m_data.size() - std::min(m_data.size(), all));  // the last bytes
     if (m_header.byte_skip > 0) m_data.remove_prefix(std::min(m_data.size(), std::size_t(m_header.byte_skip)));
     if (m_data.size() < all) refuse(m_file, tr("expected {} bytes of voxels, got {}", all, m_data.size()));
-    if (m_data.size() > all) tell_longer(all, tr("{}", m_data.size()));
+    if (m_data.size() > all) tell_longer(all, std::to_string(m_data.size()));
     const std::string_view own = m_data.substr(offset(), m_volume.wanted());
     if (m_other)
       m_volume.owned.assign(own.begin(), own.end());

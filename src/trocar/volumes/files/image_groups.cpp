@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/text.hpp>
 #include <trocar/volumes/files/image_groups.hpp>
 
 namespace trocar::volumes {
@@ -182,7 +183,7 @@ class Grouping {
     std::string out;
     for (const Mark mark : m_used) {
       const std::string& said = value(image, mark);
-      out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name_of(mark), said.empty() ? "not said" : said);
+      out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name_of(mark), said.empty() ? tr("not said") : said);
     }
     return out;
   }
@@ -234,7 +235,7 @@ ImageGroups interleaved(std::span<const double> along, std::span<const Marks> ma
     for (std::vector<int>& images : parts) {
       const std::string& value = marks[std::size_t(images[0])][mark];
       out.groups.push_back(
-          {fmt::format("{} {}", name_of(mark), value.empty() ? "not said" : value), std::move(images)});
+          {fmt::format("{} {}", name_of(mark), value.empty() ? tr("not said") : value), std::move(images)});
     }
     return out;
   }
