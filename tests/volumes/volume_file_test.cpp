@@ -157,6 +157,26 @@ TEST(VolumeFiles, ATimePointThatThereIsNotIsRefusedInEveryFormat) {
   expect_fault(DicomFile().bytes(), "expected one of 1 images at each position (0 to 0), got 1", {.frame = 1});
 }
 
+TEST(VolumeFiles, ASeriesOfAFileWithoutSeriesIsRefused) {
+  for (const std::string& bytes : {kNifti, nrrd_fields("short", "raw") + "\n" + twelve_numbers<std::int16_t>(),
+                                   meta_fields("MET_SHORT", false) + twelve_numbers<std::int16_t>()}) {
+    expect_fault(bytes, "this file has no series: expected no --series above 1, got 2",
+                 {.series = 2, .series_choice = "--series"});
+    EXPECT_NO_THROW(read_volume_bytes(bytes, "a", {.series = 1}));
+  }
+  expect_fault(DicomFile().bytes(), "expected one of 1 series (1 to 1), got 2", {.series = 2});
+}
+
+TEST(VolumeFiles, BeginAsDicomOrNot) {
+  const std::filesystem::path folder = std::filesystem::path(TROCAR_BINARY_DIR) / "test-begins-as-dicom";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "a", std::ios::binary) << DicomFile().bytes();
+  std::ofstream(folder / "b", std::ios::binary) << kNifti;
+  EXPECT_TRUE(begins_as_dicom(folder / "a"));
+  for (const char* name : {"b", "missing", "."}) EXPECT_FALSE(begins_as_dicom(folder / name)) << name;
+  std::filesystem::remove_all(folder);
+}
+
 TEST(VolumeFiles, FilesOfOtherKindsAreNamed) {
   expect_fault(std::string("PK\x03\x04\x14\0\0\0", 8), "got a ZIP archive: unpack it and open the folder or file");
   expect_fault(deflated("NRRD0004\n"), "got a gzip file: it holds no NIfTI. Unpack it first");

@@ -1,27 +1,18 @@
 #include "commands/checks/check_scan.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 
 #include <fmt/format.h>
 
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
-#include <trocar/volumes/files/dicom_elements.hpp>
 
 namespace trocar::app {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-bool begins_as_dicom(const fs::path& path) {
-  char start[132] = {};
-  std::ifstream in(path, std::ios::binary);
-  in.read(start, sizeof start);
-  return volumes::looks_like_dicom({start, std::size_t(in.gcount())});
-}
 
 Json in_three(Vec3d v) { return {v.x + 0, v.y + 0, v.z + 0}; }  // + 0: no "-0"
 
@@ -40,7 +31,7 @@ bool is_scan_file(const fs::path& path) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   static constexpr const char* kScans[] = {".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd", ".dcm", ".hdr", ".img"};
   return std::any_of(std::begin(kScans), std::end(kScans), [&](const char* end) { return name.ends_with(end); }) ||
-         begins_as_dicom(path);
+         volumes::begins_as_dicom(path);
 }
 
 Json describe_scan(const fs::path& path, volumes::ReadOptions options) {

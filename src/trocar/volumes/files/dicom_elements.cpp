@@ -307,8 +307,10 @@ const DicomElement* DicomItem::find(std::uint32_t tag) const {
   return found == elements.end() || found->tag != tag ? nullptr : &*found;
 }
 
+bool has_dicom_mark(std::string_view bytes) { return bytes.size() >= kPreamble && bytes.substr(128, 4) == "DICM"; }
+
 bool looks_like_dicom(std::string_view bytes) {
-  if (bytes.size() >= kPreamble && bytes.substr(128, 4) == "DICM") return true;
+  if (has_dicom_mark(bytes)) return true;
   // Without the mark: group 2 or 8 with a small element, then letters or a short length.
   if (bytes.size() < 16 || (bytes[0] != '\2' && bytes[0] != '\x08') || bytes[1] != '\0' || bytes[3] != '\0')
     return false;
@@ -362,7 +364,7 @@ DicomDocument parse_dicom(std::string_view bytes, const std::string& file, bool 
   DicomDocument out;
   Parser parser(bytes, beginning_only);
   try {
-    read_meta(bytes, bytes.size() >= kPreamble && bytes.substr(128, 4) == "DICM", parser, out);
+    read_meta(bytes, has_dicom_mark(bytes), parser, out);
     use_syntax(out, parser, file);
     if (out.syntax == "1.2.840.10008.1.2.1.99") {
       if (beginning_only) throw EndsEarly{};

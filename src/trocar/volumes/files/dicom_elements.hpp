@@ -52,6 +52,8 @@ DicomDocument parse_dicom(std::string_view bytes, const std::string& file, bool 
 /// The message about a damaged file.
 std::string damaged_dicom(const std::string& what);
 
+/// "DICM" behind a preamble of 128 bytes.
+bool has_dicom_mark(std::string_view bytes);
 /// With DICOM's mark, or as files without it begin.
 bool looks_like_dicom(std::string_view bytes);
 

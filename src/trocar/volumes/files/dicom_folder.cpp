@@ -89,7 +89,7 @@ DicomHeader header_of(const fs::path& path, const std::string& beginning) {
   const std::string name = path.generic_string();
   DicomHeader out;
   out.path = name;
-  const bool marked = beginning.size() >= 132 && beginning.compare(128, 4, "DICM") == 0;
+  const bool marked = has_dicom_mark(beginning);
   try {
     const DicomDocument start = parse_dicom(beginning, name, true);
     if (!start.ends_early) {

@@ -47,16 +47,30 @@ std::string described(std::string_view bytes) {
   return text ? tr("a text that begins with {}", shown(start)) : shown(start);
 }
 
-bool is_known(std::string_view bytes) {
-  return looks_like_dicom(bytes) || looks_like_nifti(bytes) || looks_like_nrrd(bytes) || looks_like_metaimage(bytes);
+/// Only DICOM has series.
+void require_no_series(const Source& source) {
+  if (source.options.series < 0 || source.options.series > 1)
+    refuse(source.file, tr("this file has no series: expected no {} above 1, got {}", source.options.series_choice,
+                           source.options.series));
 }
+
+using Reader = Raster (*)(const Source& source);
+Reader reader_without_series(std::string_view bytes) {
+  if (looks_like_nifti(bytes)) return read_nifti;
+  if (looks_like_nrrd(bytes)) return read_nrrd_volume;
+  if (looks_like_metaimage(bytes)) return read_metaimage;
+  return nullptr;
+}
+
+bool is_known(std::string_view bytes) { return looks_like_dicom(bytes) || reader_without_series(bytes); }
 
 Raster read_bytes(const Source& source) {
   if (source.bytes.empty()) refuse(source.file, "expected a volume, got an empty file");
   if (looks_like_dicom(source.bytes)) return read_dicom_bytes(source);
-  if (looks_like_nifti(source.bytes)) return read_nifti(source);
-  if (looks_like_nrrd(source.bytes)) return read_nrrd_volume(source);
-  if (looks_like_metaimage(source.bytes)) return read_metaimage(source);
+  if (const Reader read = reader_without_series(source.bytes)) {
+    require_no_series(source);
+    return read(source);
+  }
   if (source.file.ends_with(".img"))
     refuse(source.file,
            "expected header and voxels in one file, got what seems to be the voxels of a pair (.hdr, .img): "
@@ -94,10 +108,7 @@ Opened open(const fs::path& path, const ReadOptions& options, ReadReport& report
     out.raster = read_dicom_series(path, {}, options, report);
     return out;
   }
-  char start[132] = {};
-  std::ifstream in(path, std::ios::binary);
-  in.read(start, sizeof start);
-  if (looks_like_dicom({start, std::size_t(in.gcount())})) {
+  if (begins_as_dicom(path)) {
     fs::path folder = path.parent_path();
     if (folder.empty()) folder = ".";
     out.raster = read_dicom_series(folder, path, options, report);
@@ -182,6 +193,13 @@ LabelFile read_labels_bytes(std::string_view bytes, const std::string& file, con
   ReadReport report;
   const Raster raster = read_bytes({bytes, file, options, report, {}});
   return labels_of(raster, file, options, std::move(report));
+}
+
+bool begins_as_dicom(const fs::path& file) {
+  char start[132] = {};
+  std::ifstream in(file, std::ios::binary);
+  in.read(start, sizeof start);
+  return looks_like_dicom({start, std::size_t(in.gcount())});
 }
 
 std::vector<SeriesFacts> list_series(const fs::path& folder, const ReadOptions& options) {

@@ -25,7 +25,9 @@
 namespace trocar::volumes {
 
 struct ReadOptions {
-  int series = 0;  ///< of several in a folder, 1, 2, ... as listed; 0: the file's own, or the one with most slices
+  /// Of several in a folder of DICOM files, 1, 2, ... as listed; 0: the file's own, or the one with most slices. Files
+  /// of other formats are 0 and 1.
+  int series = 0;
   std::optional<int> frame = {};  ///< of several time points, phases or layers, from 0; none: the file's own, or 0
   /// What chooses another one, as notes and faults name it: a key of a script, an option of a command.
   std::string series_choice = "\"series\"", frame_choice = "\"frame\"";
@@ -83,6 +85,9 @@ LabelFile read_labels(const std::filesystem::path& path, const ReadOptions& opti
 /// From bytes. Data in another file, and other slices of a series, are a fault.
 VolumeFile read_volume_bytes(std::string_view bytes, const std::string& file, const ReadOptions& options = {});
 LabelFile read_labels_bytes(std::string_view bytes, const std::string& file, const ReadOptions& options = {});
+
+/// Does the file begin as DICOM? False where it cannot be read.
+bool begins_as_dicom(const std::filesystem::path& file);
 
 /// The DICOM series in a folder and the folders below it, most slices first, then by their names in DICOM.
 std::vector<SeriesFacts> list_series(const std::filesystem::path& folder, const ReadOptions& options = {});
