@@ -12,9 +12,4 @@ const char* name_of(NumberType type) {
   return kNames[std::size_t(type)];
 }
 
-bool machine_is_big() {
-  const std::uint16_t one = 1;
-  return *reinterpret_cast<const char*>(&one) == 0;
-}
-
 }  // namespace trocar::geometry

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -14,7 +15,8 @@ std::size_t width_of(NumberType type);
 const char* name_of(NumberType type);
 inline bool is_whole(NumberType type) { return type < NumberType::real32; }
 
-bool machine_is_big();
+/// Does this machine put the highest byte of a number first?
+constexpr bool machine_is_big() { return std::endian::native == std::endian::big; }
 
 template <class T>
 T number_at(const char* from, bool swapped) {
@@ -24,6 +26,12 @@ T number_at(const char* from, bool swapped) {
   T value;
   std::memcpy(&value, own, sizeof(T));
   return value;
+}
+
+/// The number at a place of a file that has this order of bytes.
+template <class T>
+T number_at_in(bool big_endian, const char* from) {
+  return number_at<T>(from, big_endian != machine_is_big());
 }
 
 /// Calls f with a value of the C++ type, which is 0.

@@ -162,11 +162,9 @@ class Parser {
   }
   std::uint32_t number(int width, std::size_t end) {
     need(std::size_t(width), end);
-    std::uint32_t out = 0;
-    for (int i = 0; i < width; ++i) {
-      const auto byte = std::uint32_t(static_cast<unsigned char>(m_bytes[m_at + std::size_t(i)]));
-      out |= byte << 8 * (big ? width - 1 - i : i);
-    }
+    const char* from = m_bytes.data() + m_at;
+    const std::uint32_t out = width == 2 ? geometry::number_at_in<std::uint16_t>(big, from)
+                                         : geometry::number_at_in<std::uint32_t>(big, from);
     m_at += std::size_t(width);
     return out;
   }

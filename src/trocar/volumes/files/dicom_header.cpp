@@ -105,8 +105,7 @@ class HeaderOfImage {
   int unsigned_short(std::uint32_t tag) const {
     const DicomElement* element = m_data.find(tag);
     if (!element || element->value.size() < 2) return 0;
-    const auto byte = [&](std::size_t i) { return int(static_cast<unsigned char>(element->value[i])); };
-    return byte(m_big ? 1 : 0) + 256 * byte(m_big ? 0 : 1);
+    return geometry::number_at_in<std::uint16_t>(m_big, element->value.data());
   }
 
   std::vector<double> decimals(const DicomItem& data, std::uint32_t tag, std::size_t count, const char* name) {
@@ -250,10 +249,7 @@ class HeaderOfImage {
     const DicomElement* pointer = m_data.find(0x00280009);
     if (!pointer || pointer->value.empty()) return true;
     const auto number = [&](std::size_t at) {
-      const auto byte = [&](std::size_t i) {
-        return std::uint32_t(static_cast<unsigned char>(pointer->value[at + i]));
-      };
-      return byte(m_big ? 1 : 0) | byte(m_big ? 0 : 1) << 8;
+      return std::uint32_t(geometry::number_at_in<std::uint16_t>(m_big, pointer->value.data() + at));
     };
     constexpr std::uint32_t kSliceVector = 0x00540080;
     return pointer->value.size() == 4 && (number(0) << 16 | number(2)) == kSliceVector;

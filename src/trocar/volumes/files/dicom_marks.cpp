@@ -6,6 +6,7 @@
 
 #include <trocar/core/decimal.hpp>
 #include <trocar/core/printable.hpp>
+#include <trocar/geometry/voxel_files/numbers.hpp>
 #include <trocar/volumes/files/dicom_marks.hpp>
 
 namespace trocar::volumes {
@@ -89,13 +90,8 @@ template <class T>
 std::string binary_numbers(std::string_view value, bool big_endian) {
   std::string out;
   for (std::size_t at = 0; at + sizeof(T) <= value.size() && at < 3 * sizeof(T); at += sizeof(T)) {
-    char own[sizeof(T)];
-    std::copy_n(value.begin() + std::ptrdiff_t(at), sizeof(T), own);
-    if (big_endian) std::reverse(own, own + sizeof(T));
-    T number;
-    std::memcpy(&number, own, sizeof(T));
     if (!out.empty()) out += '\\';
-    out += short_number(double(number));
+    out += short_number(double(geometry::number_at_in<T>(big_endian, value.data() + at)));
   }
   return out;
 }

@@ -14,11 +14,6 @@ namespace {
   refuse(header.path, damaged_dicom(what));
 }
 
-bool own_order_is_big() {
-  const std::uint16_t one = 1;
-  return *reinterpret_cast<const char*>(&one) == 0;
-}
-
 /// Bits above those that are stored may hold anything: signs are spread over them, the rest is cleared.
 template <class T>
 void keep_stored_bits(std::vector<char>& bytes, int stored) {
@@ -62,16 +57,14 @@ std::vector<char> plain_pixels(const DicomElement& pixels, const DicomHeader& he
   std::vector<char> out(pixels.value.begin(), pixels.value.begin() + std::ptrdiff_t(wanted));
   // Pixels of a byte are written as words of two, too.
   const std::size_t word = std::max<std::size_t>(2, std::size_t(header.allocated / 8));
-  if (big != own_order_is_big())
+  if (big != geometry::machine_is_big())
     for (std::size_t at = 0; at + word <= out.size(); at += word)
       std::reverse(out.begin() + std::ptrdiff_t(at), out.begin() + std::ptrdiff_t(at + word));
   return out;
 }
 
 std::uint32_t little32(std::string_view bytes, std::size_t at) {
-  std::uint32_t out = 0;
-  for (std::size_t i = 0; i < 4; ++i) out |= std::uint32_t(static_cast<unsigned char>(bytes[at + i])) << 8 * i;
-  return out;
+  return geometry::number_at_in<std::uint32_t>(false, bytes.data() + at);
 }
 
 /// Fragments belong to frames one by one, all to the only frame, or as the table of offsets says.
@@ -106,7 +99,7 @@ std::vector<char> unpacked_rle(std::string_view packed, const DicomHeader& heade
     const std::size_t from = little32(packed, 4 + 4 * s);
     const std::size_t to = s + 1 < width ? little32(packed, 8 + 4 * s) : packed.size();
     if (from < 64 || from > to || to > packed.size()) damaged_pixels(header, "RLE segments outside of their frame");
-    const std::size_t place = own_order_is_big() ? s : width - 1 - s;
+    const std::size_t place = geometry::machine_is_big() ? s : width - 1 - s;
     std::size_t done = 0;
     for (std::size_t at = from; at < to && done < count;) {
       const int control = static_cast<signed char>(packed[at++]);

@@ -2,7 +2,6 @@
 // NIfTI data format working group.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include <fmt/format.h>
 
@@ -27,11 +26,7 @@ struct Numbers {
 
   template <class T>
   T at(std::size_t offset) const {
-    char own[sizeof(T)];
-    for (std::size_t i = 0; i < sizeof(T); ++i) own[i] = bytes[offset + (big ? sizeof(T) - 1 - i : i)];
-    T value;  // files are little-endian where not swapped, as are the machines that this runs on
-    std::memcpy(&value, own, sizeof(T));
-    return value;
+    return geometry::number_at_in<T>(big, bytes + offset);
   }
 };
 
