@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -16,7 +15,7 @@ const char* name_of(NumberType type);
 inline bool is_whole(NumberType type) { return type < NumberType::real32; }
 
 /// Does this machine put the highest byte of a number first?
-constexpr bool machine_is_big() { return std::endian::native == std::endian::big; }
+constexpr bool machine_is_big() { return __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__; }
 
 template <class T>
 T number_at(const char* from, bool swapped) {
