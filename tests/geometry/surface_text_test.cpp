@@ -312,4 +312,10 @@ TEST(PolydataFiles, OtherDataSetsAreRefused) {
   EXPECT_NE(text_faults(with(kAxesVtk, "POLYGONS 4 16", "POLYGONS 4 15")), "");
 }
 
+TEST(PolydataFiles, CellsWithoutTypesAreRefused) {
+  EXPECT_EQ(text_faults("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n"
+                        "0 0 0 40 0 0 0 40 0 0 0 40\nCELLS 4 16\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"),
+            "a:1:1: expected POINTS, CELLS and as many CELL_TYPES, got 4 points, 4 cells, 0 types");
+}
+
 }  // namespace trocar::geometry

@@ -65,7 +65,8 @@ VtkDataset::VtkDataset(MeshSource& in, bool needs_grid, const Coordinate& coordi
     m_in.lose(m_data.stopped_at(), tr("expected data of a type that is known, such as float, int or string, got {}",
                                       in_quotes(m_data.stopped())));
   if (!m_has_points) m_in.lose(0, "expected POINTS, got none");
-  if (m_is_grid && (cells.empty() || types.size() != cells.count())) {
+  // Polygon data have no cells, but a file may write some all the same.
+  if ((m_is_grid && cells.empty()) || types.size() != cells.count()) {
     m_in.finish();
     m_in.lose(0, tr("expected POINTS, CELLS and as many CELL_TYPES, got {} points, {} cells, {} types", points.size(),
                     cells.count(), types.size()));
