@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 
 namespace trocar::cad {
@@ -35,19 +36,13 @@ constexpr NamedUnit kStepUnits[] = {{"millimetre", 1},  {"centimetre", 10}, {"de
                                     {"inch", 25.4},     {"foot", 304.8},    {"mil", 0.0254},    {"micrometre", 1e-3},
                                     {"kilometre", 1e6}, {"millimeter", 1},  {"meter", 1000}};
 
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return text;
-}
-
 double unit_mm(STEPControl_Reader& reader) {
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.FileUnits(lengths, angles, solid_angles);
   double found = 0;
   for (const TCollection_AsciiString& name : lengths)
     for (const NamedUnit& unit : kStepUnits)
-      if (lower(name.ToCString()) == unit.name) {
+      if (core::in_small_letters(name.ToCString()) == unit.name) {
         if (found > 0 && found != unit.mm) return 1;
         found = unit.mm;
       }
@@ -74,7 +69,7 @@ TopoDS_Shape read(const std::filesystem::path& file, const char* what, double& m
 
 CadFile read_cad(const std::filesystem::path& file) {
   Message::DefaultMessenger()->ChangePrinters().Clear();  // its readers tell their progress on standard output
-  const std::string ending = lower(file.extension().string());
+  const std::string ending = core::in_small_letters(file.extension().string());
   CadFile made;
   TopoDS_Shape all;
   if (ending == ".step" || ending == ".stp")

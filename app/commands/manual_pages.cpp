@@ -1,6 +1,8 @@
 // Manual pages in the language of man(7).
 #include <fmt/format.h>
 
+#include <trocar/core/letters.hpp>
+
 #include "commands/environment.hpp"
 #include "commands/help_texts.hpp"
 
@@ -24,14 +26,9 @@ std::string roff(const std::string& text) {
   return out;
 }
 
-std::string capitals(std::string text) {
-  for (char& c : text)
-    if (c >= 'a' && c <= 'z') c = char(c - 'a' + 'A');
-  return text;
-}
-
 std::string heading(const std::string& title) {
-  return fmt::format(".TH {} 1 \"\" \"Trocar {}\" \"User Commands\"\n", roff(capitals(title)), roff(TROCAR_VERSION));
+  return fmt::format(".TH {} 1 \"\" \"Trocar {}\" \"User Commands\"\n", roff(core::in_capitals(title)),
+                     roff(TROCAR_VERSION));
 }
 
 std::vector<const CLI::Option*> options_of(const CLI::App& app, bool positional) {
@@ -97,7 +94,7 @@ HelpFile command_page(const CLI::App& program, const CLI::App& command) {
   for (const CLI::App* part : parts) text += synopsis(*part, spoken + " " + part->get_name()) + ".br\n";
   text += ".SH OPTIONS\n" + options_text(command);
   for (const CLI::App* part : parts)
-    text += fmt::format(".SH {}\n{}\n{}", roff(capitals(part->get_name())), roff(part->get_description()),
+    text += fmt::format(".SH {}\n{}\n{}", roff(core::in_capitals(part->get_name())), roff(part->get_description()),
                         options_text(*part));
   text += examples(command);
   for (const CLI::App* part : parts) text += examples(*part);

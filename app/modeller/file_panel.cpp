@@ -8,6 +8,7 @@
 
 #include <imgui.h>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 
 #include "shell/ui.hpp"
@@ -39,11 +40,6 @@ std::vector<fs::path> mounted_drives() {
       if (folder.rfind(above, 0) == 0) out.emplace_back(folder);
   }
   return out;
-}
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return text;
 }
 
 }  // namespace
@@ -84,7 +80,7 @@ void FilePanel::find_places() {
 
 bool FilePanel::is_shown(const fs::path& file) const {
   if (m_all || m_wish.endings.empty()) return true;
-  const std::string ending = lower_case(file.extension().string());
+  const std::string ending = core::in_small_letters(file.extension().string());
   return std::find(m_wish.endings.begin(), m_wish.endings.end(), ending) != m_wish.endings.end();
 }
 

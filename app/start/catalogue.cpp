@@ -5,16 +5,12 @@
 #include <cmath>
 #include <sstream>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/training/exercise/exercise.hpp>
 
 namespace trocar::app {
 namespace {
-
-std::string in_small_letters(std::string text) {
-  for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 std::vector<std::string> names_of_groups() {
   std::vector<std::string> names(std::begin(training::kGroups), std::end(training::kGroups));
@@ -58,8 +54,9 @@ int next_for(const std::vector<attempt::ExerciseEntry>& exercises, const Standin
 }
 
 bool matches(const attempt::ExerciseEntry& e, const std::string& words) {
-  const std::string text = in_small_letters(e.title + " " + e.summary + " " + title_of_group(e.group) + " " + e.name);
-  std::istringstream each(in_small_letters(words));
+  const std::string text =
+      core::in_small_letters(e.title + " " + e.summary + " " + title_of_group(e.group) + " " + e.name);
+  std::istringstream each(core::in_small_letters(words));
   for (std::string word; each >> word;)
     if (text.find(word) == std::string::npos) return false;
   return true;

@@ -2,6 +2,7 @@
 #include <cctype>
 #include <cstring>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 
 #include "shell/ui.hpp"
@@ -42,22 +43,17 @@ void draw_letters(StartMemory& memory) {
     const char label[] = {letter == ' ' ? '_' : letter, 0};
     if (!key(label) || name.size() >= training::kLongestName) continue;
     const bool first = name.empty() || name.back() == ' ';
-    name += first ? letter : char(std::tolower(letter));
+    name += first ? letter : core::small_letter(letter);
   }
   if (key("<")) remove_last(name);
   ImGui::PopStyleVar(2);
   if (name != memory.name) set_name(memory, name);
 }
 
-std::string plain(std::string name) {
-  for (char& c : name) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return name;
-}
-
 /// Who is known under this name, however it is written; else the name itself.
 std::string known_as(const std::string& name, const std::vector<std::string>& people) {
   for (const std::string& known : people)
-    if (plain(known) == plain(name)) return known;
+    if (core::in_small_letters(known) == core::in_small_letters(name)) return known;
   return name;
 }
 
@@ -66,7 +62,7 @@ void add_person(const StartContent& c, StartMemory& memory, StartAnswer& answer)
   memory.refusal.clear();
   if (name.empty())
     memory.refusal = tr("Type a name first.");
-  else if (is_reserved_name(plain(name)))
+  else if (is_reserved_name(core::in_small_letters(name)))
     memory.refusal = tr("Trocar uses this name itself. Choose another name.");
   else
     answer.person = known_as(name, c.people);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/hand_names.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 
 #include "trainer/feedback.hpp"
@@ -35,11 +36,6 @@ std::string points(double value) {
   const double rounded = std::round(10 * value) / 10;
   return rounded == std::round(rounded) ? fmt::format("{:.0f}", rounded == 0 ? 0.0 : rounded)
                                         : fmt::format("{:.1f}", rounded);
-}
-
-std::string capital(std::string words) {
-  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') words[0] = char(words[0] - 'a' + 'A');
-  return words;
 }
 
 Verdict verdict_of(const Json& r) {
@@ -88,7 +84,7 @@ void add_costs(const Json& errors, bool scored, ResultSummary& s) {
     const Json& e = *k.first;
     const std::string at = clock_text(number(e, "at_s"));
     ResultSummary::Cost cost;
-    cost.text = capital(text(e, "meaning"));
+    cost.text = core::with_capital(text(e, "meaning"));
     cost.when = k.count == 1 ? tr("at {}", at) : tr("{} times, first at {}", k.count, at);
     if (scored && k.points > 0) cost.points = tr("-{} points", points(k.points));
     if (const std::string hint = text(e, "hint"); !hint.empty()) cost.better = tr("Better: {}", hint);
@@ -109,8 +105,8 @@ void add_paths(const Json& metrics, ResultSummary& s) {
   if (const Json& hands = member(metrics, "hands"); hands.is_array())
     for (const Json& hand : hands)
       if (member(hand, "path_m").is_number())
-        s.paths.push_back(
-            tr("{}: {:.0f} mm", capital(attempt::in_words(text(hand, "name"))), 1000 * number(hand, "path_m")));
+        s.paths.push_back(tr("{}: {:.0f} mm", core::with_capital(attempt::in_words(text(hand, "name"))),
+                             1000 * number(hand, "path_m")));
   const Json& camera = member(metrics, "camera");
   if (member(camera, "path_m").is_number())
     s.paths.push_back(tr("Endoscope: {:.0f} mm", 1000 * number(camera, "path_m")));

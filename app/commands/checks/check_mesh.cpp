@@ -7,6 +7,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/tet_files.hpp>
@@ -76,8 +77,7 @@ Json describe_tets(const fs::path& path, std::optional<double> given) {
   Json notes = file.notes;
   if (!given) {
     const geometry::Extent extent{geometry::bounds(repaired.mesh.points), geometry::inspect(repaired.mesh).volume};
-    const double said = file.axes == geometry::PatientAxes::none ? 0 : geometry::kPatientUnit;
-    const double unit = unit_of_mesh(path, given, extent, said, notes);
+    const double unit = unit_of_mesh(path, given, extent, file.metres, notes);
     for (Vec3d& p : file.mesh.points) p = p * unit;
     repaired = geometry::repair(file.mesh);
   }
@@ -141,9 +141,7 @@ void print_parts(const Json& m) {
 }  // namespace
 
 bool is_mesh_file(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string extension = core::in_small_letters(path.extension().string());
   static constexpr const char* kMeshes[] = {".msh", ".vtk",  ".vtp",  ".vtu", ".obj",  ".stl", ".ply",
                                             ".glb", ".gltf", ".step", ".stp", ".iges", ".igs"};
   return std::find(std::begin(kMeshes), std::end(kMeshes), extension) != std::end(kMeshes);

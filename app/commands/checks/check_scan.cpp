@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 
@@ -26,9 +27,7 @@ Json as_json(const volumes::SeriesFacts& s) {
 bool is_scan_file(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) return true;
-  std::string name = path.filename().string();
-  for (char& c : name)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string name = core::in_small_letters(path.filename().string());
   static constexpr const char* kScans[] = {".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd", ".dcm", ".hdr", ".img"};
   return std::any_of(std::begin(kScans), std::end(kScans), [&](const char* end) { return name.ends_with(end); }) ||
          volumes::begins_as_dicom(path);

@@ -13,6 +13,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/pictures/video.hpp>
@@ -34,9 +35,7 @@ struct Container {
 constexpr Container kContainers[] = {{".mp4", "mp4"}, {".m4v", "mp4"}, {".mov", "mov"}, {".mkv", "matroska"}};
 
 const char* format_of(const fs::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  const std::string ending = core::in_small_letters(path.extension().string());
   for (const Container& c : kContainers)
     if (ending == c.ending) return c.format;
   throw core::BadInput({{{path.string(), 0, 0}, "expected a film's name to end in .mp4, .m4v, .mov or .mkv"}});

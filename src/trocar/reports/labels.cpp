@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/reports/labels.hpp>
 #include <trocar/training/facts/unit.hpp>
@@ -236,8 +237,7 @@ const char* title_of(std::string_view name) {
 std::string in_plain_words(std::string_view name, bool sentence) {
   std::string words(name);
   std::replace(words.begin(), words.end(), '_', ' ');
-  if (sentence && !words.empty()) words[0] = char(std::toupper(static_cast<unsigned char>(words[0])));
-  return words;
+  return sentence ? core::with_capital(std::move(words)) : words;
 }
 
 Label label_of(std::string_view name) {

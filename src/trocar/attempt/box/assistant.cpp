@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/box/assistant.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 
 namespace trocar::attempt {
@@ -136,8 +137,7 @@ BoxAssistant::BoxAssistant(const devices::BoxWiring& basis, const BoxParts& part
 void BoxAssistant::ask_axis(BoxActor actor, BoxAxis which) {
   BoxQuestion q;
   q.actor = actor, q.axis = which;
-  q.heading = fmt::format("{}: {}", who(actor), axis_word(actor, which));
-  q.heading[0] = char(q.heading[0] - 'a' + 'A');
+  q.heading = core::with_capital(fmt::format("{}: {}", who(actor), axis_word(actor, which)));
   q.text = sweep_text(actor, which);
   m_questions.push_back(q);
   q.kind = BoxQuestion::Kind::hold;
@@ -156,8 +156,7 @@ void BoxAssistant::ask_press(BoxActor actor, int pedal, int button) {
   BoxQuestion q;
   q.kind = BoxQuestion::Kind::press;
   q.actor = actor, q.pedal = pedal, q.button = button;
-  q.heading = pedal >= 0 ? "Foot switches" : tr("{}: switches", who(actor));
-  if (pedal < 0) q.heading[0] = char(q.heading[0] - 'a' + 'A');
+  q.heading = pedal >= 0 ? "Foot switches" : core::with_capital(tr("{}: switches", who(actor)));
   q.text = tr("Press and release {}.", pedal >= 0 ? std::string(kPedals[std::size_t(pedal)])
                                                   : tr("{} of the {}", kButtons[std::size_t(button)], who(actor)));
   m_questions.push_back(q);

@@ -2,19 +2,11 @@
 
 #include <trocar/attempt/playback/captions.hpp>
 #include <trocar/core/json.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/training/store/json_fields.hpp>
 
 namespace trocar::attempt {
-namespace {
-
-std::string capital(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = char(text[0] - 'a' + 'A');
-  return text;
-}
-
-}  // namespace
-
 std::vector<Doing> doings_of_result(const std::string& result_json) {
   std::vector<Doing> doings;
   const Json result = training::json_in(result_json);
@@ -44,9 +36,9 @@ Caption Captions::at(std::uint64_t tick) const {
                                       [](std::uint64_t t, const Doing& d) { return t < d.tick; });
   if (after == m_doings.begin()) return caption;
   const Doing& now = *(after - 1);
-  caption.doing = now.goal.empty()    ? capital(now.skill)
-                  : now.skill.empty() ? capital(now.goal)
-                                      : tr("{}: {}", capital(now.goal), now.skill);
+  caption.doing = now.goal.empty()    ? core::with_capital(now.skill)
+                  : now.skill.empty() ? core::with_capital(now.goal)
+                                      : tr("{}: {}", core::with_capital(now.goal), now.skill);
   return caption;
 }
 

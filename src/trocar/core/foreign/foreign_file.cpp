@@ -3,6 +3,7 @@
 
 #include <trocar/core/foreign/foreign_file.hpp>
 #include <trocar/core/foreign/foreign_text.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 
@@ -147,13 +148,6 @@ std::string said(const char* name, const Remedies& remedies, Wanted wanted) {
                                                 : remedies.volume;
   if (!remedy) return {};
   return *remedy ? tr("{}: {}", tr(name), tr(remedy)) : tr(name);
-}
-
-std::string in_small_letters(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return out;
 }
 
 /// By its ending, where the bytes begin as that format does.

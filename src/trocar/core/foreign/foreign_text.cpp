@@ -2,6 +2,7 @@
 #include <array>
 
 #include <trocar/core/foreign/foreign_text.hpp>
+#include <trocar/core/letters.hpp>
 
 namespace trocar::core {
 namespace {
@@ -10,11 +11,10 @@ constexpr std::string_view kBlank = " \t\r\n";
 constexpr std::size_t kLongestRoot = 40;  // letters of a name that is shown
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-char lower(char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; }
 
 bool begins_with(std::string_view text, std::string_view word) {
   return text.size() >= word.size() &&
-         std::equal(word.begin(), word.end(), text.begin(), [](char a, char b) { return a == lower(b); });
+         std::equal(word.begin(), word.end(), text.begin(), [](char a, char b) { return a == small_letter(b); });
 }
 
 std::string_view without_mark(std::string_view text) {

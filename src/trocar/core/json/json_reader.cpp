@@ -8,6 +8,7 @@
 #include <trocar/core/foreign/foreign_file.hpp>
 #include <trocar/core/json/json_grammar.hpp>
 #include <trocar/core/json/json_reader.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 
@@ -44,7 +45,7 @@ bool is_word(char c) {
 bool looks_not_finite(std::string_view word) {
   std::string lower;
   for (const char c : word)
-    if (c != '+' && c != '-') lower.push_back(c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c);
+    if (c != '+' && c != '-') lower.push_back(small_letter(c));
   return lower == "nan" || lower == "inf" || lower == "infinity";
 }
 

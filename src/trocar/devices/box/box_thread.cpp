@@ -8,6 +8,7 @@ namespace {
 
 constexpr BoxTime kSecond = 1'000'000'000;
 constexpr auto kTryAgain = std::chrono::milliseconds(200);  // to open what was unplugged
+constexpr BoxTime kFirstAnswer = 100'000'000;
 
 }  // namespace
 
@@ -34,6 +35,7 @@ BoxStatus BoxThread::status() const {
 void BoxThread::loop() {
   raise_priority();
   const BoxTime period = m_link.settings().period();
+  const auto each = [this](const BoxPacket& packet) { count(packet); };
   BoxTime due = m_second_began = box_now();
   while (!m_stop.load(std::memory_order_relaxed)) {
     if (!m_link.is_open() && !m_link.try_to_open()) {
@@ -43,8 +45,10 @@ void BoxThread::loop() {
       continue;
     }
     m_link.ask();
+    // A box that has just been switched on answers late; what is asked meanwhile would wait on a full line for ever.
+    if (!m_link.answered()) m_link.listen(box_now() + kFirstAnswer, each, [this] { return m_link.answered(); });
     due = m_link.next(std::max(due + period, box_now()));  // what was slept through is not asked for afterwards
-    m_link.listen(due, [this](const BoxPacket& packet) { count(packet); });
+    m_link.listen(due, each);
     tell();
   }
 }

@@ -83,6 +83,7 @@ class BoxDialogue {
   }
 
   const BoxDialogueSettings& settings() const noexcept { return m_settings; }
+  bool answered() const noexcept { return m_heard_any; }  ///< has a block come since begin()?
   BoxCounts counts() const noexcept;
 
  private:

@@ -41,6 +41,7 @@ class BoxLink {
 
   const std::string& path() const { return m_path; }
   const BoxDialogueSettings& settings() const { return m_dialogue.settings(); }
+  bool answered() const { return m_dialogue.answered(); }  ///< since it was opened
   BoxCounts counts() const { return m_dialogue.counts(); }
   std::uint64_t opened() const { return m_opened; }  ///< times
 

@@ -10,6 +10,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/core/random.hpp>
 #include <trocar/devices/haptics/web_socket.hpp>
 
@@ -65,12 +66,6 @@ std::string base64(std::string_view bytes) {
       out.push_back(i + k <= bytes.size() ? kDigits[(three >> (18 - 6 * k)) & 63] : '=');
   }
   return out;
-}
-
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return text;
 }
 
 using Clock = std::chrono::steady_clock;
@@ -183,7 +178,7 @@ std::string WebSocket::connect(int port, const std::string& path, double patienc
   if (header.rfind("HTTP/1.1 101", 0) != 0)
     return fail(header.empty() ? "it does not answer" : "it is not a web socket");
   const std::string field = "sec-websocket-accept:";
-  const std::size_t at = lower(header).find(field);
+  const std::size_t at = core::in_small_letters(header).find(field);
   if (at == std::string::npos) return fail("it is not a web socket");
   const std::size_t begin = header.find_first_not_of(' ', at + field.size()), end = header.find("\r\n", at);
   if (begin == std::string::npos || begin > end || header.substr(begin, end - begin) != web_socket_answer(key))

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/devices/tracker/igtl_texts.hpp>
 
 namespace trocar::devices {
@@ -32,8 +33,7 @@ IgtlTexts read_texts(IgtlBytes table, IgtlBytes texts) {
 
 /// Upper case, without the prefix that older versions of PLUS write.
 std::string status_word(const std::string& text) {
-  std::string word = text.substr(0, kLongestWord);
-  for (char& c : word) c = c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
+  const std::string word = core::in_capitals(text.substr(0, kLongestWord));
   return begins(word, "TOOL_") ? word.substr(5) : word;
 }
 

@@ -1,18 +1,12 @@
 #include <algorithm>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/patient_axes.hpp>
 
 namespace trocar::geometry {
 
 namespace {
-
-std::string in_capitals(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return out;
-}
 
 constexpr const char* kNames[] = {"", "LPS", "RAS", "LAS", "RPS", "LPI", "RAI", "LAI", "RPI", "another order of these"};
 const char* name_of(PatientAxes axes) { return kNames[int(axes)]; }
@@ -35,7 +29,7 @@ std::string short_name(std::string_view name) {
 }  // namespace
 
 PatientAxes patient_axes_named(std::string_view name) {
-  const std::string text = in_capitals(name), known = short_name(text);
+  const std::string text = core::in_capitals(name), known = short_name(text);
   for (int i = int(PatientAxes::lps); i < int(PatientAxes::other); ++i)
     if (known == kNames[i] || text.starts_with(kNames[i])) return PatientAxes(i);  // heads of STL run on behind it
   const auto once = [&known](const char* pair) { return known.find_first_of(pair) != known.npos; };
@@ -44,7 +38,7 @@ PatientAxes patient_axes_named(std::string_view name) {
 
 PatientAxes patient_axes_in(std::string_view line) {
   constexpr std::string_view kKey = "SPACE=";
-  const std::string text = in_capitals(line.substr(0, 1000));
+  const std::string text = core::in_capitals(line.substr(0, 1000));
   const std::size_t at = text.find(kKey);
   if (at == text.npos || (at > 0 && (is_capital(text[at - 1]) || text[at - 1] == '_'))) return PatientAxes::none;
   return patient_axes_named(std::string_view(text).substr(at + kKey.size()));

@@ -38,6 +38,7 @@ TetFile read_tets(std::string_view bytes, const std::string& path, double scale)
   turn_to_our_axes(file.axes, file.mesh.points);
   if (is_mirrored(file.axes))
     for (auto& cell : file.mesh.cells) std::swap(cell[2], cell[3]);
+  file.metres = kPatientUnit;
   file.notes.push_back(turned_in_words(file.axes));
   return file;
 }

@@ -30,6 +30,7 @@ struct TetFile {
   std::string format;                    ///< "Gmsh 2.2, text"
   std::vector<std::string> notes;        ///< what was left out: other kinds of cells, nodes on edges; what was turned
   PatientAxes axes = PatientAxes::none;  ///< that the file names: its points are turned into ours
+  double metres = 0;                     ///< in the file's unit, where the file says it; 0: it does not
 };
 
 /// Which format it is shows in the first bytes, not in the name. Tetrahedra of higher order give their corners.

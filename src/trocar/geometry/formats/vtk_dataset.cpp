@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/vtk_dataset.hpp>
 
@@ -21,7 +22,7 @@ VtkHeader read_vtk_header(VtkValues& values, bool needs_grid) {
   const PatientAxes axes = patient_axes_in(in.line());  // the title
   in.skip_space();
   std::size_t at = in.at();
-  const std::string form = lower(in.line());
+  const std::string form = core::in_small_letters(in.line());
   if (form == "binary")
     values.form = MeshSource::Form::binary_swapped;
   else if (form != "ascii")

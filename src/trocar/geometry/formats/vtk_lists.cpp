@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/vtk_lists.hpp>
 
@@ -36,7 +37,7 @@ void VtkLists::lengths_in_front(std::size_t count, std::size_t size) {
   }
   if (left != 0)
     in.lose(m_values.place(),
-            tr("expected {} numbers more in {}, got the end of the {}", left, upper(m_things), m_things));
+            tr("expected {} numbers more in {}, got the end of the {}", left, core::in_capitals(m_things), m_things));
   m_values.end();
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/vtk_values.hpp>
 
@@ -35,22 +36,8 @@ const VtkCell* vtk_cell(std::int64_t type) {
   return nullptr;
 }
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
-
-std::string upper(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return out;
-}
-
-std::string VtkValues::word() { return lower(in.word().substr(0, 40)); }
-std::string VtkValues::next_word() { return lower(in.peek_word().substr(0, 40)); }
+std::string VtkValues::word() { return core::in_small_letters(in.word().substr(0, 40)); }
+std::string VtkValues::next_word() { return core::in_small_letters(in.peek_word().substr(0, 40)); }
 
 const VtkType* VtkValues::find_type() {
   const std::string name = word();

@@ -10,9 +10,6 @@
 
 namespace trocar::geometry {
 
-std::string lower(std::string_view text);
-std::string upper(std::string_view text);
-
 /// How a value stands in binary files.
 struct VtkType {
   const char* name;

@@ -7,6 +7,7 @@
 // "end loop", a second "solid" line, facets without one.
 #include <fmt/format.h>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/surface_reader.hpp>
 
@@ -20,13 +21,6 @@ std::uint64_t stl_announced(std::string_view bytes) {
   for (std::size_t k = 0; k < 4; ++k)
     count |= std::uint64_t(static_cast<unsigned char>(bytes[kStlTitle + k])) << (8 * k);
   return count;
-}
-
-bool is_word(std::string_view word, std::string_view lower_case) {
-  if (word.size() != lower_case.size()) return false;
-  for (std::size_t i = 0; i < word.size(); ++i)
-    if ((word[i] >= 'A' && word[i] <= 'Z' ? char(word[i] - 'A' + 'a') : word[i]) != lower_case[i]) return false;
-  return true;
 }
 
 bool is_stl_text(const MeshSource& in) {
@@ -88,11 +82,11 @@ class StlText {
   void read() {
     for (m_in.skip_comments(); !m_in.only_padding_left(); m_in.skip_comments()) {
       const std::string_view word = m_in.peek_word();
-      if (is_word(word, "solid"))
+      if (core::spells(word, "solid"))
         begin_solid();
-      else if (is_word(word, "endsolid") || is_word(word, "end"))
+      else if (core::spells(word, "endsolid") || core::spells(word, "end"))
         end_solid();
-      else if (!is_word(word, "facet") && is_junk_left())
+      else if (!core::spells(word, "facet") && is_junk_left())
         return leave_junk_out();
       else
         facet();
@@ -157,7 +151,7 @@ class StlText {
   void expect(std::string_view word) {
     m_in.skip_comments();
     const std::size_t at = m_in.at();
-    if (!is_word(m_in.word(), word)) m_in.lose(at, tr("expected '{}', got {}", word, m_in.shown(at)));
+    if (!core::spells(m_in.word(), word)) m_in.lose(at, tr("expected '{}', got {}", word, m_in.shown(at)));
   }
 
   /// "endloop", or "end loop".
@@ -165,9 +159,9 @@ class StlText {
     m_in.skip_comments();
     const std::size_t at = m_in.at();
     const std::string_view word = m_in.word();
-    const bool in_two = is_word(word, "end") && is_word(m_in.peek_word(), of);
+    const bool in_two = core::spells(word, "end") && core::spells(m_in.peek_word(), of);
     if (in_two) m_in.word();
-    if (!in_two && !is_word(word, fmt::format("end{}", of)))
+    if (!in_two && !core::spells(word, fmt::format("end{}", of)))
       m_in.lose(at, tr("expected 'end{}', got {}", of, m_in.shown(at)));
   }
 };
@@ -187,7 +181,7 @@ bool has_stl_size(std::string_view bytes) {
 
 bool begins_with_solid(MeshSource in) {
   in.skip_comments();
-  return is_word(in.peek_word(), "solid");
+  return core::spells(in.peek_word(), "solid");
 }
 
 SurfaceFile read_stl(MeshSource& in, const std::string& name) {

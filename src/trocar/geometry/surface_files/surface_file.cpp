@@ -7,6 +7,7 @@
 
 #include <trocar/core/files.hpp>
 #include <trocar/core/foreign/foreign_file.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/polygons.hpp>
 #include <trocar/geometry/surface_files/surface_reader.hpp>
@@ -16,15 +17,6 @@ namespace trocar::geometry {
 namespace {
 
 constexpr const char* kSurfaceFormats = "a surface in OBJ, STL, PLY, glTF 2.0 or legacy VTK";
-
-bool ends_like(const std::string& path, std::string_view ending) {
-  if (path.size() < ending.size()) return false;
-  for (std::size_t i = 0; i < ending.size(); ++i) {
-    const char c = path[path.size() - ending.size() + i];
-    if ((c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c) != ending[i]) return false;
-  }
-  return true;
-}
 
 /// Do the first words of lines look like OBJ?
 bool looks_like_obj(MeshSource in) {
@@ -49,7 +41,7 @@ SurfaceFile read_known(MeshSource& in, const std::string& path, const std::strin
   if (begins_with_solid(in)) return read_stl(in, name);
   const std::string foreign = core::foreign_file(bytes.substr(in.at()), core::Wanted::mesh);
   if (foreign.empty() && looks_like_obj(in)) return read_obj(in, name);
-  if (foreign.empty() && ends_like(path, ".stl")) return read_stl(in, name);  // one whose size is wrong
+  if (foreign.empty() && core::ends_in(path, ".stl")) return read_stl(in, name);  // one whose size is wrong
   const std::string known = core::foreign_file(bytes.substr(in.at()), core::Wanted::mesh, path);
   in.lose(in.at(), tr("expected {}, got {}", kSurfaceFormats, known.empty() ? in.shown(in.at()) : known));
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/surface_files/unit_guess.hpp>
 
@@ -75,9 +76,7 @@ double unit_in_head(std::string_view line) {
                                   {" in inch inches ", 0.0254},
                                   {" ft foot feet ", 0.3048},
                                   {" um micron microns micrometer micrometers micrometre micrometres ", 1e-6}};
-  std::string text(line.substr(0, 1000));
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  const std::string text = core::in_small_letters(line.substr(0, 1000));
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
   const std::size_t key = text.find("unit");
   if (key == text.npos || (key > 0 && is_letter(text[key - 1]))) return 0;

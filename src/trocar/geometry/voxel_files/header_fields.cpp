@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/voxel_files/header_fields.hpp>
@@ -37,13 +38,6 @@ std::vector<std::string_view> words_of(std::string_view text) {
 
 void refuse(const std::string& file, std::string message) {
   throw core::BadInput({{{file, 0, 0}, std::move(message)}});
-}
-
-std::string lowered(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return out;
 }
 
 std::string shown(std::string_view text) {
@@ -133,7 +127,7 @@ HeaderFields read_fields(std::string_view bytes, const std::string& file, char s
       out.lose(out.last_line, 1, tr("expected 'field {} value', got {}", separator, shown(line)));
     const bool note = separator == ':' && line.substr(colon, 2) == ":=";
     const std::string_view value = trimmed(line.substr(colon + (note ? 2 : 1)));
-    const std::string name = lowered(trimmed(line.substr(0, colon))) + (note ? ":=" : "");
+    const std::string name = core::in_small_letters(trimmed(line.substr(0, colon))) + (note ? ":=" : "");
     const int column = int(value.empty() ? std::size_t(line.data() - whole.data()) + colon + 1
                                          : std::size_t(value.data() - whole.data())) +
                        1;

@@ -54,7 +54,6 @@ HeaderFields read_fields(std::string_view bytes, const std::string& file, char s
 /// Throws core::BadInput for a file as a whole: `file:0:0: message`.
 [[noreturn]] void refuse(const std::string& file, std::string message);
 
-std::string lowered(std::string_view text);
 /// Text from a file as a message shows it: short, and nothing that a terminal would obey.
 std::string shown(std::string_view text);
 

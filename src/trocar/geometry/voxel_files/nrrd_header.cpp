@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/voxel_files/grid_faults.hpp>
@@ -132,7 +133,7 @@ class HeaderReader {
   void type() {
     const HeaderField* field = m_fields.need("type");
     if (!field) return;
-    const std::string name = lowered(field->value.substr(0, 40));
+    const std::string name = core::in_small_letters(field->value.substr(0, 40));
     for (const TypeName& t : kNrrdTypes)
       if (name == t.name) return void(m_volume.type = m_volume.written = t.type);
     m_fields.fault(*field, tr("expected a type from int8 to uint64, float or double, got {}", shown(field->value)));
@@ -168,7 +169,7 @@ class HeaderReader {
   void require_list() {
     const HeaderField* kinds = m_fields.find("kinds");
     if (!kinds) return;
-    std::istringstream words(lowered(kinds->value.substr(0, 400)));
+    std::istringstream words(core::in_small_letters(kinds->value.substr(0, 400)));
     std::string word;
     for (std::size_t a = 0; a < 4 && words >> word; ++a) {
       if (m_is_space[a]) continue;
@@ -185,7 +186,7 @@ class HeaderReader {
     m_is_space = {true, true, true, m_axes == 4};
     if (m_axes == 3) return;
     if (const HeaderField* field = m_fields.find("space directions")) {
-      const std::string text = lowered(field->value.substr(0, 2000));
+      const std::string text = core::in_small_letters(field->value.substr(0, 2000));
       // Vectors and the word "none" follow each other: their order is what counts.
       std::size_t axis = 0;
       int none = 0;
@@ -197,7 +198,8 @@ class HeaderReader {
     }
     m_is_space = {true, true, true, false};
     if (const HeaderField* kinds = m_fields.find("kinds"))
-      if (lowered(kinds->value.substr(0, 4)) != "doma" && lowered(kinds->value.substr(0, 4)) != "spac")
+      if (core::in_small_letters(kinds->value.substr(0, 4)) != "doma" &&
+          core::in_small_letters(kinds->value.substr(0, 4)) != "spac")
         m_is_space = {false, true, true, true};
   }
 
@@ -207,7 +209,7 @@ class HeaderReader {
       if (width_of(m_volume.type) > 1 && m_out.encoding != NrrdEncoding::text) m_fields.need("endian");
       return;
     }
-    const std::string name = lowered(field->value.substr(0, 40));
+    const std::string name = core::in_small_letters(field->value.substr(0, 40));
     m_volume.big_endian = name == "big";
     if (name != "big" && name != "little")
       m_fields.fault(*field, tr("expected little or big, got {}", shown(field->value)));
@@ -216,7 +218,7 @@ class HeaderReader {
   void how_packed() {
     const HeaderField* field = m_fields.need("encoding");
     if (!field) return;
-    const std::string name = lowered(field->value.substr(0, 40));
+    const std::string name = core::in_small_letters(field->value.substr(0, 40));
     if (name == "raw")
       m_out.encoding = NrrdEncoding::raw;
     else if (name == "gzip" || name == "gz")
@@ -258,7 +260,7 @@ class HeaderReader {
           "to the back, third to the head"));
       return {1, 1, 1};
     }
-    const std::string name = lowered(field->value.substr(0, 40));
+    const std::string name = core::in_small_letters(field->value.substr(0, 40));
     for (const Space& s : kSpaces)
       if (name == s.name) return s.to_lps;
     m_fields.fault(*field, tr("expected left-posterior-superior, right-anterior-superior or "
@@ -276,12 +278,12 @@ class HeaderReader {
     Vec3d columns[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, origin;
     const HeaderField *directions = m_fields.find("space directions"), *spacings = m_fields.find("spacings");
     if (directions) {
-      std::string text = lowered(directions->value.substr(0, 2000));
+      std::string text = core::in_small_letters(directions->value.substr(0, 2000));
       for (std::size_t at = text.find("none"); at != std::string::npos; at = text.find("none")) text.erase(at, 4);
       const auto n = m_fields.numbers({directions->name, text, directions->line, directions->column}, 9, 9);
       for (std::size_t k = 0; k < 3; ++k) columns[k] = turned(n[3 * k], n[3 * k + 1], n[3 * k + 2]);
     } else if (spacings) {
-      std::string text = lowered(spacings->value.substr(0, 200));
+      std::string text = core::in_small_letters(spacings->value.substr(0, 200));
       for (std::size_t at = text.find("nan"); at != std::string::npos; at = text.find("nan")) text.erase(at, 3);
       auto n = m_fields.numbers({spacings->name, text, spacings->line, spacings->column}, 3, 4);
       n.erase(n.begin() + (n.size() > 3 && m_layers_first ? 0 : 3),

@@ -2,6 +2,7 @@
 #include <cctype>
 #include <filesystem>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/modeller/document/plain_words.hpp>
 
@@ -123,7 +124,7 @@ std::string label_of_key(std::string_view key) {
   std::string out(unit ? key.substr(0, key.size() - unit->key.size()) : key);
   for (char& c : out)
     if (c == '_') c = ' ';
-  if (!out.empty()) out[0] = char(std::toupper(static_cast<unsigned char>(out[0])));
+  out = core::with_capital(std::move(out));
   return unit ? out + " (" + unit->words + ")" : out;
 }
 

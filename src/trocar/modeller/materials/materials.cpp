@@ -2,6 +2,7 @@
 #include <cctype>
 #include <utility>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/modeller/document/outline.hpp>
 #include <trocar/modeller/materials/materials.hpp>
 #include <trocar/scene/files/library.hpp>
@@ -14,7 +15,7 @@ namespace {
 std::string letters_of(const std::string& name) {
   std::string out;
   for (const char c : name)
-    if (std::isalpha(static_cast<unsigned char>(c))) out += char(std::tolower(static_cast<unsigned char>(c)));
+    if (const char small = core::small_letter(c); small >= 'a' && small <= 'z') out += small;
   return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/run_program.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/formats/tet_files.hpp>
@@ -43,23 +44,17 @@ class PassingFolder {
   fs::path m_path;
 };
 
-std::string lower_ending(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return text;
-}
-
 }  // namespace
 
 bool is_tet_file(const fs::path& file) {
-  const std::string ending = lower_ending(file.extension().string());
+  const std::string ending = core::in_small_letters(file.extension().string());
   if (ending != ".vtk" && ending != ".msh") return false;
   std::error_code error;
   return fs::is_regular_file(file, error) && geometry::holds_tetrahedra(core::read_file(file, geometry::kMaxMeshBytes));
 }
 
 bool is_cad_file(const fs::path& file) {
-  const std::string ending = lower_ending(file.extension().string());
+  const std::string ending = core::in_small_letters(file.extension().string());
   return ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs";
 }
 

@@ -99,8 +99,7 @@ bool put_tetrahedra(const JsonObject& o, Draft& draft, const fs::path& path, con
     throw core::BadInput({{{path.generic_string(), 0, 0}, "expected cells with a volume, got flat ones only"}});
   std::vector<std::string> notes = file.notes;
   const geometry::Extent extent{geometry::bounds(mesh.points), geometry::inspect(mesh).volume};
-  const double said = file.axes == geometry::PatientAxes::none ? 0 : geometry::kPatientUnit;
-  const std::optional<double> unit = chosen_unit(o, extent, said, notes);
+  const std::optional<double> unit = chosen_unit(o, extent, file.metres, notes);
   if (!unit) return false;
   JsonValue source = scene::json_object();
   const std::string name = put_beside(draft.document(), o.text("name"), path.extension().string(), bytes);

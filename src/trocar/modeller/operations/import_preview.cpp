@@ -50,7 +50,7 @@ void read_tet_preview(const fs::path& file, ImportPreview& out) {
       geometry::read_tets(core::read_file(file, geometry::kMaxMeshBytes), file.generic_string(), 1);
   out.format = read.format;
   out.notes = read.notes;
-  if (read.axes != geometry::PatientAxes::none) out.metres = geometry::kPatientUnit;
+  out.metres = read.metres;
   take_part(out, file.stem().string(), geometry::surface_of(geometry::repair(read.mesh).mesh).mesh);
 }
 

@@ -81,9 +81,8 @@ void Reading::mesh_of(const JsonObject& o, TetSource source, const fs::path& fol
     const geometry::TetFile file = geometry::read_tets(*bytes, shown, source.unit);
     geometry::TetRepair repaired = geometry::repair(file.mesh);
     const geometry::Extent extent{geometry::bounds(repaired.mesh.points), geometry::volume(repaired.mesh)};
-    const bool file_says = file.axes != geometry::PatientAxes::none;
-    if (!o.has("unit_mm") && !is_organ_sized(o, extent, source.unit, file_says, source.warnings)) return;
-    if (file_says) source.warnings.push_back(geometry::turned_in_words(file.axes));
+    if (!o.has("unit_mm") && !is_organ_sized(o, extent, source.unit, file.metres > 0, source.warnings)) return;
+    if (file.metres > 0) source.warnings.push_back(geometry::turned_in_words(file.axes));
     for (const geometry::Mended& m : repaired.mended)
       source.warnings.push_back(tr("it has defects; mended: {}", geometry::in_words(m)));
     for (const std::string& left : geometry::left_as_is(repaired.mesh))

@@ -4,6 +4,7 @@
 
 #include <trocar/core/foreign/foreign_text.hpp>
 #include <trocar/core/json/json_grammar.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/scene/json/json.hpp>
@@ -250,10 +251,7 @@ std::string declared_encoding(std::string_view text) {
   const std::size_t key = text.find("encoding");
   const std::size_t from = key == text.npos ? key : text.find_first_of("\"'", key);
   if (from == text.npos) return {};
-  std::string name(text.substr(from + 1, text.find_first_of("\"'", from + 1) - from - 1).substr(0, 40));
-  for (char& c : name)
-    if (c >= 'a' && c <= 'z') c = char(c - 'a' + 'A');
-  return name;
+  return core::in_capitals(text.substr(from + 1, text.find_first_of("\"'", from + 1) - from - 1).substr(0, 40));
 }
 
 struct XmlText {

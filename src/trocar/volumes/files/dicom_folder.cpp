@@ -8,6 +8,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
 #include <trocar/core/foreign/foreign_file.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/volumes/files/dicom_folder.hpp>
@@ -136,7 +137,7 @@ std::size_t add_file(const fs::path& path, DicomFolder& out) {
     return images;
   }
   const bool is_list =
-      is_dicom_directory(header.sop_class) || geometry::lowered(path.filename().string()) == "dicomdir";
+      is_dicom_directory(header.sop_class) || core::in_small_letters(path.filename().string()) == "dicomdir";
   out.left_out.push_back({name, header.fault, header.uid, header.instance, header.broken, true, is_list});
   return 0;
 }

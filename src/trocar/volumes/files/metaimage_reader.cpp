@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/letters.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/voxel_files/inflate.hpp>
 #include <trocar/volumes/files/readers.hpp>
@@ -65,7 +66,7 @@ class MetaHeader {
   bool flag(const char* name) {
     const HeaderField* field = m_fields.find(name);
     if (!field) return false;
-    const std::string value = lowered(field->value.substr(0, 10));
+    const std::string value = core::in_small_letters(field->value.substr(0, 10));
     if (value == "true" || value == "t" || value == "1" || value == "yes") return true;
     if (value != "false" && value != "f" && value != "0" && value != "no")
       m_fields.fault(*field, tr("expected True or False, got {}", shown(field->value)));
@@ -95,7 +96,7 @@ class MetaHeader {
         m_fields.fault(*channels, tr("expected one number a voxel, got {}", shown(channels->value)));
     const HeaderField* field = m_fields.need("elementtype");
     if (!field) return;
-    const std::string name = lowered(field->value.substr(0, 40));
+    const std::string name = core::in_small_letters(field->value.substr(0, 40));
     for (const MetaType& t : kMetaTypes)
       if (name == t.name) return void(raster.element = t.element);
     m_fields.fault(*field, tr("expected a type from MET_CHAR to MET_ULONG_LONG, MET_FLOAT or MET_DOUBLE, got {}",
@@ -150,7 +151,7 @@ class MetaHeader {
 }  // namespace
 
 bool looks_like_metaimage(std::string_view bytes) {
-  const std::string start = lowered(bytes.substr(0, 2000));
+  const std::string start = core::in_small_letters(bytes.substr(0, 2000));
   const std::string_view head = std::string_view(start).substr(0, start.find('\n'));
   if (head.find('=') == std::string_view::npos) return false;
   return head.find("objecttype") == 0 || head.find("ndims") == 0 ||
@@ -168,7 +169,7 @@ Raster read_metaimage(const Source& source) {
                     offset = std::size_t(frame) * wanted;
   std::string other;
   std::string_view data = source.bytes.substr(fields.end);
-  const bool local = lowered(header.data->value.substr(0, 10)) == "local";
+  const bool local = core::in_small_letters(header.data->value.substr(0, 10)) == "local";
   if (!local) {
     const auto name = geometry::name_beside(header.data->value);
     if (!source.beside || !name)

@@ -15,8 +15,8 @@
 namespace trocar::volumes {
 
 using Element = geometry::NumberType;
-using geometry::lowered, geometry::name_of, geometry::place_fault, geometry::refuse, geometry::shown,
-    geometry::size_fault, geometry::width_of;
+using geometry::name_of, geometry::place_fault, geometry::refuse, geometry::shown, geometry::size_fault,
+    geometry::width_of;
 
 /// value = intercept + slope * number
 struct Rescale {

@@ -7,6 +7,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
 #include <trocar/core/foreign/foreign_file.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/voxel_files/inflate.hpp>
@@ -90,7 +91,7 @@ std::string header_beside(const fs::path& voxels) {
   const std::string name = voxels.filename().string();
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(voxels.has_parent_path() ? voxels.parent_path() : ".", error)) {
-    const std::string extension = lowered(entry.path().extension().string());
+    const std::string extension = core::in_small_letters(entry.path().extension().string());
     if (extension != ".nhdr" && extension != ".mhd") continue;
     std::string text(kMostHeader, '\0');
     std::ifstream in(entry.path(), std::ios::binary);

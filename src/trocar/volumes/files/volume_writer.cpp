@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/files.hpp>
+#include <trocar/core/letters.hpp>
 #include <trocar/core/printable.hpp>
 #include <trocar/core/text.hpp>
 #include <trocar/geometry/voxel_files/inflate.hpp>
@@ -97,7 +98,7 @@ void put_in_place(const fs::path& path, const std::string& bytes) {
 
 template <class Image>
 void write_by_name(const fs::path& path, const Image& image) {
-  const std::string name = lowered(path.filename().string());
+  const std::string name = core::in_small_letters(path.filename().string());
   const auto ends = [&](std::string_view end) {
     return name.size() > end.size() && name.substr(name.size() - end.size()) == end;
   };
