@@ -171,8 +171,7 @@ struct FluidsTick {
     const fluids::FluidsModel& m = s.model.wet.model;
     fluids::FluidsState& state = s.state.fluids;
     fluids::FluidsWork& work = s.work.fluids;
-    const interactions::WetBodies bodies{s.work.surfaces, s.work.sheets,    s.model.strand_bodies,
-                                         s.state.strands, s.model.wet.film, s.model.wet.grids};
+    const interactions::WetGround ground{{s.model, s.state, &s.work}, s.model.wet.film, s.model.wet.grids};
     const std::span<const fluids::Capsule> tools(s.work.wet_tools.data(), 4);
     fluids::Below below{m.pool, s.model.wet.floor, state.pool, state.ledger};
     double at = now_us();
@@ -183,7 +182,7 @@ struct FluidsTick {
     };
     fluids::plan(m.droplets, s.work.wounds, state.droplets, work.droplets, below);
     plan = lap();
-    answer_drops(bodies, normalised(s.model.gravity), state.droplets, work.droplets, s.work.wet);
+    answer_drops(ground, normalised(s.model.gravity), state.droplets, work.droplets, s.work.wet);
     answer = lap();
     fluids::resolve(m.droplets, tools, state.droplets, work.droplets, below);
     resolve = lap();

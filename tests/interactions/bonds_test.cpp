@@ -6,6 +6,8 @@
 #include <trocar/core/tick.hpp>
 #include <trocar/interactions/couplings/bonds.hpp>
 
+#include "few_bodies.hpp"
+
 using namespace trocar;
 using namespace trocar::interactions;
 
@@ -22,6 +24,7 @@ struct Strip {
   tissue::MembraneState state;
   tissue::MembraneWork work;
   NetworkLoads loads;
+  test::FewBodies few;  ///< none: bonds hold on space
   BondSet set;
   std::vector<BondState> bonds;
   std::vector<Vec3d> targets;
@@ -58,7 +61,7 @@ struct Strip {
     for (Vec3d& target : targets) target += way;
     loads.clear();
     const BondedNodes tied{sheet.network, state.network, loads};
-    bond_loads(set, bonds, tied, {}, kTick, {}, {});
+    bond_loads(set, bonds, tied, few.all(), kTick);
     loads.sort();
     EXPECT_FALSE(loads.overflowed);
     EXPECT_TRUE(tissue::advance(sheet, targets, loads.sorted, loads.reaction, state, work).fine());

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/tick.hpp>
-#include <trocar/interactions/couplings/border.hpp>
+#include <trocar/interactions/couplings/border_loads.hpp>
+
+#include "few_bodies.hpp"
 
 using namespace trocar;
 using namespace trocar::interactions;
@@ -16,15 +18,11 @@ using core::kTick;
 
 /// A free strand along x with a sheet that hangs from it; the sheet's other border is free.
 struct Hanging {
-  std::vector<StrandBody> bodies;
-  std::vector<tissue::StrandState> strands;
+  test::FewBodies few;
   tissue::MembraneModel sheet;
   tissue::MembraneState state;
   tissue::MembraneWork work;
-  tissue::StrandWork strand_work;
   std::vector<BorderHold> holds;
-  std::vector<StrandLoads> loads;
-  std::vector<NetworkLoads> none;
   std::vector<tissue::BorderPull> pulls;
   std::vector<Vec3d> targets;
   Vec3d force{0, 0, 0};   ///< on every node of the strand [N]
@@ -42,12 +40,10 @@ struct Hanging {
       s.prescribed.assign(17, 0);
       s.prescribed.front() = s.prescribed.back() = 1;
     }
-    StrandBody body;
-    body.model = build(s, kTick);
-    for (int i = 0; i <= 16; ++i) body.arc.push_back(0.0025 * i);
-    bodies.push_back(body);
-    strands.push_back(rest_state(body.model));
-    strand_work = make_work(body.model);
+    StrandBody rod;
+    rod.model = build(s, kTick);
+    for (int i = 0; i <= 16; ++i) rod.arc.push_back(0.0025 * i);
+    few.add(rod);
     tissue::MembraneDescription d;
     d.columns = 15;
     d.rows = 6;
@@ -67,42 +63,43 @@ struct Hanging {
       BorderHold hold;
       hold.kind = BorderHold::strand;
       hold.index = 0;
-      hold.place = place_at(bodies[0], 0.002 + 0.0025 * node);
+      hold.place = place_at(body(), 0.002 + 0.0025 * node);
       holds.push_back(hold);
     }
-    loads.resize(1);
-    loads[0].reserve(256);
     pulls.resize(holds.size());
     targets.resize(holds.size());
   }
-  Holders holders() const { return {bodies, strands, {}, {}}; }
+  const StrandBody& body() const { return few.models.strand_bodies[0]; }
+  tissue::StrandState& strand() { return few.states.strands[0]; }
+  const tissue::StrandState& strand() const { return few.states.strands[0]; }
+  StrandLoads& loads() { return few.work.strands[0].loads; }
   bool step() {
-    loads[0].clear();
+    loads().clear();
     border_pulls(sheet, state, work, pulls);
-    border_loads(holds, pulls, sheet, state, holders(), kTick, loads, none);
-    for (int i = 0; i < bodies[0].nodes(); ++i) {
+    border_loads(holds, pulls, sheet, state, few.all(), kTick);
+    for (int i = 0; i < body().nodes(); ++i) {
       tissue::StrandLoad load;
-      load.element = std::min(i, bodies[0].nodes() - 2);
+      load.element = std::min(i, body().nodes() - 2);
       load.w = i - load.element;
       load.f0 = force;
-      loads[0].add(load, {});
+      loads().add(load, {});
     }
-    loads[0].reaction.assign(loads[0].list.size(), Vec3d{});
-    const std::vector<Vec3d> before = strands[0].v;
+    loads().reaction.assign(loads().list.size(), Vec3d{});
+    const std::vector<Vec3d> before = strand().v;
     const bool strand_fine =
-        advance(bodies[0].model, {}, loads[0].list, {}, loads[0].reaction, strands[0], strand_work).fine();
+        advance(body().model, {}, loads().list, {}, loads().reaction, strand(), few.work.strands[0].body).fine();
     for (size_t h = 0; h < holds.size(); ++h) {
       const size_t e = size_t(holds[h].place.element);
       const auto at = [&](const std::vector<Vec3d>& v) { return v[e] + holds[h].place.w * (v[e + 1] - v[e]); };
-      astray += kTick * added_damping(pulls[h], kTick) * (at(strands[0].v) - at(before));
+      astray += kTick * added_damping(pulls[h], kTick) * (at(strand().v) - at(before));
     }
-    for (size_t h = 0; h < holds.size(); ++h) targets[h] = held_place(holds[h], holders());
+    for (size_t h = 0; h < holds.size(); ++h) targets[h] = held_place(holds[h], few.all());
     return advance(sheet, targets, {}, {}, state, work).fine() && strand_fine;
   }
   /// Of strand and sheet; held nodes have no mass of their own in the sheet's motion.
   Vec3d momentum() const {
     Vec3d p{0, 0, 0};
-    for (int i = 0; i < bodies[0].nodes(); ++i) p += bodies[0].model.mass[size_t(i)] * strands[0].v[size_t(i)];
+    for (int i = 0; i < body().nodes(); ++i) p += body().model.mass[size_t(i)] * strand().v[size_t(i)];
     for (int i = 0; i < sheet.nodes(); ++i)
       if (sheet.network.fixed[size_t(i)] != tissue::kHeld)
         p += sheet.network.mass[size_t(i)] * velocity(sheet.network, state.network, i);
@@ -110,20 +107,20 @@ struct Hanging {
   }
   double kinetic() const {
     double e = 0;
-    for (int i = 0; i < bodies[0].nodes(); ++i)
-      e += 0.5 * bodies[0].model.mass[size_t(i)] * dot(strands[0].v[size_t(i)], strands[0].v[size_t(i)]);
+    for (int i = 0; i < body().nodes(); ++i)
+      e += 0.5 * body().model.mass[size_t(i)] * dot(strand().v[size_t(i)], strand().v[size_t(i)]);
     return e + tissue::energy(sheet, state).kinetic;
   }
 };
 
 TEST(Border, EdgeNodesAreExactlyWhereTheStrandIs) {
   Hanging h;
-  for (Vec3d& v : h.strands[0].v) v = {0.02, 0.05, 0.1};
+  for (Vec3d& v : h.strand().v) v = {0.02, 0.05, 0.1};
   for (int i = 0; i < 100; ++i) {
     ASSERT_TRUE(h.step());
     for (size_t k = 0; k < h.holds.size(); ++k)
       ASSERT_LT(length(position(h.sheet.network, h.state.network, h.sheet.held_nodes[k]) -
-                       held_place(h.holds[k], h.holders())),
+                       held_place(h.holds[k], h.few.all())),
                 1e-8);
   }
 }
@@ -137,11 +134,11 @@ TEST(Border, MomentumGoesOverFromStrandToSheet) {
     double worst = 0, sheet_mass = 0, whole_mass = 0;
     for (int i = 0; i < h.sheet.nodes(); ++i)
       if (h.sheet.network.fixed[size_t(i)] != tissue::kHeld) sheet_mass += h.sheet.network.mass[size_t(i)];
-    for (double m : h.bodies[0].model.mass) whole_mass += m;
+    for (double m : h.body().model.mass) whole_mass += m;
     whole_mass += sheet_mass;
     for (int i = 0; i < 300; ++i) {
       const double ramp = i < 60 ? 0.5 * (1 - std::cos(i * 2 * std::numbers::pi / 60)) : 0;
-      const Vec3d each = ramp / h.bodies[0].nodes() * push;
+      const Vec3d each = ramp / h.body().nodes() * push;
       h.force = each;
       given += kTick * ramp * push;
       ASSERT_TRUE(h.step());
@@ -158,7 +155,7 @@ TEST(Border, BoundedUnderAStrandLighterThanTheSheetTenTimesAsStiffToo) {
   // Thrown in zigzag the borders jolt the sheet once, by up to K (v dt)^2; from then on energy only falls.
   for (double modulus : {2e3, 20e3, 200e3}) {
     Hanging h(modulus, true, 0.0006);
-    for (int i = 1; i + 1 < h.bodies[0].nodes(); ++i) h.strands[0].v[size_t(i)] = {0, 0.1 * (i % 2 ? 1 : -1), 0.1};
+    for (int i = 1; i + 1 < h.body().nodes(); ++i) h.strand().v[size_t(i)] = {0, 0.1 * (i % 2 ? 1 : -1), 0.1};
     double start = h.kinetic(), late = 0;
     for (int i = 0; i < 800; ++i) {
       ASSERT_TRUE(h.step()) << modulus;
@@ -176,10 +173,10 @@ TEST(Border, TheStrandBearsTheSheetsWeight) {
   h.sheet.network.gravity_step[2] = float(-9.81 * h.sheet.network.dt);
   std::vector<tissue::StrandReaction> ends(2);
   for (int i = 0; i < 4000; ++i) ASSERT_TRUE(h.step());
-  h.loads[0].clear();
+  h.loads().clear();
   border_pulls(h.sheet, h.state, h.work, h.pulls);
-  border_loads(h.holds, h.pulls, h.sheet, h.state, h.holders(), kTick, h.loads, h.none);
-  advance(h.bodies[0].model, {}, h.loads[0].list, ends, {}, h.strands[0], h.strand_work);
+  border_loads(h.holds, h.pulls, h.sheet, h.state, h.few.all(), kTick);
+  advance(h.body().model, {}, h.loads().list, ends, {}, h.strand(), h.few.work.strands[0].body);
   double weight = 0;
   for (int i = 0; i < h.sheet.nodes(); ++i)
     if (h.sheet.network.fixed[size_t(i)] != tissue::kHeld) weight += 9.81 * h.sheet.network.mass[size_t(i)];
@@ -188,12 +185,12 @@ TEST(Border, TheStrandBearsTheSheetsWeight) {
 
 TEST(Border, WhereTheStrandIsCutEachSideGoesWithItsStump) {
   Hanging h;
-  tissue::cut_element(h.strands[0], 8);
-  for (int i = 0; i < h.bodies[0].nodes(); ++i) h.strands[0].v[size_t(i)] = {i <= 8 ? -0.02 : 0.02, 0, 0};
+  tissue::cut_element(h.strand(), 8);
+  for (int i = 0; i < h.body().nodes(); ++i) h.strand().v[size_t(i)] = {i <= 8 ? -0.02 : 0.02, 0, 0};
   for (int i = 0; i < 200; ++i) ASSERT_TRUE(h.step());
   // The sheet holds the pieces together: it is stretched between them and slows them down.
   EXPECT_GT(tissue::energy(h.sheet, h.state).stretch, 0);
-  EXPECT_LT(length(h.strands[0].v[12]), 0.02);
+  EXPECT_LT(length(h.strand().v[12]), 0.02);
 }
 
 }  // namespace

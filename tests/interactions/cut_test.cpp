@@ -6,6 +6,7 @@
 #include <trocar/interactions/verbs/cut.hpp>
 
 #include "../sim/small_scene.hpp"
+#include "few_bodies.hpp"
 #include "straight_tube.hpp"
 
 using namespace trocar;
@@ -29,8 +30,9 @@ ToolModel scissors() {
 /// Vertical scissors over x = 30 mm of one or two tubes; blades of 15 mm, the tube `inside` from the hinge.
 struct Cutting {
   ToolModel model = scissors();
-  std::vector<StrandBody> bodies;
-  std::vector<tissue::StrandState> states;
+  test::FewBodies few;
+  std::vector<StrandBody>& bodies = few.models.strand_bodies;
+  std::vector<tissue::StrandState>& states = few.states.strands;
   ToolState tool;
   std::array<Cut, kMaxCuts> cuts{};
   std::int32_t count = 0;
@@ -47,8 +49,7 @@ struct Cutting {
   }
   int at(double aperture) {
     tool.aperture = aperture;
-    return update_scissors(model, shape_of(model, pose, aperture), 1, {bodies, states, {}}, states, 1, 77, tool,
-                           {cuts, count});
+    return update_scissors(model, shape_of(model, pose, aperture), 1, few.all(), states, 1, 77, tool, {cuts, count});
   }
   int snip() {
     at(1.0);

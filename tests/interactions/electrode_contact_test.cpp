@@ -3,6 +3,7 @@
 
 #include <trocar/interactions/verbs/electrode_contact.hpp>
 
+#include "few_bodies.hpp"
 #include "straight_tube.hpp"
 
 using namespace trocar;
@@ -28,9 +29,11 @@ ToolModel hook(double foot) {
 /// From a tube along y, across the plane of wire and foot at x and z.
 ElectrodeTouch touch_at(double foot, double x, double z) {
   const test::StraightTube tube(kRadius, {x, -0.03, z}, {0, 1, 0});
+  test::FewBodies few;
+  few.models.strand_bodies.push_back(tube.body);
+  few.states.strands.push_back(tube.state);
   const ToolModel model = hook(foot);
-  return electrode_touch(model, shape_of(model, {0, 0, 0, 0.1}, 0), ToolState{},
-                         {{&tube.body, 1}, {&tube.state, 1}, {}});
+  return electrode_touch(model, shape_of(model, {0, 0, 0, 0.1}, 0), ToolState{}, few.all());
 }
 
 TEST(ElectrodeContact, AFootIsBareMetalToItsEnd) {

@@ -10,6 +10,7 @@
 #include <trocar/interactions/wetting/fluid_contact.hpp>
 
 #include "../geometry/shapes.hpp"
+#include "few_bodies.hpp"
 #include "straight_tube.hpp"
 
 using namespace trocar;
@@ -65,8 +66,7 @@ geometry::TriMesh level_sheet() {
 struct Scene {
   Still ball_skin{geometry::sphere_mesh(kBall, 4)}, sheet_skin{level_sheet()};
   test::StraightTube tube{0.0016, {-0.030, 0, kTubeHeight}};
-  std::vector<Surface> surfaces{ball_skin.surface()};
-  std::vector<SheetView> sheets;
+  test::FewBodies few;
   std::vector<std::int32_t> first;
   fluids::FluidsModel m;
   fluids::FluidsState s;
@@ -77,7 +77,11 @@ struct Scene {
 
   /// @param crowd  as scenes are that allow for thousands of drops
   explicit Scene(bool crowd = false) {
-    sheets.push_back({sheet_skin.surface(), {}, {}, 0.0005, 0});
+    few.models.membranes.resize(1);
+    few.models.strand_bodies.push_back(tube.body);
+    few.states.strands.push_back(tube.state);
+    few.work.surfaces.push_back(ball_skin.surface());
+    few.work.membranes.emplace_back().sheet = {sheet_skin.surface(), {}, {}, 0.0005, 0};
     const tissue::Skin* skins[] = {&ball_skin.skin};
     const tissue::Skin* folds[] = {&sheet_skin.skin};
     first = film_places(skins, folds, {&tube.body, 1});
@@ -93,7 +97,7 @@ struct Scene {
     floor.assign(160 * 160, 0.0f);
     input.floor = floor;
   }
-  WetBodies bodies() const { return {surfaces, sheets, {&tube.body, 1}, {&tube.state, 1}, first}; }
+  WetGround bodies() { return {few.all(), first}; }
   void drop(Vec3d from, Vec3d speed, std::int64_t picolitres) {
     const fluids::Mix mix{.blood = picolitres};
     ASSERT_TRUE(fluids::add_drop(m.droplets, vec_cast<float>(from), vec_cast<float>(speed), mix, s.droplets));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../sim/small_scene.hpp"
+#include "few_bodies.hpp"
 #include "straight_tube.hpp"
 
 using namespace trocar;
@@ -31,9 +32,7 @@ struct Grip : small::Table {
     tip += by;
     steps(700);
   }
-  TissueView view() const {
-    return {model.strand_bodies, state.strands, {work.surfaces.data(), size_t(model.organs())}};
-  }
+  Bodies bodies() { return {model, state, &work, {&model.objects, &state.objects, &work.objects}}; }
 };
 
 sim::Model with_grasper(double pinch, double friction) {
@@ -150,7 +149,7 @@ TEST(Grasp, AGripMovesWithTheInstrument) {
       const Hold& h = tool.hold[i];
       const Vec3d place = from_jaw(g.work.shapes[kGrasper], {h.local[0], h.local[1], h.local[2]});
       const double force = length(Vec3d{h.force[0], h.force[1], h.force[2]});
-      EXPECT_LT(length(held_point(g.view(), h) - place), 1.1 * force / kHoldStiffness + 2e-5);
+      EXPECT_LT(length(held_point(g.bodies(), h) - place), 1.1 * force / kHoldStiffness + 2e-5);
     }
   }
 }
@@ -170,10 +169,10 @@ TEST(Grasp, ThePullIsWhatTheFoundationTheOrganAndTheWeightDo) {
       on_tube += m.mass[size_t(i)] * m.gravity;
       on_tube -= m.foundation[size_t(i)] * (1 + m.stiffening * dot(u, u)) * u;
     }
-    on_tube -= g.work.end_reactions[kTube][0].force;
+    on_tube -= g.work.strands[kTube].end_reactions[0].force;
     for (size_t h = 0; h < g.model.membranes[0].holds.size(); ++h) {
       const BorderHold& hold = g.model.membranes[0].holds[h];
-      if (hold.kind == BorderHold::strand) on_tube += g.work.pulls[0][h].force - hold.drawn_pull;
+      if (hold.kind == BorderHold::strand) on_tube += g.work.membranes[0].pulls[h].force - hold.drawn_pull;
     }
     const Vec3d pull = g.pull(kGrasper);  // of the tissue on the jaws
     EXPECT_GT(length(pull), 0.05);
@@ -192,12 +191,13 @@ TEST(Grasp, OfMoreTissueThanAGripCanHoldItHoldsSomeOfAll) {
   kinematics::FulcrumPose pose = kinematics::inverse(m.port, {0.03, 0, -0.055}, 0);
   pose.roll = kinematics::roll_towards(pose, {1, 0, 0});
   const test::StraightTube tube(0.0016, {0.03, 0, 0}, {0, 0, -1});
-  const std::vector<StrandBody> bodies{tube.body};
-  const std::vector<tissue::StrandState> states{tube.state};
+  test::FewBodies few;
+  few.models.strand_bodies.push_back(tube.body);
+  few.states.strands.push_back(tube.state);
   ToolState tool;
   for (int i = 0; i <= 100 && tool.holds == 0; ++i) {
     tool.handle = 0.01 * i;
-    update_grip(m, shape_of(m, pose, tool.aperture), {bodies, states, {}}, tool);
+    update_grip(m, shape_of(m, pose, tool.aperture), few.all(), tool);
   }
   ASSERT_GT(tool.holds, 6);
   double low = 1, high = 0;
@@ -213,7 +213,7 @@ TEST(Grasp, ForcesOnTissueAndJawsAreOpposite) {
   Grip g;
   g.lift({0, 0, 0.008});
   Vec3d on_tissue{0, 0, 0};
-  const StrandLoads& loads = g.work.strand_loads[kTube];
+  const StrandLoads& loads = g.work.strands[kTube].loads;
   for (size_t i = 0; i < loads.list.size(); ++i)
     if (loads.tag[i].owner == Owner::tool_hold && loads.tag[i].index == kGrasper) on_tissue += loads.reaction[i];
   EXPECT_LT(length(on_tissue + g.pull(kGrasper)), 1e-6 * length(on_tissue));

@@ -5,7 +5,7 @@
 
 #include <trocar/core/random.hpp>
 #include <trocar/core/tick.hpp>
-#include <trocar/interactions/couplings/hosting.hpp>
+#include <trocar/interactions/bodies/hosting.hpp>
 #include <trocar/sim/stages/step.hpp>
 #include <trocar/tissue/network/lattice_springs.hpp>
 

@@ -254,11 +254,11 @@ TEST(Fold, IsGraspedBesideTheTubeAndFollowsTheJaws) {
   small::Table t(small::model());
   t.step();
   Tool grasper(small::kGrasper, {0.017, 0.060, -0.008}, {0.017, -0.004, -0.008}, 0);
-  const TissueView view{t.model.strand_bodies, t.state.strands, {}, t.work.sheets};
+  const Bodies bodies{t.model, t.state, &t.work, {&t.model.objects, &t.state.objects, &t.work.objects}};
   ToolState tool;
   for (int i = 0; i <= 400; ++i) {
     tool.handle = std::min(1.0, i / 300.0);
-    update_grip(grasper.model, grasper.shape(tool.aperture), view, tool);
+    update_grip(grasper.model, grasper.shape(tool.aperture), bodies, tool);
   }
   ASSERT_GE(tool.holds, 2);
   EXPECT_GT(tool.pinch, 0.5 * grasper.model.pinch_max);
@@ -270,21 +270,21 @@ TEST(Fold, IsGraspedBesideTheTubeAndFollowsTheJaws) {
   Vec3d pull{0, 0, 0};
   for (int i = 0; i < 400; ++i) {
     grasper.pose = kinematics::inverse(grasper.model.port, {0.017, -0.004 - 1e-5 * i, -0.008}, 0);
-    std::vector<StrandLoads> strands(2);
-    std::vector<NetworkLoads> solids(2), folds(1);
-    folds[0].reserve(64);
-    hold_loads(grasper.shape(tool.aperture), 0, view, tool, {strands, solids, folds});
-    folds[0].sort();
+    NetworkLoads& loads = t.work.membranes[0].loads;
+    loads.clear();
+    hold_loads(grasper.shape(tool.aperture), 0, bodies, tool);
+    loads.sort();
     const tissue::MembraneModel& sheet = t.model.membranes[0].sheet;
     ASSERT_TRUE(
-        advance(sheet, {}, folds[0].sorted, folds[0].reaction, t.state.membranes[0], t.work.membrane_work[0]).fine());
-    pose_skin(view_of(sheet.network, t.state.membranes[0].network), t.model.membranes[0].skin, t.work.sheet_poses[0]);
+        advance(sheet, {}, loads.sorted, loads.reaction, t.state.membranes[0], t.work.membranes[0].body).fine());
+    pose_skin(view_of(sheet.network, t.state.membranes[0].network), t.model.membranes[0].skin,
+              t.work.membranes[0].pose);
     pull = {0, 0, 0};
-    for (const Vec3f& f : folds[0].reaction) pull -= vec_cast<double>(f);
+    for (const Vec3f& f : loads.reaction) pull -= vec_cast<double>(f);
   }
-  EXPECT_NEAR(
-      held_point(view, tool.hold[0]).y - small::model().membranes[0].sheet.network.rest[size_t(tool.hold[0].element)].y,
-      -0.004, 0.0015);
+  EXPECT_NEAR(held_point(bodies, tool.hold[0]).y -
+                  small::model().membranes[0].sheet.network.rest[size_t(tool.hold[0].element)].y,
+              -0.004, 0.0015);
   EXPECT_GT(pull.y, 1e-3);
 }
 
@@ -333,7 +333,7 @@ TEST(Fold, ACutThroughItLetsTheTubeRiseFartherThere) {
           tissue::StrandLoad pull;
           pull.element = 8;
           pull.f0 = {0, 0, 0.1};
-          t.work.strand_loads[small::kTube].add(pull, {});
+          t.work.strands[small::kTube].loads.add(pull, {});
         }
         stage.run(context);
       }

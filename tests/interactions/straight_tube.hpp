@@ -1,7 +1,7 @@
 // A tube of 1.6 mm radius along x from 0 to 60 mm, elements of 2.5 mm, its start held: arc length is x.
 #pragma once
 
-#include <trocar/interactions/couplings/strand_body.hpp>
+#include <trocar/interactions/bodies/strand_body.hpp>
 
 namespace trocar::interactions::test {
 

@@ -3,6 +3,8 @@
 
 #include <trocar/interactions/objects/tissue_point.hpp>
 
+#include "few_bodies.hpp"
+
 using namespace trocar;
 using namespace trocar::interactions;
 
@@ -10,22 +12,21 @@ namespace {
 
 /// A cell of 2.5 mm and a ninth node, flattened across z to `share` of its height; a body of its own.
 struct Cell {
-  std::vector<tissue::NodeState> rows;
-  std::vector<int> row_of_node;
-  std::vector<Surface> organs{1};
+  test::FewBodies few;
+  std::vector<tissue::NodeState>& rows;
 
-  explicit Cell(double share) {
+  explicit Cell(double share) : rows((few.states.solids.resize(1), few.states.solids[0].nodes)) {
+    few.models.solids.resize(1);
     constexpr double kEdge = 0.0025;
     for (int i = 0; i < 9; ++i) {
       tissue::NodeState n{};
       const double z = i == 8 ? 2 : i / 4;
       n.x = float(kEdge * (i % 2)), n.y = float(kEdge * (i / 2 % 2)), n.z = float(kEdge * share * z);
       rows.push_back(n);
-      row_of_node.push_back(i);
+      few.models.solids[0].network.row_of_node.push_back(i);
     }
-    organs[0].nodes = {rows, row_of_node, {0, 0, 0}};
   }
-  TissueBodies bodies() const { return {{}, {}, organs, {}}; }
+  Bodies bodies() { return few.all(); }
 };
 double weights(const TissuePoint& p) {
   double sum = 0;

@@ -273,7 +273,7 @@ double lifted_mm(const char* name, double s, double newton) {
         pull.element = place.element;
         pull.w = place.w;
         pull.f0 = newton * normalised(Vec3d{0, 0.5, 0.85});
-        work.strand_loads[tube].add(pull, {});
+        work.strands[tube].loads.add(pull, {});
       }
       stage.run(context);
     }

@@ -56,7 +56,7 @@ inline double drift(const sim::Model& model, int of = -1) {
     const tissue::Skin& skin = model.skin(organ);
     for (int v = 0; v < skin.size(); ++v)
       if (skin.at_surface(v))
-        most = std::max(most, length(vec_cast<double>(work.poses[std::size_t(organ)].position[std::size_t(v)]) -
+        most = std::max(most, length(vec_cast<double>(work.organs[std::size_t(organ)].pose.position[std::size_t(v)]) -
                                      vec_cast<double>(skin.rest[std::size_t(v)])));
   }
   return most;

@@ -9,7 +9,7 @@
 #include <trocar/geometry/nurbs/mesh.hpp>
 #include <trocar/geometry/surface_files/surface_writer.hpp>
 #include <trocar/geometry/surfaces/loft.hpp>
-#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/bodies/loads.hpp>
 #include <trocar/scene/compile/body_surface.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>

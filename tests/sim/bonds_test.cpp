@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <trocar/interactions/couplings/border_loads.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
@@ -137,10 +138,10 @@ TEST(BondedPouch, FluidInItsPlaneLoosensBondsByAtMostEightyFivePercentAndPartsNo
   Work w = make_work(m);
   StepReport report = step(m, m.start, s, w);
   StepContext context{m, m.start, s, w, report};
-  const interactions::Holders holders = holders_of(context);
+  const interactions::Bodies bodies = bodies_of(context);
   const std::vector<interactions::Bond>& bonds = m.bonds[0].bonds;
   std::vector<Vec3d> feet;
-  for (const interactions::Bond& bond : bonds) feet.push_back(held_place(bond.hold, holders) - bond.hold.offset);
+  for (const interactions::Bond& bond : bonds) feet.push_back(foot_of(bond.hold, bodies));
   const size_t middle = bonds.size() / 2;
   constexpr double kSpread = 0.004;
   loosen_bonds(context, feet[middle], 2e-6, kSpread);
@@ -217,9 +218,8 @@ TEST(BondedPouch, WhereItWasTornOffBloodOozesUntilThatIsCoagulated) {
 
   StepReport report;
   StepContext context{m, m.start, s, w, report};
-  const interactions::Holders holders = holders_of(context);
-  for (const interactions::Bond& bond : bed.bonds)
-    burn_bonds(context, held_place(bond.hold, holders) - bond.hold.offset, 0.001);
+  const interactions::Bodies bodies = bodies_of(context);
+  for (const interactions::Bond& bond : bed.bonds) burn_bonds(context, foot_of(bond.hold, bodies), 0.001);
   for (const interactions::BondState& bond : s.bonds[0]) EXPECT_FALSE(bond.raw());
   const std::int64_t before = bled();
   for (int tick = 0; tick < 200; ++tick) ASSERT_TRUE(step(m, m.start, s, w).fine());
@@ -241,9 +241,8 @@ double breached(const Model& m, const State& s) { return interactions::breached_
 void burn_all(const Model& m, State& s, Work& w, double seconds) {
   StepReport report;
   StepContext context{m, m.start, s, w, report};
-  const interactions::Holders holders = holders_of(context);
-  for (const interactions::Bond& bond : m.bonds[0].bonds)
-    burn_bonds(context, held_place(bond.hold, holders) - bond.hold.offset, seconds);
+  const interactions::Bodies bodies = bodies_of(context);
+  for (const interactions::Bond& bond : m.bonds[0].bonds) burn_bonds(context, foot_of(bond.hold, bodies), seconds);
 }
 
 }  // namespace

@@ -151,9 +151,9 @@ TEST(Irrigation, OrgansStrandsAndFoldsPlugThePort) {
   Work w = make_work(m);
   step(m, m.start, s, w);
   for (std::size_t i = 0; i < w.surfaces.size(); ++i)
-    if (int(i) < m.organs()) w.surfaces[i].nodes = w.nodes[i];
-  const interactions::WetBodies bodies{w.surfaces, w.sheets, m.strand_bodies, s.strands, m.wet.film, m.wet.grids};
-  const auto plugged = [&](Vec3d p) { return covered(bodies, p, interactions::kPlugs); };
+    if (int(i) < m.organs()) w.surfaces[i].nodes = w.organs[i].nodes;
+  const interactions::WetGround ground{{m, s, &w}, m.wet.film, m.wet.grids};
+  const auto plugged = [&](Vec3d p) { return covered(ground, p, interactions::kPlugs); };
   const Vec3d tube = 0.5 * (s.strands[small::kTube].x[20] + s.strands[small::kTube].x[21]);
   const Vec3d up{0, 0, 1};
   EXPECT_TRUE(plugged(tube + (small::kTubeRadius + 0.0005) * up));
@@ -162,7 +162,7 @@ TEST(Irrigation, OrgansStrandsAndFoldsPlugThePort) {
   const int v = organ.skin->size() / 2;
   EXPECT_TRUE(plugged(organ.position(v) + 0.0005 * organ.normal(v)));
   EXPECT_TRUE(plugged(organ.position(v) - 0.0005 * organ.normal(v))) << "pressed in";
-  const interactions::Surface& fold = w.sheets[0].surface;
+  const interactions::Surface& fold = w.membranes[0].sheet.surface;
   const int f = fold.skin->size() / 2;
   EXPECT_TRUE(plugged(fold.position(f) + 0.0007 * fold.normal(f)));
   EXPECT_TRUE(plugged(fold.position(f) - 0.0007 * fold.normal(f))) << "from either side";
@@ -321,7 +321,7 @@ TEST(Irrigation, ThePoolsFloorGoesWithTheTissueThatItLiesOn) {
   };
   const auto skin_at = [&](double x, double y) {  // of the nearest vertex of the pad's upper side
     double nearest = 1, height = 0;
-    for (const Vec3f& v : t.work.poses[std::size_t(pad)].position) {
+    for (const Vec3f& v : t.work.organs[std::size_t(pad)].pose.position) {
       const double away = std::hypot(double(v.x) - x, double(v.y) - y);
       if (v.z < -0.010f || away >= nearest) continue;
       nearest = away, height = double(v.z);

@@ -236,14 +236,14 @@ TEST(Peristalsis, ItsLoadsOnTheOrganSumToZero) {
   StepReport report;
   StepContext c{m, m.start, s, w, report};
   for (const Stage& stage : stages()) {
-    if (std::string(stage.name) == "apply peristalsis") w.organ_loads[0].clear();  // without the bed's
+    if (std::string(stage.name) == "apply peristalsis") w.organs[0].loads.clear();  // without the bed's
     if (std::string(stage.name) == "actuate jaws") break;
     stage.run(c);
   }
   Vec3d force{0, 0, 0}, moment{0, 0, 0};
   double size = 0, lever = 0;
-  for (const tissue::NodeLoad& l : w.organ_loads[0].gathered) {
-    const Vec3d f = vec_cast<double>(l.f0), x = w.nodes[0].position(l.node);
+  for (const tissue::NodeLoad& l : w.organs[0].loads.gathered) {
+    const Vec3d f = vec_cast<double>(l.f0), x = w.organs[0].nodes.position(l.node);
     EXPECT_EQ(l.k, 0);
     force += f;
     moment += cross(x, f);

@@ -162,7 +162,7 @@ TEST(Stones, FallOutOfAHoleThatIsWideEnoughAndNoLargerOnesDo) {
     const Rigid::States before = run.stones();
     const double lost = run.lost();
     ASSERT_TRUE(step(run.model, run.model.start, run.state, run.work).fine()) << tick;
-    const tissue::Leak& hole = run.work.leaks[run.pouch];
+    const tissue::Leak& hole = run.work.membranes[run.pouch].by_wall;
     widest = std::max(widest, hole.area);
     double volume = 1e-15 * double(hole.picolitres);
     for (size_t i = 0; i < before.size(); ++i) {

@@ -83,7 +83,7 @@ TEST(Gynaecology, TubeAndUterusComeBackAfterAPull) {
         pull.w = held.w;
         pull.k = 1200;
         pull.x0 = from + Vec3d{0, 0, rise};
-        w.strand_loads[size_t(tube)].add(pull, {});
+        w.strands[size_t(tube)].loads.add(pull, {});
       }
       stage.run(c);
     }

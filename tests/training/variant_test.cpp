@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/interactions/couplings/strand_body.hpp>
+#include <trocar/interactions/bodies/strand_body.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/description/vary.hpp>

@@ -9,8 +9,8 @@
 // tissue on tissue has 0.01 to 0.1 in the literature, and 0.05 is our choice.
 #pragma once
 
-#include <trocar/interactions/contact/surface.hpp>
-#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/bodies/loads.hpp>
+#include <trocar/interactions/bodies/surface.hpp>
 
 namespace trocar::interactions {
 

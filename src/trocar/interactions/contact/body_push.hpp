@@ -2,8 +2,8 @@
 // vertex of a skin and what lies in it, implicit on both sides, along the normal. Across it there is body_friction.hpp.
 #pragma once
 
-#include <trocar/interactions/contact/surface.hpp>
-#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/bodies/loads.hpp>
+#include <trocar/interactions/bodies/surface.hpp>
 
 namespace trocar::interactions {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include <trocar/interactions/contact/surface.hpp>
+#include <trocar/interactions/bodies/surface.hpp>
 
 namespace trocar::interactions {
 

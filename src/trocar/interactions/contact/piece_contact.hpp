@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include <trocar/interactions/contact/surface.hpp>
-#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/bodies/loads.hpp>
+#include <trocar/interactions/bodies/surface.hpp>
 
 namespace trocar::interactions {
 

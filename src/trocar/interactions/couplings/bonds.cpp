@@ -1,5 +1,6 @@
 #include <trocar/core/field_hash.hpp>
 #include <trocar/interactions/couplings/bonds.hpp>
+#include <trocar/interactions/couplings/border_loads.hpp>
 
 namespace trocar::interactions {
 namespace {
@@ -14,22 +15,22 @@ double BondSet::area() const noexcept {
   return sum;
 }
 
-Vec3d opening_of(const Bond& bond, const BondedNodes& nodes, const Holders& holders) noexcept {
-  return tissue::position(nodes.model, nodes.state, bond.node) - held_place(bond.hold, holders);
+Vec3d opening_of(const Bond& bond, const BondedNodes& nodes, const Bodies& bodies) noexcept {
+  return tissue::position(nodes.model, nodes.state, bond.node) - held_place(bond.hold, bodies);
 }
 
-void bond_loads(const BondSet& set, std::span<BondState> states, const BondedNodes& nodes, const Holders& holders,
-                double dt, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads) noexcept {
+void bond_loads(const BondSet& set, std::span<BondState> states, const BondedNodes& nodes, const Bodies& bodies,
+                double dt) noexcept {
   for (std::size_t i = 0; i < set.bonds.size(); ++i) {
     const Bond& bond = set.bonds[i];
     BondState& state = states[i];
     if (!state.holds()) {
-      bear(bond.hold, -bond.hold.drawn_pull, 0, holders, strand_loads, organ_loads);
+      bear(bond.hold, -bond.hold.drawn_pull, 0, bodies);
       continue;
     }
     const Vec3d x = tissue::position(nodes.model, nodes.state, bond.node);
     const Vec3d v = counted_on(tissue::velocity(nodes.model, nodes.state, bond.node));
-    const Vec3d at = held_place(bond.hold, holders), moves = counted_on(held_velocity(bond.hold, holders));
+    const Vec3d at = held_place(bond.hold, bodies), moves = counted_on(held_velocity(bond.hold, bodies));
     const double damage = tissue::damage_after(set.law, double(state.damage), length(x - at), dt);
     if (damage > double(state.damage) && state.cause == BondState::whole) state.cause = BondState::pulled;
     state.damage = float(damage);
@@ -44,7 +45,7 @@ void bond_loads(const BondSet& set, std::span<BondState> states, const BondedNod
     nodes.loads.add(load, {Owner::anchor, 0, 0});
 
     const Vec3d pull = k * (x - at) + d * (v - moves) - (1 - whole) * bond.hold.drawn_pull;
-    bear(bond.hold, pull, k * dt + 2 * d, holders, strand_loads, organ_loads);
+    bear(bond.hold, pull, k * dt + 2 * d, bodies);
   }
 }
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include <trocar/core/fields.hpp>
-#include <trocar/interactions/couplings/border.hpp>
+#include <trocar/interactions/bodies/bodies.hpp>
 #include <trocar/tissue/failure/cohesive.hpp>
 
 namespace trocar::interactions {
@@ -79,12 +79,12 @@ struct BondedNodes {
 };
 
 /// How far a bond is from where it was drawn [m].
-Vec3d opening_of(const Bond& bond, const BondedNodes& nodes, const Holders& holders) noexcept;
+Vec3d opening_of(const Bond& bond, const BondedNodes& nodes, const Bodies& bodies) noexcept;
 
 /// What damage has come in the last tick, and the loads of the next on wall and holders.
 /// @param states  (bonds)
-void bond_loads(const BondSet& set, std::span<BondState> states, const BondedNodes& nodes, const Holders& holders,
-                double dt, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads) noexcept;
+void bond_loads(const BondSet& set, std::span<BondState> states, const BondedNodes& nodes, const Bodies& bodies,
+                double dt) noexcept;
 
 /// Has what the bond is rooted in torn in its place?
 bool breached(const BondSet& set, const BondState& state) noexcept;

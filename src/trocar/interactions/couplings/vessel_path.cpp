@@ -27,11 +27,17 @@ TriangleFrame frame_of(Vec3d a, Vec3d b, Vec3d c) noexcept {
   return {edge, cross(normal, edge), normal};
 }
 
-Vec3d corner(const VesselHold& hold, const VesselHosts& hosts, std::size_t k) noexcept {
+/// Bodies as they are now, and vertices that have been worked out.
+struct Carriers {
+  const Bodies& bodies;
+  Corners corners;
+};
+
+Vec3d corner(const VesselHold& hold, const Carriers& now, std::size_t k) noexcept {
   const std::size_t i = std::size_t(hold.index);
-  if (hold.kind == VesselHold::membrane) return hosts.membranes[i].position(hold.vertex[k]);
-  if (!hosts.corners.empty()) return hosts.corners[i][std::size_t(hold.vertex[k])];
-  return skin_point(hosts.organs[i], *hosts.skins[i], hold.vertex[k]);
+  if (hold.kind == VesselHold::membrane) return membrane_nodes(now.bodies, i).position(hold.vertex[k]);
+  if (!now.corners.empty()) return now.corners[i][std::size_t(hold.vertex[k])];
+  return skin_point(organ_nodes(now.bodies, i), now.bodies.models.skin(hold.index), hold.vertex[k]);
 }
 
 int heaviest(const VesselHold& hold) noexcept {
@@ -42,30 +48,31 @@ int heaviest(const VesselHold& hold) noexcept {
 }
 
 /// On a triangle. Where that has been cut open, its corners go different ways: the nearest one has the point.
-Vec3d on_triangle(const VesselHold& hold, const VesselHosts& hosts) noexcept {
-  if (hold.kind == VesselHold::membrane && hosts.torn[std::size_t(hold.index)][std::size_t(hold.element)])
-    return corner(hold, hosts, std::size_t(heaviest(hold)));
-  const Vec3d a = corner(hold, hosts, 0), b = corner(hold, hosts, 1), c = corner(hold, hosts, 2);
+Vec3d on_triangle(const VesselHold& hold, const Carriers& now) noexcept {
+  if (hold.kind == VesselHold::membrane && now.bodies.states.torn[std::size_t(hold.index)][std::size_t(hold.element)])
+    return corner(hold, now, std::size_t(heaviest(hold)));
+  const Vec3d a = corner(hold, now, 0), b = corner(hold, now, 1), c = corner(hold, now, 2);
   const TriangleFrame f = frame_of(a, b, c);
   return hold.share[0] * a + hold.share[1] * b + hold.share[2] * c + hold.offset.x * f.edge + hold.offset.y * f.across +
          hold.offset.z * f.normal;
 }
 
-Vec3d in_cell(const VesselHold& hold, const VesselHosts& hosts) noexcept {
+Vec3d in_cell(const VesselHold& hold, const Bodies& bodies) noexcept {
   const std::size_t organ = std::size_t(hold.index);
-  const geometry::Tet& cell =
-      hosts.cuttables[std::size_t(hosts.cuttable_of[organ])].tets.cells[std::size_t(hold.element)];
+  const tissue::CuttableState& body = bodies.states.cuttables[organ - bodies.models.solids.size()];
+  const geometry::Tet& cell = body.tets.cells[std::size_t(hold.element)];
+  const tissue::NodeView nodes = organ_nodes(bodies, organ);
   Vec3d at;
-  for (std::size_t k = 0; k < 4; ++k) at += hold.share[k] * hosts.organs[organ].position(cell[k]);
+  for (std::size_t k = 0; k < 4; ++k) at += hold.share[k] * nodes.position(cell[k]);
   return at;
 }
 
-Vec3d on_strand(const VesselHold& hold, const VesselHosts& hosts) noexcept {
+Vec3d on_strand(const VesselHold& hold, const Bodies& bodies) noexcept {
   const std::size_t i = std::size_t(hold.index);
-  const StrandBody& body = hosts.strands[i];
+  const StrandBody& body = bodies.strand(i);
   const StrandPlace place{hold.element, hold.w};
-  const Vec3d now = tangent_at(body, hosts.strand_states[i], place);
-  return point_at(body, hosts.strand_states[i], place) + turned(hold.offset, drawn_direction(body, hold.element), now);
+  const Vec3d now = tangent_at(body, bodies.strand_state(i), place);
+  return point_at(body, bodies.strand_state(i), place) + turned(hold.offset, drawn_direction(body, hold.element), now);
 }
 
 /// The last point that is not beyond s, but not the last of all.
@@ -99,34 +106,35 @@ Vec3d straight_on(const VesselPath& path, std::span<const Vec3d> points, std::sp
 
 }  // namespace
 
-Vec3d held_point(const VesselHold& hold, const VesselHosts& hosts) noexcept {
+Vec3d held_point(const VesselHold& hold, const Bodies& bodies, Corners corners) noexcept {
   switch (hold.kind) {
     case VesselHold::strand:
-      return on_strand(hold, hosts);
+      return on_strand(hold, bodies);
     case VesselHold::organ:
     case VesselHold::membrane:
-      return on_triangle(hold, hosts);
+      return on_triangle(hold, {bodies, corners});
     case VesselHold::cell:
-      return in_cell(hold, hosts);
+      return in_cell(hold, bodies);
     case VesselHold::space:
       break;
   }
   return hold.offset;
 }
 
-void anchor_point(VesselHold& hold, Vec3d drawn, const VesselHosts& hosts) noexcept {
+void anchor_point(VesselHold& hold, Vec3d drawn, const Bodies& bodies) noexcept {
   hold.offset = {0, 0, 0};
   if (hold.kind == VesselHold::cell) return;
-  const Vec3d away = drawn - held_point(hold, hosts);
+  const Vec3d away = drawn - held_point(hold, bodies);
   hold.offset = away;
   if (hold.kind != VesselHold::organ && hold.kind != VesselHold::membrane) return;
-  const TriangleFrame f = frame_of(corner(hold, hosts, 0), corner(hold, hosts, 1), corner(hold, hosts, 2));
+  const Carriers now{bodies, {}};
+  const TriangleFrame f = frame_of(corner(hold, now, 0), corner(hold, now, 1), corner(hold, now, 2));
   hold.offset = {dot(away, f.edge), dot(away, f.across), dot(away, f.normal)};
 }
 
-void pose_vessel(const VesselPath& path, const VesselHosts& hosts, std::span<Vec3d> points) noexcept {
+void pose_vessel(const VesselPath& path, const Bodies& bodies, std::span<Vec3d> points, Corners corners) noexcept {
   for (std::size_t i = 0; i < path.points.size(); ++i)
-    if (path.points[i].hold.kind != VesselHold::space) points[i] = held_point(path.points[i].hold, hosts);
+    if (path.points[i].hold.kind != VesselHold::space) points[i] = held_point(path.points[i].hold, bodies, corners);
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const VesselPoint& p = path.points[i];
     if (p.hold.kind != VesselHold::space) continue;

@@ -15,9 +15,7 @@
 #include <trocar/core/body_id.hpp>
 #include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
-#include <trocar/interactions/couplings/strand_body.hpp>
-#include <trocar/tissue/network/skin.hpp>
-#include <trocar/tissue/tets/cuttable.hpp>
+#include <trocar/interactions/bodies/bodies.hpp>
 
 namespace trocar::interactions {
 
@@ -78,28 +76,17 @@ struct VesselPath {
   }
 };
 
-/// Bodies that carry vessels, as they are now.
-struct VesselHosts {
-  std::span<const StrandBody> strands;
-  std::span<const tissue::StrandState> strand_states;
-  std::span<const tissue::NodeView> organs;
-  std::span<const tissue::Skin* const> skins;  ///< (organs) of lattices: those that are touched
-  std::span<const tissue::CuttableState> cuttables;
-  std::span<const std::int32_t> cuttable_of;  ///< (organs) which of these it is; -1: a lattice
-  std::span<const tissue::NodeView> membranes;
-  std::span<const std::vector<std::uint8_t>> torn;  ///< (membranes)(triangles)
-  std::span<const std::vector<Vec3d>> corners{};    ///< (organs)(skin vertices) as they are now, of those that carry
-                                                    ///< vessels; empty: each is worked out when it is asked for
-};
+/// (organs)(skin vertices) where vertices that carry vessels are now; empty: each is worked out when it is asked for.
+using Corners = std::span<const std::vector<Vec3d>>;
 
 /// Where a point that something carries is now.
-Vec3d held_point(const VesselHold& hold, const VesselHosts& hosts) noexcept;
+Vec3d held_point(const VesselHold& hold, const Bodies& bodies, Corners corners = {}) noexcept;
 
 /// @param points  out: (path.points)
-void pose_vessel(const VesselPath& path, const VesselHosts& hosts, std::span<Vec3d> points) noexcept;
+void pose_vessel(const VesselPath& path, const Bodies& bodies, std::span<Vec3d> points, Corners corners = {}) noexcept;
 
 /// The same place in the drawn shape, in the frame of its host: for compile. `hold` names the host and the place on it.
-void anchor_point(VesselHold& hold, Vec3d drawn, const VesselHosts& hosts) noexcept;
+void anchor_point(VesselHold& hold, Vec3d drawn, const Bodies& bodies) noexcept;
 
 /// A place of the line and which way the line leads there, towards s = 1.
 struct VesselSpot {

@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <span>
 
-#include <trocar/interactions/contact/surface.hpp>
+#include <trocar/interactions/bodies/surface.hpp>
 #include <trocar/interactions/instrument/tool.hpp>
 
 namespace trocar::interactions {

@@ -12,9 +12,9 @@
 
 #include <span>
 
-#include <trocar/interactions/contact/surface.hpp>
-#include <trocar/interactions/couplings/loads.hpp>
-#include <trocar/interactions/couplings/strand_body.hpp>
+#include <trocar/interactions/bodies/loads.hpp>
+#include <trocar/interactions/bodies/strand_body.hpp>
+#include <trocar/interactions/bodies/surface.hpp>
 #include <trocar/interactions/instrument/touch.hpp>
 
 namespace trocar::interactions {

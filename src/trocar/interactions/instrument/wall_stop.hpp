@@ -9,7 +9,7 @@
 
 #include <span>
 
-#include <trocar/interactions/contact/surface.hpp>
+#include <trocar/interactions/bodies/surface.hpp>
 #include <trocar/interactions/instrument/touch.hpp>
 
 namespace trocar::interactions {

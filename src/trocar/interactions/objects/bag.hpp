@@ -20,7 +20,7 @@
 
 #include <trocar/core/body_id.hpp>
 #include <trocar/core/fields.hpp>
-#include <trocar/interactions/contact/surface.hpp>
+#include <trocar/interactions/bodies/surface.hpp>
 #include <trocar/interactions/objects/object_hand.hpp>
 #include <trocar/tissue/base/report.hpp>
 #include <trocar/tissue/network/network.hpp>

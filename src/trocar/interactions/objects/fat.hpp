@@ -95,13 +95,6 @@ struct FatWorks {
   }
 };
 
-/// Walls of pouches, by their numbers, with what ties put on them.
-struct TiedWalls {
-  std::span<const tissue::MembraneModel* const> models;
-  std::span<const tissue::MembraneState> states;
-  std::span<NetworkLoads> loads;
-};
-
 /// The kind, as object_kinds.hpp lists it.
 struct Fat {
   static constexpr BodyKind kKind = BodyKind::fat;
@@ -149,13 +142,11 @@ struct Fat {
 };
 
 /// Roots and ties pull on lobules and on what they hold on, and give way.
-void apply_fat_loads(const FatBody& body, FatBodyState& state, const Holders& holders, const TiedWalls& walls,
-                     double dt, FatBodyWork& work, std::span<StrandLoads> strand_loads,
-                     std::span<NetworkLoads> organ_loads) noexcept;
+void apply_fat_loads(const FatBody& body, FatBodyState& state, const Bodies& bodies, double dt,
+                     FatBodyWork& work) noexcept;
 
 /// Septa, roots and ties between whose ends the blade passes hold no more. @return how many
-int sever_fat(const FatBody& body, const geometry::Blade& blade, const Holders& holders, const TiedWalls& walls,
-              FatBodyState& state) noexcept;
+int sever_fat(const FatBody& body, const geometry::Blade& blade, const Bodies& bodies, FatBodyState& state) noexcept;
 
 /// The lobule at an electrode: nearest to the bare wire, and touching it. -1: none
 int lobule_at(const FatBody& body, const FatBodyState& state, const Capsule& wire) noexcept;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/interactions/couplings/border_loads.hpp>
 #include <trocar/interactions/objects/fat.hpp>
 
 namespace trocar::interactions {
@@ -21,22 +22,22 @@ void weaken(const tissue::CohesiveLaw& law, double opening, double dt, BondState
   state.cause = BondState::burnt;
 }
 
-void weaken_roots(const FatBody& body, const BondedNodes& nodes, const Holders& holders, double dt,
+void weaken_roots(const FatBody& body, const BondedNodes& nodes, const Bodies& bodies, double dt,
                   FatBodyState& s) noexcept {
   for (size_t i = 0; i < body.roots.bonds.size(); ++i) {
     const Bond& bond = body.roots.bonds[i];
     if (coagulated(s, bond.node) && s.roots[i].holds())
-      weaken(body.roots.law, length(opening_of(bond, nodes, holders)), dt, s.roots[i]);
+      weaken(body.roots.law, length(opening_of(bond, nodes, bodies)), dt, s.roots[i]);
   }
 }
 
 /// Both ends are light and both bear the tie implicitly, each from where the other is about to be.
-void tie_loads(const FatBody& body, const FatTie& tie, const TiedWalls& walls, double dt, FatBodyState& s,
+void tie_loads(const FatBody& body, const FatTie& tie, const Bodies& bodies, double dt, FatBodyState& s,
                BondState& state, NetworkLoads& loads) noexcept {
   const tissue::CohesiveLaw& law = body.roots.law;
   const size_t wall = size_t(tie.membrane);
-  const tissue::NetworkModel& net = walls.models[wall]->network;
-  const tissue::NetworkState& now = walls.states[wall].network;
+  const tissue::NetworkModel& net = bodies.models.membranes[wall].sheet.network;
+  const tissue::NetworkState& now = bodies.states.membranes[wall].network;
   const Vec3d x = tissue::position(body.fat, s.fat, tie.lobule);
   const Vec3d v = counted_on(tissue::velocity(body.fat, s.fat, tie.lobule));
   const Vec3d at = tissue::position(net, now, tie.node) + tie.offset;
@@ -62,12 +63,12 @@ void tie_loads(const FatBody& body, const FatTie& tie, const TiedWalls& walls, d
   on_wall.node = tie.node;
   on_wall.d = float(resists);
   on_wall.f0 = vec_cast<float>(k * (x - at) + d * (v - moves) + resists * moves);
-  walls.loads[wall].add(on_wall, {Owner::anchor, 0, 0});
+  bodies.work->membranes[wall].loads.add(on_wall, {Owner::anchor, 0, 0});
 }
 
-Vec3d foot_of(const FatTie& tie, const TiedWalls& walls) noexcept {
+Vec3d foot_of(const FatTie& tie, const Bodies& bodies) noexcept {
   const size_t wall = size_t(tie.membrane);
-  return tissue::position(walls.models[wall]->network, walls.states[wall].network, tie.node);
+  return tissue::position(bodies.models.membranes[wall].sheet.network, bodies.states.membranes[wall].network, tie.node);
 }
 
 int sever(BondState& state) noexcept {
@@ -77,30 +78,27 @@ int sever(BondState& state) noexcept {
 
 }  // namespace
 
-void apply_fat_loads(const FatBody& body, FatBodyState& s, const Holders& holders, const TiedWalls& walls, double dt,
-                     FatBodyWork& w, std::span<StrandLoads> strand_loads,
-                     std::span<NetworkLoads> organ_loads) noexcept {
+void apply_fat_loads(const FatBody& body, FatBodyState& s, const Bodies& bodies, double dt, FatBodyWork& w) noexcept {
   const BondedNodes nodes{body.fat.network, s.fat.network, w.loads};
-  weaken_roots(body, nodes, holders, dt, s);
-  bond_loads(body.roots, s.roots, nodes, holders, dt, strand_loads, organ_loads);
+  weaken_roots(body, nodes, bodies, dt, s);
+  bond_loads(body.roots, s.roots, nodes, bodies, dt);
   for (size_t i = 0; i < body.ties.size(); ++i)
-    if (s.ties[i].holds()) tie_loads(body, body.ties[i], walls, dt, s, s.ties[i], w.loads);
+    if (s.ties[i].holds()) tie_loads(body, body.ties[i], bodies, dt, s, s.ties[i], w.loads);
 }
 
-int sever_fat(const FatBody& body, const geometry::Blade& blade, const Holders& holders, const TiedWalls& walls,
-              FatBodyState& s) noexcept {
+int sever_fat(const FatBody& body, const geometry::Blade& blade, const Bodies& bodies, FatBodyState& s) noexcept {
   const geometry::BladePlane plane(blade);
   if (!plane.flat) return 0;
   int severed = tissue::sever(body.fat, plane, s.fat);
   for (size_t i = 0; i < body.roots.bonds.size(); ++i) {
     const Bond& bond = body.roots.bonds[i];
-    const Vec3d foot = held_place(bond.hold, holders) - bond.hold.offset;
+    const Vec3d foot = foot_of(bond.hold, bodies);
     if (s.roots[i].holds() && plane.crosses(foot, tissue::position(body.fat, s.fat, bond.node)))
       severed += sever(s.roots[i]);
   }
   for (size_t i = 0; i < body.ties.size(); ++i)
     if (s.ties[i].holds() &&
-        plane.crosses(foot_of(body.ties[i], walls), tissue::position(body.fat, s.fat, body.ties[i].lobule)))
+        plane.crosses(foot_of(body.ties[i], bodies), tissue::position(body.fat, s.fat, body.ties[i].lobule)))
       severed += sever(s.ties[i]);
   return severed;
 }

@@ -1,7 +1,7 @@
 // An instrument as objects meet it in a tick.
 #pragma once
 
-#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/bodies/loads.hpp>
 #include <trocar/interactions/instrument/touch.hpp>
 
 namespace trocar::interactions {

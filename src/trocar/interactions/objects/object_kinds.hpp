@@ -77,12 +77,6 @@ void visit_objects(const ObjectModels& models, F&& f) {
   });
 }
 
-/// As hands meet them.
-struct ObjectView {
-  const ObjectModels* models = nullptr;
-  const ObjectStates* states = nullptr;
-};
-
 inline ObjectStates start_of(const ObjectModels& models) {
   ObjectStates out;
   ObjectKinds::for_each([&](auto kind) {

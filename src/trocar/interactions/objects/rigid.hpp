@@ -22,7 +22,7 @@
 
 #include <trocar/core/body_id.hpp>
 #include <trocar/core/fields.hpp>
-#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/bodies/loads.hpp>
 #include <trocar/interactions/objects/object_hand.hpp>
 #include <trocar/interactions/objects/wall_grid.hpp>
 #include <trocar/numerics/quat.hpp>

@@ -2,7 +2,7 @@
 // Half of what a bead lacks is the skin's to give, half the bead's, each by the same spring.
 #pragma once
 
-#include <trocar/interactions/contact/surface.hpp>
+#include <trocar/interactions/bodies/surface.hpp>
 #include <trocar/interactions/objects/rigid.hpp>
 
 namespace trocar::interactions {

@@ -2,7 +2,7 @@
 // from then on (suture/thread/clips.hpp); its record in the clip buffer says how it was set.
 #pragma once
 
-#include <trocar/interactions/couplings/strand_body.hpp>
+#include <trocar/interactions/bodies/strand_body.hpp>
 #include <trocar/interactions/objects/suture.hpp>
 
 namespace trocar::interactions {

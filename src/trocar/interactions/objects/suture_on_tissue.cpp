@@ -29,12 +29,12 @@ int heaviest_corner(const SkinPoint& on) noexcept {
   return on.vertex[best];
 }
 
-const Surface& skin_of(const TissueBodies& bodies, BodyId body) noexcept {
-  return body.is(BodyKind::organ) ? bodies.organs[body.index()] : bodies.membranes[body.index()].surface;
+const Surface& surface_of(const Bodies& bodies, BodyId body) noexcept {
+  return body.is(BodyKind::organ) ? bodies.organ(body.index()) : bodies.membrane(body.index()).surface;
 }
 
-NearSkin at_surface(const TissueBodies& bodies, BodyId body, int vertex, Vec3d p) noexcept {
-  const Surface& surface = skin_of(bodies, body);
+NearSkin at_surface(const Bodies& bodies, BodyId body, int vertex, Vec3d p) noexcept {
+  const Surface& surface = surface_of(bodies, body);
   NearSkin near;
   if (vertex < 0 || vertex >= surface.skin->size() || !surface.skin->at_surface(vertex) || surface.torn(vertex))
     return near;
@@ -46,15 +46,15 @@ NearSkin at_surface(const TissueBodies& bodies, BodyId body, int vertex, Vec3d p
   if (away > 1e-5 && away < 0.003) near.normal = normalised((side / away) * off + 0.2 * on.normal);
   if (body.is(BodyKind::membrane)) {  // both sides of a fold are outside; of a pouch, too
     near.normal = side * near.normal;
-    near.distance = away - bodies.membranes[body.index()].half_thickness;
+    near.distance = away - bodies.membrane(body.index()).half_thickness;
   }
   near.velocity = surface.velocity(near.vertex);
   return near;
 }
 
-NearSkin at_element(const TissueBodies& bodies, BodyId body, int e, Vec3d p) noexcept {
-  const StrandBody& strand = bodies.strands[body.index()];
-  const tissue::StrandState& s = bodies.strand_states[body.index()];
+NearSkin at_element(const Bodies& bodies, BodyId body, int e, Vec3d p) noexcept {
+  const StrandBody& strand = bodies.strand(body.index());
+  const tissue::StrandState& s = bodies.strand_state(body.index());
   NearSkin near;
   if (e < 0 || e + 1 >= strand.nodes() || !s.alive[size_t(e)]) return near;
   const Vec3d a = s.x[size_t(e)], ab = s.x[size_t(e) + 1] - a;
@@ -71,13 +71,13 @@ NearSkin at_element(const TissueBodies& bodies, BodyId body, int e, Vec3d p) noe
 }
 
 /// From the last place on.
-NearSkin look_again(const TissueBodies& bodies, SutureNear& near, Vec3d p) noexcept {
+NearSkin look_again(const Bodies& bodies, SutureNear& near, Vec3d p) noexcept {
   const BodyId body = BodyId::of_code(near.surface);
   if (!body.exists()) return {};
   if (body.is(BodyKind::strand)) {
     NearSkin best = at_element(bodies, body, near.vertex, p);
     for (const int step : {-1, 1})
-      for (int e = near.vertex + step; e >= 0 && e + 1 < bodies.strands[body.index()].nodes(); e += step) {
+      for (int e = near.vertex + step; e >= 0 && e + 1 < bodies.strand(body.index()).nodes(); e += step) {
         const NearSkin next = at_element(bodies, body, e, p);
         if (!(next.distance < best.distance)) break;
         best = next;
@@ -85,13 +85,13 @@ NearSkin look_again(const TissueBodies& bodies, SutureNear& near, Vec3d p) noexc
     if (best.there()) near.vertex = best.vertex;
     return best;
   }
-  const Surface& surface = skin_of(bodies, body);
+  const Surface& surface = surface_of(bodies, body);
   if (!surface.pose->bounds.reaches(p, kSkinReach)) return {};
   near.vertex = walk_to_nearest(surface, near.vertex, p);
   return at_surface(bodies, body, near.vertex, p);
 }
 
-SutureNear look_everywhere(const TissueBodies& bodies, Vec3d p) noexcept {
+SutureNear look_everywhere(const Bodies& bodies, Vec3d p) noexcept {
   SutureNear best{-1, 0};
   double least = kSkinReach;
   const auto look = [&](BodyId body) {
@@ -100,14 +100,14 @@ SutureNear look_everywhere(const TissueBodies& bodies, Vec3d p) noexcept {
     least = std::fabs(near.distance);
     best = {body.code(), near.vertex};
   };
-  for (size_t i = 0; i < bodies.organs.size(); ++i) look(BodyId::organ(i));
-  for (size_t i = 0; i < bodies.membranes.size(); ++i) look(BodyId::membrane(i));
-  for (size_t i = 0; i < bodies.strands.size(); ++i) look(BodyId::strand(i));
+  for (size_t i = 0; i < bodies.organ_count(); ++i) look(BodyId::organ(i));
+  for (size_t i = 0; i < bodies.membrane_count(); ++i) look(BodyId::membrane(i));
+  for (size_t i = 0; i < bodies.strand_count(); ++i) look(BodyId::strand(i));
   return best;
 }
 
 /// Half of the depth is the tissue's, with twice the stiffness: both feel the same force.
-void push_tissue(const TissueBodies& bodies, const NearSkin& on, double depth, TissueLoads loads) noexcept {
+void push_tissue(const Bodies& bodies, const NearSkin& on, double depth) noexcept {
   const double way = std::min(depth, kQuickestApart);
   if (on.body.is(BodyKind::strand)) {
     tissue::StrandLoad load;
@@ -116,18 +116,18 @@ void push_tissue(const TissueBodies& bodies, const NearSkin& on, double depth, T
     load.f0 = -kBodyStiffness * way * on.normal;
     load.d = kBodyDamping;
     load.dir = on.normal;
-    loads.strands[on.body.index()].add(load, {Owner::body, 0, 0});
+    bodies.work->strands[on.body.index()].loads.add(load, {Owner::body, 0, 0});
     return;
   }
-  push_skin(skin_of(bodies, on.body), on.vertex, -0.5 * way * on.normal, on.normal, 2 * kBodyStiffness, kBodyDamping,
-            on.body.is(BodyKind::organ) ? loads.organs[on.body.index()] : loads.membranes[on.body.index()]);
+  push_skin(surface_of(bodies, on.body), on.vertex, -0.5 * way * on.normal, on.normal, 2 * kBodyStiffness, kBodyDamping,
+            loads_on(bodies, on.body));
 }
 
 /// One suture in a tick.
 class Resting {
  public:
-  Resting(const SutureModels& models, size_t index, const TissueBodies& bodies, const tissue::Box& cavity, double dt,
-          SutureState& s, SutureWorks& all, TissueLoads loads) noexcept
+  Resting(const SutureModels& models, size_t index, const Bodies& bodies, const tissue::Box& cavity, double dt,
+          SutureState& s, SutureWorks& all) noexcept
       : m_models(models),
         m_model(models.list[index]),
         m_index(index),
@@ -136,8 +136,7 @@ class Resting {
         m_dt(dt),
         m_state(s),
         m_all(all),
-        m_work(all.list[index]),
-        m_loads(loads) {}
+        m_work(all.list[index]) {}
 
   /// What was done to tissue in the last tick.
   void bear() noexcept {
@@ -145,12 +144,12 @@ class Resting {
       const SutureHole& h = m_state.holes[size_t(i)];
       const double resists = (h.slot < 0 ? kAcrossWire : kThreadHole) * m_dt;
       press_on(m_bodies, h.at, vector_of(h.force), resists, h.slot < 0 ? kCalms * resists : 0.0,
-               speed_at(double(h.arc)), m_loads);
+               speed_at(double(h.arc)));
     }
     const SutureTouch& t = m_state.touch;
     const double resists = kTipStiffness * m_dt;
     if (t.kind != SutureTouch::none)
-      press_on(m_bodies, t.at, -vector_of(t.force), resists, kCalms * resists, speed_at(0), m_loads);
+      press_on(m_bodies, t.at, -vector_of(t.force), resists, kCalms * resists, speed_at(0));
   }
   /// Of the needle [m/s].
   Vec3d speed_at(double arc) const noexcept {
@@ -192,7 +191,7 @@ class Resting {
   void rest(int b, const NearSkin& on, double radius) noexcept {
     const double gap = on.distance - radius;
     touch(b, on.normal, gap, on.velocity, kBodyStiffness, kTissueFriction, -1);
-    if (gap < 0) push_tissue(m_bodies, on, -gap, m_loads);
+    if (gap < 0) push_tissue(m_bodies, on, -gap);
   }
   void touch(int b, Vec3d normal, double gap, Vec3d velocity, double stiffness, double friction, int rod) noexcept {
     const size_t before = m_work.needle.contacts.size();
@@ -228,14 +227,14 @@ class Resting {
       const double deeper = std::max(0.0, radius - on.distance - kQuickestApart);
       c = {n,         on.point + m_dt * on.velocity - deeper * on.normal, on.normal, on.velocity, kBodyStiffness, -1,
            2 * radius};
-      if (on.distance < radius) push_tissue(m_bodies, on, radius - on.distance, m_loads);
+      if (on.distance < radius) push_tissue(m_bodies, on, radius - on.distance);
     } else {
       keep_in_cavity(n, p, c);
     }
   }
   /// Below a patch of skin, but not in the organ: another side of it is nearer, whose vertices are further away.
   bool is_beside(const NearSkin& on, Vec3d p) const noexcept {
-    return on.body.is(BodyKind::organ) && on.distance < -kSureOfSide && !encloses(skin_of(m_bodies, on.body), p);
+    return on.body.is(BodyKind::organ) && on.distance < -kSureOfSide && !encloses(surface_of(m_bodies, on.body), p);
   }
   void keep_in_cavity(int n, Vec3d p, suture::SkinContact& c) const noexcept {
     for (int k = 0; k < 3; ++k) {
@@ -341,36 +340,34 @@ class Resting {
   const SutureModels& m_models;
   const SutureModel& m_model;
   size_t m_index;
-  const TissueBodies& m_bodies;
+  const Bodies& m_bodies;
   const tissue::Box& m_cavity;
   double m_dt;
   SutureState& m_state;
   SutureWorks& m_all;
   SutureWork& m_work;
-  TissueLoads m_loads;
 };
 
 }  // namespace
 
-NearSkin nearest_skin(const TissueBodies& bodies, BodyId body, Vec3d p, double reach) noexcept {
+NearSkin nearest_skin(const Bodies& bodies, BodyId body, Vec3d p, double reach) noexcept {
   if (body.is(BodyKind::strand)) {
     NearSkin best;
-    for (int e = 0; e + 1 < bodies.strands[body.index()].nodes(); ++e) {
+    for (int e = 0; e + 1 < bodies.strand(body.index()).nodes(); ++e) {
       const NearSkin next = at_element(bodies, body, e, p);
       if (next.there() && next.distance < best.distance) best = next;
     }
     return best.there() && best.distance < reach ? best : NearSkin{};
   }
-  const Surface& surface = skin_of(bodies, body);
+  const Surface& surface = surface_of(bodies, body);
   if (!surface.pose->bounds.reaches(p, reach)) return {};
   return at_surface(bodies, body, nearest_vertex_near(surface, p, reach), p);
 }
 
-void rest_on_tissue(const SutureModels& models, const TissueBodies& bodies, const tissue::Box& cavity,
-                    std::uint64_t tick, double dt, Suture::States& states, SutureWorks& work,
-                    TissueLoads loads) noexcept {
+void rest_on_tissue(const SutureModels& models, const Bodies& bodies, const tissue::Box& cavity, std::uint64_t tick,
+                    double dt, Suture::States& states, SutureWorks& work) noexcept {
   for (size_t i = 0; i < states.size(); ++i) {
-    Resting resting(models, i, bodies, cavity, dt, states[i], work, loads);
+    Resting resting(models, i, bodies, cavity, dt, states[i], work);
     resting.bear();
     resting.find(tick);
   }

@@ -18,12 +18,11 @@ struct NearSkin {
   bool there() const noexcept { return vertex >= 0; }
 };
 /// Looks at all of the body.
-NearSkin nearest_skin(const TissueBodies& bodies, BodyId body, Vec3d p, double reach) noexcept;
+NearSkin nearest_skin(const Bodies& bodies, BodyId body, Vec3d p, double reach) noexcept;
 
 /// @param tick  that the step makes: what is near is looked for again by turns
 /// @param cavity  whose walls nothing leaves
-void rest_on_tissue(const SutureModels& models, const TissueBodies& bodies, const tissue::Box& cavity,
-                    std::uint64_t tick, double dt, Suture::States& states, SutureWorks& work,
-                    TissueLoads loads) noexcept;
+void rest_on_tissue(const SutureModels& models, const Bodies& bodies, const tissue::Box& cavity, std::uint64_t tick,
+                    double dt, Suture::States& states, SutureWorks& work) noexcept;
 
 }  // namespace trocar::interactions

@@ -39,7 +39,7 @@ Vec3d across_of(Vec3d v, Vec3d n) noexcept { return v - dot(v, n) * n; }
 
 class Sewing {
  public:
-  Sewing(const SutureModels& models, size_t index, const TissueBodies& bodies, Vec3d gravity, double dt,
+  Sewing(const SutureModels& models, size_t index, const Bodies& bodies, Vec3d gravity, double dt,
          const tissue::Box& cavity, SutureState& s, SutureWorks& all, SewnReport& report) noexcept
       : m_models(models),
         m_model(models.list[index]),
@@ -472,7 +472,7 @@ class Sewing {
   const SutureModels& m_models;
   const SutureModel& m_model;
   std::int32_t m_index;
-  const TissueBodies& m_bodies;
+  const Bodies& m_bodies;
   Vec3d m_gravity;
   double m_dt;
   const tissue::Box& m_cavity;
@@ -605,8 +605,8 @@ bool goes_through(const SutureModel& m, const SutureState& s, BodyId body, doubl
   return false;
 }
 
-SewnReport sew(const SutureModels& models, const TissueBodies& bodies, Vec3d gravity, double dt,
-               const tissue::Box& cavity, Suture::States& states, SutureWorks& work) noexcept {
+SewnReport sew(const SutureModels& models, const Bodies& bodies, Vec3d gravity, double dt, const tissue::Box& cavity,
+               Suture::States& states, SutureWorks& work) noexcept {
   SewnReport report;
   for (size_t i = 0; i < states.size(); ++i) {
     Sewing sewing(models, i, bodies, gravity, dt, cavity, states[i], work, report);

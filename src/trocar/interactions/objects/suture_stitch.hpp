@@ -31,8 +31,8 @@ struct SewnReport {
   BodyId broken;         ///< a suture whose thread was pulled apart or crushed
   bool overflowed = false;
 };
-SewnReport sew(const SutureModels& models, const TissueBodies& bodies, Vec3d gravity, double dt,
-               const tissue::Box& cavity, Suture::States& states, SutureWorks& work) noexcept;
+SewnReport sew(const SutureModels& models, const Bodies& bodies, Vec3d gravity, double dt, const tissue::Box& cavity,
+               Suture::States& states, SutureWorks& work) noexcept;
 
 /// Jaws turn on a needle that is twisted in them with more than they bear, and follow a thread that slips through them.
 /// @param tool  the State of that hand's instrument, which holds a suture

@@ -73,8 +73,8 @@ int passes_through(Vec3d p, Vec3d q, Vec3d a, Vec3d b, Vec3d c, double& w) noexc
 
 class Strangling {
  public:
-  Strangling(const SutureModels& models, std::size_t index, const TissueBodies& bodies, double dt,
-             Suture::States& states, SutureWork& w, TissueLoads loads) noexcept
+  Strangling(const SutureModels& models, std::size_t index, const Bodies& bodies, double dt, Suture::States& states,
+             SutureWork& w) noexcept
       : m_models(models),
         m_states(states),
         m_index(index),
@@ -83,14 +83,13 @@ class Strangling {
         m_dt(dt),
         m_state(states[index]),
         m_sling(m_state.sling),
-        m_work(w),
-        m_loads(loads) {}
+        m_work(w) {}
 
   /// What is drawn against the tube's end lies on the knot there.
   void lie_on_knot(const SlingAround& a) noexcept {
     if (m_sling.stage != SlingState::open) return;
-    const StrandBody& body = m_bodies.strands[size_t(a.strand)];
-    const tissue::StrandState& s = m_bodies.strand_states[size_t(a.strand)];
+    const StrandBody& body = m_bodies.strand(size_t(a.strand));
+    const tissue::StrandState& s = m_bodies.strand_state(size_t(a.strand));
     const Beside at = beside(body, s, {a.element, a.w}, m_sling.mouth.tip);
     if (!at.there()) return;
     const size_t e = size_t(at.place.element);
@@ -102,7 +101,7 @@ class Strangling {
     load.d = m_dt * kKnotPushes;
     const Vec3d push = (-kKnotPushes * depth) * at.out;
     load.f0 = push + kKeepsGoing * load.d * (s.v[e] + at.place.w * (s.v[e + 1] - s.v[e]));
-    m_loads.strands[size_t(a.strand)].add(load, {Owner::body, 0, 0});
+    m_bodies.work->strands[size_t(a.strand)].loads.add(load, {Owner::body, 0, 0});
     m_work.sling.force -= push;
   }
 
@@ -115,14 +114,14 @@ class Strangling {
   void bear() noexcept {
     for (std::int32_t i = 0; i < m_sling.around_count; ++i) {
       const SlingAround& a = m_sling.around[size_t(i)];
-      const tissue::StrandState& s = m_bodies.strand_states[size_t(a.strand)];
+      const tissue::StrandState& s = m_bodies.strand_state(size_t(a.strand));
       const size_t e = size_t(a.element);
       tissue::StrandLoad load;
       load.element = a.element;
       load.w = a.w;
       load.d = m_dt * std::clamp(a.stiff, kLeastStiff, kMostStiff);
       load.f0 = bounded(a.pull) + kKeepsGoing * load.d * (s.v[e] + a.w * (s.v[e + 1] - s.v[e]));
-      m_loads.strands[size_t(a.strand)].add(load, {Owner::body, 0, 0});
+      m_bodies.work->strands[size_t(a.strand)].loads.add(load, {Owner::body, 0, 0});
       lie_on_knot(a);
     }
   }
@@ -133,11 +132,11 @@ class Strangling {
     m_sling.around_count = 0;
     if (loop_nodes() < 4) return;
     measure();
-    for (size_t i = 0; i < m_bodies.strands.size() && m_sling.around_count < kMostAround; ++i) {
+    for (size_t i = 0; i < m_bodies.strand_count() && m_sling.around_count < kMostAround; ++i) {
       SlingAround found;
       for (std::int32_t k = 0; k < had; ++k)
         if (before[size_t(k)].strand == std::int32_t(i)) found = before[size_t(k)];
-      const bool tight = found.strand >= 0 && found.squeeze > kHoldsFrom && has_sunk_in(m_bodies.strands[i], found);
+      const bool tight = found.strand >= 0 && found.squeeze > kHoldsFrom && has_sunk_in(m_bodies.strand(i), found);
       found.strand = std::int32_t(i);
       if (tight ? sits(i, found) : passes(i, found)) m_sling.around[size_t(m_sling.around_count++)] = found;
     }
@@ -153,7 +152,7 @@ class Strangling {
     }
     for (std::int32_t i = 0; i < m_sling.around_count; ++i) {
       const SlingAround& a = m_sling.around[size_t(i)];
-      if (has_sunk_in(m_bodies.strands[size_t(a.strand)], a))
+      if (has_sunk_in(m_bodies.strand(size_t(a.strand)), a))
         carry(i);
       else
         stand_still(i);
@@ -178,7 +177,7 @@ class Strangling {
     }
     if (m_sling.stage != SlingState::left) return;
     const SlingAround& a = m_sling.around[size_t(number)];
-    const tissue::StrandState& s = m_bodies.strand_states[size_t(a.strand)];
+    const tissue::StrandState& s = m_bodies.strand_state(size_t(a.strand));
     const size_t e = size_t(a.element);
     const Vec3d velocity = s.v[e] + a.w * (s.v[e + 1] - s.v[e]);
     for (int n = count; n <= m_sling.parted && n < m_model.thread.nodes; ++n)
@@ -210,8 +209,8 @@ class Strangling {
 
   /// One that has sunk in leaves over an end, or not at all.
   bool sits(size_t strand, SlingAround& found) const noexcept {
-    const StrandBody& body = m_bodies.strands[strand];
-    const tissue::StrandState& s = m_bodies.strand_states[strand];
+    const StrandBody& body = m_bodies.strand(strand);
+    const tissue::StrandState& s = m_bodies.strand_state(strand);
     const Beside at = beside(body, s, {found.element, found.w}, m_middle);
     if (!at.there() || at.away > body.model.radius[size_t(at.place.element)]) return false;
     found.element = at.place.element;
@@ -222,8 +221,8 @@ class Strangling {
   /// The surface is a fan about the loop's middle. Over an end that grows out of something the strand is taken to
   /// continue in there: what swells up into a loop that lies around its beginning does not let that off.
   bool passes(size_t strand, SlingAround& found) const noexcept {
-    const StrandBody& body = m_bodies.strands[strand];
-    const tissue::StrandState& s = m_bodies.strand_states[strand];
+    const StrandBody& body = m_bodies.strand(strand);
+    const tissue::StrandState& s = m_bodies.strand_state(strand);
     int net = 0;
     for (int e = 0; e + 1 < body.nodes(); ++e)
       if (s.alive[size_t(e)]) net += passes(s.x[size_t(e)], s.x[size_t(e) + 1], e, found);
@@ -285,8 +284,8 @@ class Strangling {
 
   /// The plane that a node lies on there, such that it presses as the law says.
   void press_node(std::int32_t number, const SlingAround& a, int n) noexcept {
-    const StrandBody& body = m_bodies.strands[size_t(a.strand)];
-    const tissue::StrandState& s = m_bodies.strand_states[size_t(a.strand)];
+    const StrandBody& body = m_bodies.strand(size_t(a.strand));
+    const tissue::StrandState& s = m_bodies.strand_state(size_t(a.strand));
     const Vec3d x = m_state.thread.x[size_t(n)];
     const Beside at = beside(body, s, {a.element, a.w}, x);
     if (!at.there()) return;
@@ -339,12 +338,11 @@ class Strangling {
   const Suture::States& m_states;
   std::size_t m_index;
   const SutureModel& m_model;
-  const TissueBodies& m_bodies;
+  const Bodies& m_bodies;
   double m_dt;
   SutureState& m_state;
   SlingState& m_sling;
   SutureWork& m_work;
-  TissueLoads m_loads;
   Vec3d m_middle;
   double m_reach = 0;
 };
@@ -393,12 +391,12 @@ FreeEnd free_end(const StrandBody& body, const tissue::StrandState& s, StrandPla
   return end;
 }
 
-void strangle(const SutureModels& models, const TissueBodies& bodies, std::uint64_t tick, double dt,
-              Suture::States& states, SutureWorks& work, TissueLoads loads) noexcept {
+void strangle(const SutureModels& models, const Bodies& bodies, std::uint64_t tick, double dt, Suture::States& states,
+              SutureWorks& work) noexcept {
   for (size_t i = 0; i < states.size(); ++i) {
     const SutureModel& m = models.list[i];
     if (!m.sling.there()) continue;
-    Strangling strangling(models, i, bodies, dt, states, work.list[i], loads);
+    Strangling strangling(models, i, bodies, dt, states, work.list[i]);
     strangling.bear();
     if ((tick + i) % kFindsEvery == 0) strangling.find();
     strangling.press();

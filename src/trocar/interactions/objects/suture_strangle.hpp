@@ -47,7 +47,7 @@ struct FreeEnd {
 FreeEnd free_end(const StrandBody& body, const tissue::StrandState& s, StrandPlace place) noexcept;
 
 /// Which strands loops lie around, what they press on them in this tick, and what strands bear of the last one.
-void strangle(const SutureModels& models, const TissueBodies& bodies, std::uint64_t tick, double dt,
-              Suture::States& states, SutureWorks& work, TissueLoads loads) noexcept;
+void strangle(const SutureModels& models, const Bodies& bodies, std::uint64_t tick, double dt, Suture::States& states,
+              SutureWorks& work) noexcept;
 
 }  // namespace trocar::interactions

@@ -146,36 +146,32 @@ TissuePoint stick_to_strand(const StrandBody& body, const tissue::StrandState& s
 
 StrandPlace place_on_strand(const TissuePoint& point) noexcept { return {point.node[0], double(point.weight[0])}; }
 
-const tissue::NodeView& nodes_of(const TissueBodies& bodies, BodyId body) noexcept {
-  return body.is(BodyKind::organ) ? bodies.organs[body.index()].nodes : bodies.membranes[body.index()].surface.nodes;
-}
-
 }  // namespace
 
-TissuePoint stick_to(const TissueBodies& bodies, BodyId body, Vec3d p) noexcept {
+TissuePoint stick_to(const Bodies& bodies, BodyId body, Vec3d p) noexcept {
   if (body.is(BodyKind::strand))
-    return stick_to_strand(bodies.strands[body.index()], bodies.strand_states[body.index()], body, p);
+    return stick_to_strand(bodies.strand(body.index()), bodies.strand_state(body.index()), body, p);
   return stick_to_nodes(nodes_of(bodies, body), body, p);
 }
 
-Vec3d point_of(const TissueBodies& bodies, const TissuePoint& point) noexcept {
+Vec3d point_of(const Bodies& bodies, const TissuePoint& point) noexcept {
   const Vec3d off = offset_of(point);
   if (!point.body.is(BodyKind::strand)) return mean_of(nodes_of(bodies, point.body), point) + off;
-  const StrandBody& body = bodies.strands[point.body.index()];
-  const tissue::StrandState& s = bodies.strand_states[point.body.index()];
+  const StrandBody& body = bodies.strand(point.body.index());
+  const tissue::StrandState& s = bodies.strand_state(point.body.index());
   const StrandFrame frame = frame_at(body, s, place_on_strand(point));
   return point_at(body, s, place_on_strand(point)) + off.x * frame.tangent + off.y * frame.normal +
          off.z * frame.binormal;
 }
 
-Vec3d velocity_of(const TissueBodies& bodies, const TissuePoint& point) noexcept {
+Vec3d velocity_of(const Bodies& bodies, const TissuePoint& point) noexcept {
   Vec3d v;
   if (point.body.is(BodyKind::strand)) {
-    const tissue::StrandState& s = bodies.strand_states[point.body.index()];
+    const tissue::StrandState& s = bodies.strand_state(point.body.index());
     const std::size_t e = std::size_t(point.node[0]);
     return s.v[e] + double(point.weight[0]) * (s.v[e + 1] - s.v[e]);
   }
-  const tissue::NodeView& nodes = nodes_of(bodies, point.body);
+  const tissue::NodeView nodes = nodes_of(bodies, point.body);
   for (int i = 0; i < point.count; ++i)
     v += double(point.weight[std::size_t(i)]) * nodes.velocity(point.node[std::size_t(i)]);
   return counted_on(v);
@@ -189,20 +185,19 @@ Vec3d drawn_place(std::span<const Vec3d> rest, const TissuePoint& point) noexcep
   return p;
 }
 
-void press_on(const TissueBodies& bodies, const TissuePoint& point, Vec3d force, double resists, double damps,
-              Vec3d velocity, TissueLoads loads) noexcept {
-  const std::size_t i = point.body.index();
+void press_on(const Bodies& bodies, const TissuePoint& point, Vec3d force, double resists, double damps,
+              Vec3d velocity) noexcept {
   if (point.body.is(BodyKind::strand)) {
     tissue::StrandLoad load;
     load.element = point.node[0];
     load.w = double(point.weight[0]);
     load.d = resists + damps;
     load.f0 = force + resists * velocity_of(bodies, point) + damps * velocity;
-    loads.strands[i].add(load, {Owner::body, 0, 0});
+    bodies.work->strands[point.body.index()].loads.add(load, {Owner::body, 0, 0});
     return;
   }
-  const tissue::NodeView& nodes = nodes_of(bodies, point.body);
-  NetworkLoads& to = point.body.is(BodyKind::organ) ? loads.organs[i] : loads.membranes[i];
+  const tissue::NodeView nodes = nodes_of(bodies, point.body);
+  NetworkLoads& to = loads_on(bodies, point.body);
   double weights = 0;  // above 1 where the point lies outside of its nodes: bounds the coupling between them
   for (int k = 0; k < point.count; ++k) weights += std::fabs(double(point.weight[std::size_t(k)]));
   for (int k = 0; k < point.count; ++k) {

@@ -9,26 +9,9 @@
 #include <array>
 #include <span>
 
-#include <trocar/core/body_id.hpp>
-#include <trocar/interactions/contact/surface.hpp>
-#include <trocar/interactions/couplings/loads.hpp>
-#include <trocar/interactions/couplings/strand_body.hpp>
-#include <trocar/interactions/instrument/membrane_contact.hpp>
+#include <trocar/interactions/bodies/bodies.hpp>
 
 namespace trocar::interactions {
-
-/// All tissue as it is now.
-struct TissueBodies {
-  std::span<const StrandBody> strands;
-  std::span<const tissue::StrandState> strand_states;
-  std::span<const Surface> organs;
-  std::span<const SheetView> membranes;
-};
-/// What a tick puts on it.
-struct TissueLoads {
-  std::span<StrandLoads> strands;
-  std::span<NetworkLoads> organs, membranes;
-};
 
 inline constexpr int kPointNodes = 8;
 
@@ -50,16 +33,16 @@ struct TissuePoint {
 static_assert(sizeof(TissuePoint) == 4 * (2 + 2 * kPointNodes + 3), "no padding");
 
 /// The point of that body that is at p now; it looks at all of the body's nodes.
-TissuePoint stick_to(const TissueBodies& bodies, BodyId body, Vec3d p) noexcept;
-Vec3d point_of(const TissueBodies& bodies, const TissuePoint& point) noexcept;
-Vec3d velocity_of(const TissueBodies& bodies, const TissuePoint& point) noexcept;
+TissuePoint stick_to(const Bodies& bodies, BodyId body, Vec3d p) noexcept;
+Vec3d point_of(const Bodies& bodies, const TissuePoint& point) noexcept;
+Vec3d velocity_of(const Bodies& bodies, const TissuePoint& point) noexcept;
 /// Where it was when the scene was drawn.
 /// @param rest  of the body's nodes [m]
 Vec3d drawn_place(std::span<const Vec3d> rest, const TissuePoint& point) noexcept;
 
 /// @param resists  to changes of its velocity: stiffness of what presses times the tick [N s/m]
 /// @param damps    to moving beside what presses, which goes with `velocity` [N s/m]
-void press_on(const TissueBodies& bodies, const TissuePoint& point, Vec3d force, double resists, double damps,
-              Vec3d velocity, TissueLoads loads) noexcept;
+void press_on(const Bodies& bodies, const TissuePoint& point, Vec3d force, double resists, double damps,
+              Vec3d velocity) noexcept;
 
 }  // namespace trocar::interactions

@@ -11,19 +11,18 @@ Vec3d target_of(const ToolShape& shape, const Hold& stuck) noexcept {
 
 }  // namespace
 
-Hold stuck_at(const ToolShape& shape, const TissueView& view, Hold point) noexcept {
-  const Vec3d local = to_jaw(shape, held_point(view, point));
+Hold stuck_at(const ToolShape& shape, const Bodies& bodies, Hold point) noexcept {
+  const Vec3d local = to_jaw(shape, held_point(bodies, point));
   for (int k = 0; k < 3; ++k) point.local[k] = float(local[k]), point.force[k] = 0;
   return point;
 }
 
-double stuck_pull(const ToolShape& shape, const TissueView& view, const Hold& stuck) noexcept {
-  return kStuck.stiffness * length(target_of(shape, stuck) - held_point(view, stuck));
+double stuck_pull(const ToolShape& shape, const Bodies& bodies, const Hold& stuck) noexcept {
+  return kStuck.stiffness * length(target_of(shape, stuck) - held_point(bodies, stuck));
 }
 
-void stuck_load(const ToolShape& shape, int tool_index, const TissueView& view, const Hold& stuck,
-                BodyLoads loads) noexcept {
-  pull_to(view, stuck, target_of(shape, stuck), kStuck, {Owner::tool_contact, tool_index, 0}, loads);
+void stuck_load(const ToolShape& shape, int tool_index, const Bodies& bodies, const Hold& stuck) noexcept {
+  pull_to(bodies, stuck, target_of(shape, stuck), kStuck, {Owner::tool_contact, tool_index, 0});
 }
 
 }  // namespace trocar::interactions

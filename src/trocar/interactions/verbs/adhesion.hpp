@@ -7,13 +7,12 @@
 namespace trocar::interactions {
 
 /// The point stays where it is beside the instrument.
-Hold stuck_at(const ToolShape& shape, const TissueView& view, Hold point) noexcept;
+Hold stuck_at(const ToolShape& shape, const Bodies& bodies, Hold point) noexcept;
 
 /// How hard it is pulled at [N].
-double stuck_pull(const ToolShape& shape, const TissueView& view, const Hold& stuck) noexcept;
+double stuck_pull(const ToolShape& shape, const Bodies& bodies, const Hold& stuck) noexcept;
 
 /// Pulls the point towards its place beside the instrument; what that takes is felt as contact.
-void stuck_load(const ToolShape& shape, int tool_index, const TissueView& view, const Hold& stuck,
-                BodyLoads loads) noexcept;
+void stuck_load(const ToolShape& shape, int tool_index, const Bodies& bodies, const Hold& stuck) noexcept;
 
 }  // namespace trocar::interactions

@@ -6,7 +6,7 @@
 #pragma once
 
 #include <trocar/geometry/tets/blade.hpp>
-#include <trocar/interactions/couplings/strand_body.hpp>
+#include <trocar/interactions/bodies/strand_body.hpp>
 #include <trocar/interactions/instrument/tool_contact.hpp>
 #include <trocar/tissue/network/network.hpp>
 

@@ -20,14 +20,14 @@ struct Catch {
   double cover = 0;
 };
 
-Catch caught(const ToolModel& model, const ToolShape& shape, const TissueView& view) noexcept {
+Catch caught(const ToolModel& model, const ToolShape& shape, const Bodies& bodies) noexcept {
   Catch best;
   double nearest = 1e9;
-  for (size_t s = 0; s < view.strands.size(); ++s) {
-    const StrandBody& body = view.strands[s];
+  for (size_t s = 0; s < bodies.strand_count(); ++s) {
+    const StrandBody& body = bodies.strand(s);
     for (int e = 0; e + 1 < body.nodes(); ++e) {
-      if (!view.strand_states[s].alive[size_t(e)]) continue;
-      const BetweenJaws where = between_jaws(model, shape, body, view.strand_states[s], e);
+      if (!bodies.strand_state(s).alive[size_t(e)]) continue;
+      const BetweenJaws where = between_jaws(model, shape, body, bodies.strand_state(s), e);
       if (!where.inside) continue;
       const double off = std::fabs(where.local.y);
       const double cover = leg_cover(from_bend(model, where.local.z), body.model.radius[size_t(e)], model.clip_length);
@@ -48,12 +48,12 @@ void store(double (&out)[3], Vec3d v, const StrandFrame& f) noexcept {
 }  // namespace
 
 // The clip sits at the end of the jaws.
-StrandPlace fit_clip(const ToolModel& model, const ToolShape& shape, const TissueView& view, Clip& clip) noexcept {
-  const Catch c = caught(model, shape, view);
+StrandPlace fit_clip(const ToolModel& model, const ToolShape& shape, const Bodies& bodies, Clip& clip) noexcept {
+  const Catch c = caught(model, shape, bodies);
   clip.strand = c.strand;
   if (c.strand < 0) return c.place;
-  const StrandBody& body = view.strands[size_t(c.strand)];
-  const StrandFrame frame = frame_at(body, view.strand_states[size_t(c.strand)], c.place);
+  const StrandBody& body = bodies.strand(size_t(c.strand));
+  const StrandFrame frame = frame_at(body, bodies.strand_state(size_t(c.strand)), c.place);
   clip.s = arc_at(body, c.place);
   clip.cover = c.cover;
   clip.theta = portable::acos(std::min(1.0, std::fabs(dot(shape.frame.normal(), frame.tangent))));
@@ -63,7 +63,7 @@ StrandPlace fit_clip(const ToolModel& model, const ToolShape& shape, const Tissu
   return c.place;
 }
 
-bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
+bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int tool_index, const Bodies& bodies,
                          std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick,
                          ToolState& tool, ClipBook book) noexcept {
   if (tool.aperture > kOpenForClip && tool.clips_left > 0) tool.armed = 1;
@@ -83,7 +83,7 @@ bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int too
   clip.length = model.clip_length;
   clip.tips_visible = tips_visible;
   clip.closing_time = tool.closed_for;
-  const StrandPlace place = fit_clip(model, shape, view, clip);
+  const StrandPlace place = fit_clip(model, shape, bodies, clip);
   if (clip.strand >= 0) {  // what is half cut is not healed
     double& scale = strand_states[size_t(clip.strand)].scale[size_t(place.element)];
     scale = std::min(scale, 1.0) * kClipStiffness;

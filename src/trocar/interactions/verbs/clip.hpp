@@ -15,13 +15,13 @@ struct ClipBook {
 
 /// Arms the applier when its jaws are open, measures the closing time, and sets a clip when they have closed.
 /// @return true when a clip left the magazine this tick (clips[count-1]; strand -1 if it closed on nothing)
-bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
+bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int tool_index, const Bodies& bodies,
                          std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick,
                          ToolState& tool, ClipBook book) noexcept;
 
 /// What a clip would hold if it were set with the jaws as they are: strand (-1: nothing), s, theta, cover and how it
-/// lies there; all else of the clip is left alone. Reads the view's strands only.
+/// lies there; all else of the clip is left alone. Reads strands only.
 /// @return where on the strand
-StrandPlace fit_clip(const ToolModel& model, const ToolShape& shape, const TissueView& view, Clip& clip) noexcept;
+StrandPlace fit_clip(const ToolModel& model, const ToolShape& shape, const Bodies& bodies, Clip& clip) noexcept;
 
 }  // namespace trocar::interactions

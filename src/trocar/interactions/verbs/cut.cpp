@@ -14,15 +14,15 @@ constexpr double kBladesCrossed = 0.2;  // aperture at which the blades have cro
 
 }  // namespace
 
-int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
+int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_index, const Bodies& bodies,
                     std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick, ToolState& tool,
                     CutBook book) noexcept {
   if (tool.aperture > (tool.armed < 0 ? kOpenAgain : kOpenToCut) && tool.armed <= 0) tool.armed = 1;
   if (!tool.armed || tool.aperture > kBladesCrossed) return 0;
   tool.armed = 0;
   int made = 0;
-  for (size_t s = 0; s < view.strands.size(); ++s) {
-    const StrandBody& body = view.strands[s];
+  for (size_t s = 0; s < bodies.strand_count(); ++s) {
+    const StrandBody& body = bodies.strand(s);
     tissue::StrandState& state = strand_states[s];
     const auto [element, where, fraction] = between_blades(model, shape, body, state);
     if (element < 0 || book.count == kMaxCuts) continue;

@@ -20,7 +20,7 @@ struct CutBook {
 inline constexpr double kThrough = 0.99;
 
 /// @return number of strands cut this tick
-int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
+int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_index, const Bodies& bodies,
                     std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick, ToolState& tool,
                     CutBook book) noexcept;
 

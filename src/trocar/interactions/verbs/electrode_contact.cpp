@@ -140,15 +140,15 @@ class WireSearch {
   double m_away = 0;
 };
 
-ElectrodeTouch wire_touch(const ToolShape& shape, const ToolState& tool, const TissueView& view) noexcept {
+ElectrodeTouch wire_touch(const ToolShape& shape, const ToolState& tool, const Bodies& bodies) noexcept {
   ElectrodeTouch best;
   const BarePlaces bare = bare_places(shape);
   for (int k = 0; k < bare.count; ++k) {
     WireSearch search(shape, bare.at[k]);
-    for (std::size_t i = 0; i < view.organs.size(); ++i) search.organ(view.organs[i], BodyId::organ(i));
-    for (std::size_t i = 0; i < view.strands.size(); ++i)
-      search.strand(view.strands[i], view.strand_states[i], BodyId::strand(i));
-    for (std::size_t i = 0; i < view.membranes.size(); ++i) search.sheet(view.membranes[i], BodyId::membrane(i));
+    for (std::size_t i = 0; i < bodies.organ_count(); ++i) search.organ(bodies.organ(i), BodyId::organ(i));
+    for (std::size_t i = 0; i < bodies.strand_count(); ++i)
+      search.strand(bodies.strand(i), bodies.strand_state(i), BodyId::strand(i));
+    for (std::size_t i = 0; i < bodies.membrane_count(); ++i) search.sheet(bodies.membrane(i), BodyId::membrane(i));
     const tissue::ElectrodeContact& c = search.best.contact;
     if (c.body.exists() && (!best.contact.body.exists() || c.gap < best.contact.gap)) best = search.best;
   }
@@ -157,7 +157,7 @@ ElectrodeTouch wire_touch(const ToolShape& shape, const ToolState& tool, const T
   return best;
 }
 
-ElectrodeTouch pads_touch(const ToolShape& shape, const ToolState& tool, const TissueView& view) noexcept {
+ElectrodeTouch pads_touch(const ToolShape& shape, const ToolState& tool, const Bodies& bodies) noexcept {
   ElectrodeTouch out;
   if (tool.holds == 0) return out;
   out.contact.body = tool.hold[0].body;
@@ -168,9 +168,9 @@ ElectrodeTouch pads_touch(const ToolShape& shape, const ToolState& tool, const T
     const Hold& hold = tool.hold[i];
     if (hold.body != out.contact.body) continue;
     const std::size_t side = hold.local[0] > 0 ? 0 : 1;
-    sum[side] += drawn_point(view, hold);
+    sum[side] += drawn_point(bodies, hold);
     ++count[side];
-    out.place += held_point(view, hold);
+    out.place += held_point(bodies, hold);
   }
   out.place = out.place / double(count[0] + count[1]);
   out.normal = shape.frame.opening();
@@ -181,8 +181,8 @@ ElectrodeTouch pads_touch(const ToolShape& shape, const ToolState& tool, const T
   if (!out.contact.body.is(BodyKind::strand)) return out;
   const std::size_t strand = out.contact.body.index();
   const StrandPlace at{tool.hold[0].element, double(tool.hold[0].weight)};
-  const StrandFrame frame = frame_at(view.strands[strand], view.strand_states[strand], at);
-  const double radius = view.strands[strand].model.radius[std::size_t(at.element)];
+  const StrandFrame frame = frame_at(bodies.strand(strand), bodies.strand_state(strand), at);
+  const double radius = bodies.strand(strand).model.radius[std::size_t(at.element)];
   const double s = 0.5 * (out.contact.a.x + out.contact.b.x), y = dot(out.normal, frame.normal),
                z = dot(out.normal, frame.binormal);
   out.contact.a = {s, radius * y, radius * z};
@@ -201,8 +201,8 @@ double off_wire(const ToolShape& s, Vec3d place) noexcept {
 }
 
 ElectrodeTouch electrode_touch(const ToolModel& model, const ToolShape& shape, const ToolState& tool,
-                               const TissueView& view) noexcept {
-  return model.electrode.current.bipolar ? pads_touch(shape, tool, view) : wire_touch(shape, tool, view);
+                               const Bodies& bodies) noexcept {
+  return model.electrode.current.bipolar ? pads_touch(shape, tool, bodies) : wire_touch(shape, tool, bodies);
 }
 
 }  // namespace trocar::interactions

@@ -32,6 +32,6 @@ double off_wire(const ToolShape& shape, Vec3d place) noexcept;
 
 /// A hook: what is nearest to its bare end. Bipolar jaws: what they hold, from pad to pad.
 ElectrodeTouch electrode_touch(const ToolModel& model, const ToolShape& shape, const ToolState& tool,
-                               const TissueView& view) noexcept;
+                               const Bodies& bodies) noexcept;
 
 }  // namespace trocar::interactions

@@ -41,17 +41,17 @@ void add_held(Candidate& c, BodyId body, int element, double w, Vec3d local) noe
 }
 
 /// The strand that lies deepest between the jaws.
-Candidate strand_between(const ToolModel& model, const ToolShape& shape, const TissueView& view) noexcept {
+Candidate strand_between(const ToolModel& model, const ToolShape& shape, const Bodies& bodies) noexcept {
   Candidate best;
-  for (size_t s = 0; s < view.strands.size(); ++s) {
-    const StrandBody& body = view.strands[s];
+  for (size_t s = 0; s < bodies.strand_count(); ++s) {
+    const StrandBody& body = bodies.strand(s);
     Candidate c;
     for (int e = 0; e + 1 < body.nodes(); ++e) {
-      if (!view.strand_states[s].alive[size_t(e)]) continue;
-      const BetweenJaws where = between_jaws(model, shape, body, view.strand_states[s], e);
+      if (!bodies.strand_state(s).alive[size_t(e)]) continue;
+      const BetweenJaws where = between_jaws(model, shape, body, bodies.strand_state(s), e);
       if (!where.inside || where.local.z > model.jaw_length || where.local.z < 0) continue;
       add_held(c, BodyId::strand(s), e, where.w, where.local);
-      c.thickness = std::max(c.thickness, held_thickness(view, {BodyId::strand(s), e}));
+      c.thickness = std::max(c.thickness, held_thickness(bodies, {BodyId::strand(s), e}));
     }
     if (c.count == 0) continue;
     if (best.count == 0 || c.along() < best.along()) best = c;
@@ -60,10 +60,10 @@ Candidate strand_between(const ToolModel& model, const ToolShape& shape, const T
 }
 
 /// Skin vertices of an organ that stand up between the jaws.
-Candidate fold_between(const ToolModel& model, const ToolShape& shape, const TissueView& view) noexcept {
+Candidate fold_between(const ToolModel& model, const ToolShape& shape, const Bodies& bodies) noexcept {
   Candidate best;
-  for (size_t o = 0; o < view.organs.size(); ++o) {
-    const Surface& surface = view.organs[o];
+  for (size_t o = 0; o < bodies.organ_count(); ++o) {
+    const Surface& surface = bodies.organ(o);
     if (!surface.pose->bounds.near_segment(shape.pivot, shape.frame.tip, 0.01)) continue;
     Candidate c;
     for (size_t b = 0; b < surface.pose->block.size(); ++b) {
@@ -79,22 +79,22 @@ Candidate fold_between(const ToolModel& model, const ToolShape& shape, const Tis
       }
     }
     if (c.count < 2) continue;
-    c.thickness = held_thickness(view, c.hold[0]);
+    c.thickness = held_thickness(bodies, c.hold[0]);
     if (c.found > best.found) best = c;
   }
   return best;
 }
 
 /// Nodes of a membrane between the jaws. Those of its borders are left to what carries them.
-Candidate sheet_between(const ToolModel& model, const ToolShape& shape, const TissueView& view) noexcept {
+Candidate sheet_between(const ToolModel& model, const ToolShape& shape, const Bodies& bodies) noexcept {
   Candidate best;
-  for (size_t m = 0; m < view.membranes.size(); ++m) {
-    const Surface& surface = view.membranes[m].surface;
+  for (size_t m = 0; m < bodies.membrane_count(); ++m) {
+    const Surface& surface = bodies.membrane(m).surface;
     if (!surface.pose->bounds.near_segment(shape.pivot, shape.frame.tip, 0.01)) continue;
     Candidate c;
-    const double reach = view.membranes[m].pinch_reach;
+    const double reach = bodies.membrane(m).pinch_reach;
     for (int v = 0; v < surface.skin->size(); ++v) {
-      if (view.membranes[m].fixed[size_t(v)] == tissue::kHeld) continue;
+      if (bodies.membrane(m).fixed[size_t(v)] == tissue::kHeld) continue;
       const Vec3d local = to_jaw(shape, surface.position(v));
       if (std::fabs(local.y) > 0.5 * model.jaw_width + 0.0015 + reach) continue;
       if (local.z < 0 || local.z > model.jaw_length + 0.0005 + reach) continue;
@@ -102,7 +102,7 @@ Candidate sheet_between(const ToolModel& model, const ToolShape& shape, const Ti
       add_held(c, BodyId::membrane(m), v, 0, local);
     }
     if (c.count < 2) continue;
-    c.thickness = held_thickness(view, c.hold[0]);
+    c.thickness = held_thickness(bodies, c.hold[0]);
     c.firmly = reach > 0;
     if (c.found > best.found) best = c;
   }
@@ -110,16 +110,16 @@ Candidate sheet_between(const ToolModel& model, const ToolShape& shape, const Ti
 }
 
 /// Places of an object between the jaws.
-Candidate object_between(const ToolModel& model, const ToolShape& shape, const TissueView& view) noexcept {
+Candidate object_between(const ToolModel& model, const ToolShape& shape, const Bodies& bodies) noexcept {
   Candidate best;
-  if (!view.objects.models) return best;
-  visit_objects(*view.objects.models, [&](auto kind, BodyId body) {
+  if (!bodies.objects.models) return best;
+  visit_objects(*bodies.objects.models, [&](auto kind, BodyId body) {
     using K = decltype(kind);
     Candidate c;
-    K::between(part_of<K>(*view.objects.models), part_of<K>(*view.objects.states), body.index(), model, shape,
+    K::between(part_of<K>(*bodies.objects.models), part_of<K>(*bodies.objects.states), body.index(), model, shape,
                [&](std::int32_t place, Vec3d local) { add_held(c, body, place, 0, local); });
     if (c.count < 2) return;
-    c.thickness = held_thickness(view, c.hold[0]);
+    c.thickness = held_thickness(bodies, c.hold[0]);
     if (c.found > best.found) best = c;
   });
   return best;
@@ -158,8 +158,8 @@ void lose(ToolState& tool) noexcept {
 }
 
 /// A strand's element that was cut through or tore, a lobule that has boiled away: it is no place any more.
-void drop_parted(const TissueView& view, ToolState& tool) noexcept {
-  const auto parted = [&view](const Hold& h) { return !h.body.is(BodyKind::organ) && !is_whole(view, h); };
+void drop_parted(const Bodies& bodies, ToolState& tool) noexcept {
+  const auto parted = [&bodies](const Hold& h) { return !h.body.is(BodyKind::organ) && !is_whole(bodies, h); };
   const auto end = std::remove_if(tool.hold, tool.hold + tool.holds, parted);
   tool.holds = std::int32_t(end - tool.hold);
   if (tool.holds > 0) return;
@@ -168,16 +168,16 @@ void drop_parted(const TissueView& view, ToolState& tool) noexcept {
 
 }  // namespace
 
-void update_grip(const ToolModel& model, const ToolShape& shape, const TissueView& view, ToolState& tool) noexcept {
+void update_grip(const ToolModel& model, const ToolShape& shape, const Bodies& bodies, ToolState& tool) noexcept {
   const double wanted = aperture_of(model.linkage, tool.handle);
   if (!model.can().grip) {
     tool.aperture = wanted;
     tool.pinch = 0;
     return;
   }
-  if (tool.holds > 0) drop_parted(view, tool);
+  if (tool.holds > 0) drop_parted(bodies, tool);
   if (tool.holds > 0) {
-    const double stop = aperture_at(model, held_thickness(view, tool.hold[0]), tool.hold[0].local[2]);
+    const double stop = aperture_at(model, held_thickness(bodies, tool.hold[0]), tool.hold[0].local[2]);
     // Loose jaws are opened by the hand, or the tissue has slid towards their tips, where they stand further apart. An
     // open hand lets go of whatever keeps the jaws wide open.
     const double release = std::min(stop + kLoose, kOpen);
@@ -198,10 +198,10 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
   const bool closing = wanted < tool.aperture;
   tool.aperture = wanted;
   if (!closing) return;
-  Candidate c = object_between(model, shape, view);
-  if (c.count == 0) c = strand_between(model, shape, view);
-  if (c.count == 0 && wanted < 0.6) c = fold_between(model, shape, view);
-  if (c.count == 0) c = sheet_between(model, shape, view);
+  Candidate c = object_between(model, shape, bodies);
+  if (c.count == 0) c = strand_between(model, shape, bodies);
+  if (c.count == 0 && wanted < 0.6) c = fold_between(model, shape, bodies);
+  if (c.count == 0) c = sheet_between(model, shape, bodies);
   if (c.count == 0) return;
   const double stop = aperture_at(model, c.thickness, c.along());
   if (wanted > (c.firmly ? 0.3 * stop : stop)) return;
@@ -212,16 +212,15 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
   if (c.firmly) tool.pinch = pinch_at(model, stop, wanted);
 }
 
-void hold_loads(const ToolShape& shape, int tool_index, const TissueView& view, const ToolState& tool,
-                BodyLoads loads) noexcept {
+void hold_loads(const ToolShape& shape, int tool_index, const Bodies& bodies, const ToolState& tool) noexcept {
   for (int i = 0; i < tool.holds; ++i) {
     const Hold& h = tool.hold[i];
     const Vec3d target = from_jaw(shape, {h.local[0], h.local[1], h.local[2]});
-    pull_to(view, h, target, kHold, {Owner::tool_hold, tool_index, i}, loads);
+    pull_to(bodies, h, target, kHold, {Owner::tool_hold, tool_index, i});
   }
 }
 
-void slip(const ToolModel& model, const ToolShape& shape, const TissueView& view, ToolState& tool) noexcept {
+void slip(const ToolModel& model, const ToolShape& shape, const Bodies& bodies, ToolState& tool) noexcept {
   Vec3d pull{0, 0, 0};
   for (int i = 0; i < tool.holds; ++i)
     pull += Vec3d{tool.hold[i].force[0], tool.hold[i].force[1], tool.hold[i].force[2]};
@@ -234,10 +233,10 @@ void slip(const ToolModel& model, const ToolShape& shape, const TissueView& view
   int kept = 0;
   for (int i = 0; i < tool.holds; ++i) {
     Hold h = tool.hold[i];
-    const Vec3d now = to_jaw(shape, held_point(view, h));
+    const Vec3d now = to_jaw(shape, held_point(bodies, h));
     h.local[1] += float(give) * float(now.y - double(h.local[1]));
     h.local[2] += float(give) * float(now.z - double(h.local[2]));
-    const double reach = held_reach(view, h);
+    const double reach = held_reach(bodies, h);
     const bool out = double(h.local[2]) > model.jaw_length + 0.001 + reach || double(h.local[2]) < -0.002 ||
                      std::fabs(double(h.local[1])) > 0.5 * model.jaw_width + 0.003 + reach;
     if (!out) tool.hold[kept++] = h;

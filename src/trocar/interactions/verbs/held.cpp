@@ -28,22 +28,22 @@ struct OnObject {
 
 /// f(place on a body of that kind); of nothing: `otherwise`.
 template <class Result, class F>
-Result on_body(const TissueView& view, BodyId body, Result otherwise, F&& f) noexcept {
+Result on_body(const Bodies& bodies, BodyId body, Result otherwise, F&& f) noexcept {
   const size_t i = body.index();
   switch (body.kind()) {
     case BodyKind::strand:
-      return f(OnStrand{view.strands[i], view.strand_states[i], i});
+      return f(OnStrand{bodies.strand(i), bodies.strand_state(i), i});
     case BodyKind::organ:
-      return f(OnOrgan{view.organs[i], i});
+      return f(OnOrgan{bodies.organ(i), i});
     case BodyKind::membrane:
-      return f(OnMembrane{view.membranes[i], i});
+      return f(OnMembrane{bodies.membrane(i), i});
     default:
       break;
   }
   Result result = otherwise;
   visit_object(body, [&](auto kind) {
     using K = decltype(kind);
-    result = f(OnObject<K>{part_of<K>(*view.objects.models), part_of<K>(*view.objects.states)});
+    result = f(OnObject<K>{part_of<K>(*bodies.objects.models), part_of<K>(*bodies.objects.states)});
   });
   return result;
 }
@@ -106,54 +106,54 @@ double reach(const OnObject<K>&) noexcept {
 double reach(const OnOrgan&) noexcept { return 0; }
 double reach(const OnMembrane& on) noexcept { return on.sheet.pinch_reach; }
 
-void pull(const OnStrand& on, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, BodyLoads loads) noexcept {
+void pull(const OnStrand& on, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, const Bodies& bodies) noexcept {
   tissue::StrandLoad load;
   load.element = hold.element;
   load.w = double(hold.weight);
   load.k = law.stiffness;
   load.d = law.damping;
   load.x0 = target;
-  loads.strands[on.index].add(load, tag);
+  bodies.work->strands[on.index].loads.add(load, tag);
 }
-void pull(const OnOrgan& on, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, BodyLoads loads) noexcept {
+void pull(const OnOrgan& on, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, const Bodies& bodies) noexcept {
   SkinLoad load;
   load.k = law.stiffness;
   load.d = law.damping;
   load.shift = target - on.surface.position(hold.element);
-  add_skin_load(on.surface.nodes, *on.surface.skin, hold.element, load, tag, loads.organs[on.index]);
+  add_skin_load(on.surface.nodes, *on.surface.skin, hold.element, load, tag, bodies.work->organs[on.index].loads);
 }
-void pull(const OnMembrane& on, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, BodyLoads loads) noexcept {
+void pull(const OnMembrane& on, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, const Bodies& bodies) noexcept {
   tissue::NodeLoad load;
   load.node = hold.element;
   load.k = float(law.stiffness);
   load.d = float(law.damping);
   load.x0 = vec_cast<float>(target);
-  loads.membranes[on.index].add(load, tag);
+  bodies.work->membranes[on.index].loads.add(load, tag);
 }
 template <class K>
-void pull(const OnObject<K>& on, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, BodyLoads loads) noexcept {
-  K::pull(on.models, on.states, hold, target, law, tag, part_of<K>(*loads.objects));
+void pull(const OnObject<K>& on, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, const Bodies& bodies) noexcept {
+  K::pull(on.models, on.states, hold, target, law, tag, part_of<K>(*bodies.objects.work));
 }
 
 }  // namespace
 
-Vec3d held_point(const TissueView& view, const Hold& hold) noexcept {
-  return on_body(view, hold.body, Vec3d{}, [&](const auto& on) { return point(on, hold); });
+Vec3d held_point(const Bodies& bodies, const Hold& hold) noexcept {
+  return on_body(bodies, hold.body, Vec3d{}, [&](const auto& on) { return point(on, hold); });
 }
-Vec3d drawn_point(const TissueView& view, const Hold& hold) noexcept {
-  return on_body(view, hold.body, Vec3d{}, [&](const auto& on) { return drawn(on, hold); });
+Vec3d drawn_point(const Bodies& bodies, const Hold& hold) noexcept {
+  return on_body(bodies, hold.body, Vec3d{}, [&](const auto& on) { return drawn(on, hold); });
 }
-bool is_whole(const TissueView& view, const Hold& hold) noexcept {
-  return on_body(view, hold.body, false, [&](const auto& on) { return is_attached(on, hold); });
+bool is_whole(const Bodies& bodies, const Hold& hold) noexcept {
+  return on_body(bodies, hold.body, false, [&](const auto& on) { return is_attached(on, hold); });
 }
-double held_thickness(const TissueView& view, const Hold& hold) noexcept {
-  return on_body(view, hold.body, 0.0, [&](const auto& on) { return thickness(on, hold); });
+double held_thickness(const Bodies& bodies, const Hold& hold) noexcept {
+  return on_body(bodies, hold.body, 0.0, [&](const auto& on) { return thickness(on, hold); });
 }
-double held_reach(const TissueView& view, const Hold& hold) noexcept {
-  return on_body(view, hold.body, 0.0, [&](const auto& on) { return reach(on); });
+double held_reach(const Bodies& bodies, const Hold& hold) noexcept {
+  return on_body(bodies, hold.body, 0.0, [&](const auto& on) { return reach(on); });
 }
-void pull_to(const TissueView& view, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, BodyLoads loads) noexcept {
-  on_body(view, hold.body, false, [&](const auto& on) { return pull(on, hold, target, law, tag, loads), true; });
+void pull_to(const Bodies& bodies, const Hold& hold, Vec3d target, HoldLaw law, Tag tag) noexcept {
+  on_body(bodies, hold.body, false, [&](const auto& on) { return pull(on, hold, target, law, tag, bodies), true; });
 }
 
 }  // namespace trocar::interactions

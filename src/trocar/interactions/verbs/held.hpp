@@ -2,38 +2,16 @@
 // keep jaws apart. What a kind of body has to say to that stands in held.cpp, a function a kind.
 #pragma once
 
-#include <span>
-
-#include <trocar/interactions/contact/surface.hpp>
-#include <trocar/interactions/couplings/loads.hpp>
-#include <trocar/interactions/couplings/strand_body.hpp>
-#include <trocar/interactions/instrument/membrane_contact.hpp>
+#include <trocar/interactions/bodies/bodies.hpp>
 #include <trocar/interactions/instrument/tool.hpp>
 #include <trocar/interactions/objects/object_kinds.hpp>
 
 namespace trocar::interactions {
 
-/// Bodies as the hands meet them: all strands, all surfaces of organs and folds, and objects, as they are now.
-struct TissueView {
-  std::span<const StrandBody> strands;
-  std::span<const tissue::StrandState> strand_states;
-  std::span<const Surface> organs;
-  std::span<const SheetView> membranes = {};
-  ObjectView objects = {};
-};
-
-/// What a tick puts on bodies.
-struct BodyLoads {
-  std::span<StrandLoads> strands;
-  std::span<NetworkLoads> organs;
-  std::span<NetworkLoads> membranes = {};
-  ObjectWork* objects = nullptr;
-};
-
 /// Where a held point is now [m].
-Vec3d held_point(const TissueView& view, const Hold& hold) noexcept;
+Vec3d held_point(const Bodies& bodies, const Hold& hold) noexcept;
 /// Where it was drawn, in its body's frame of heat [m].
-Vec3d drawn_point(const TissueView& view, const Hold& hold) noexcept;
+Vec3d drawn_point(const Bodies& bodies, const Hold& hold) noexcept;
 /// Does it keep its shape between jaws? Objects do.
 inline bool is_hard(BodyId body) noexcept {
   bool hard = false;
@@ -41,14 +19,14 @@ inline bool is_hard(BodyId body) noexcept {
   return hard;
 }
 /// Is it a place of its body any more?
-bool is_whole(const TissueView& view, const Hold& hold) noexcept;
+bool is_whole(const Bodies& bodies, const Hold& hold) noexcept;
 
 /// Pulls a held point towards `target` [m].
-void pull_to(const TissueView& view, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, BodyLoads loads) noexcept;
+void pull_to(const Bodies& bodies, const Hold& hold, Vec3d target, HoldLaw law, Tag tag) noexcept;
 
 /// How thick what is held keeps jaws apart [m].
-double held_thickness(const TissueView& view, const Hold& hold) noexcept;
+double held_thickness(const Bodies& bodies, const Hold& hold) noexcept;
 /// How far beside the jaws it may be held [m].
-double held_reach(const TissueView& view, const Hold& hold) noexcept;
+double held_reach(const Bodies& bodies, const Hold& hold) noexcept;
 
 }  // namespace trocar::interactions

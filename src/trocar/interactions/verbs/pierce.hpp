@@ -14,8 +14,8 @@
 #include <array>
 #include <cstdint>
 
-#include <trocar/interactions/contact/surface.hpp>
-#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/bodies/loads.hpp>
+#include <trocar/interactions/bodies/surface.hpp>
 #include <trocar/interactions/instrument/tool.hpp>
 
 namespace trocar::interactions {

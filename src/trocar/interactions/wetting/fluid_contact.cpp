@@ -69,19 +69,19 @@ void beside_elements(const StrandBody& body, const tissue::StrandState& s, int f
 /// All bodies. With scratch it asks nothing twice; what it finds is the same without.
 class Scene {
  public:
-  const WetBodies& b;
+  const WetGround& ground;
   const WetOrder order;
 
-  explicit Scene(const WetBodies& bodies, WetWork* work = nullptr, bool crowd = false) noexcept
-      : b(bodies),
-        order(bodies.order()),
-        m_walls(int(bodies.surfaces.size()) - int(bodies.grids.size())),
+  explicit Scene(const WetGround& on, WetWork* work = nullptr, bool crowd = false) noexcept
+      : ground(on),
+        order(on.order()),
+        m_walls(int(on.surface_count()) - int(on.grids.size())),
         m_work(work),
         m_crowd(crowd) {
     if (!m_work) return;
     std::fill(m_work->normal_known.begin(), m_work->normal_known.end(), std::uint8_t(0));
     for (int body = 0; !order.is_strand(body); ++body) m_work->bounds[std::size_t(body)] = surface(body).pose->bounds;
-    for (std::size_t k = 0; k < b.strands.size(); ++k) bound_strand(k);
+    for (std::size_t k = 0; k < ground.bodies.strand_count(); ++k) bound_strand(k);
     lay_out_blocks(float(m_crowd ? kCrowdFlies : kWetReach) + kSafe);
   }
 
@@ -122,15 +122,16 @@ class Scene {
     return {dot(p - near.point, near.normal), near.point, near.normal, on.velocity(v), v};
   }
   const Surface& surface(int body) const noexcept {
-    return order.is_surface(body) ? b.surfaces[order.index(body)] : b.sheets[order.index(body)].surface;
+    return order.is_surface(body) ? ground.bodies.work->surfaces[order.index(body)]
+                                  : ground.bodies.membrane(order.index(body)).surface;
   }
   fluids::Contact contact(int body, const Beside& at) const noexcept {
     return {vec_cast<float>(at.point), vec_cast<float>(at.normal), vec_cast<float>(at.velocity), body,
-            b.first[std::size_t(body)] + at.film};
+            ground.first[std::size_t(body)] + at.film};
   }
   int body_of(std::int32_t place) const noexcept {
-    if (place < 0 || place >= b.first.back()) return -1;
-    return int(std::upper_bound(b.first.begin(), b.first.end(), place) - b.first.begin()) - 1;
+    if (place < 0 || place >= ground.first.back()) return -1;
+    return int(std::upper_bound(ground.first.begin(), ground.first.end(), place) - ground.first.begin()) - 1;
   }
 
  private:
@@ -166,8 +167,8 @@ class Scene {
   }
   void lay_out_blocks(float more) noexcept {
     m_work->blocks.count = 0;
-    const std::size_t room = m_work->blocks.body.size() - std::size_t(b.count());  // besides one a body
-    for (int body = 0; body < b.count(); ++body) {
+    const std::size_t room = m_work->blocks.body.size() - std::size_t(ground.count());  // besides one a body
+    for (int body = 0; body < ground.count(); ++body) {
       const bool whole = order.is_strand(body) || is_still(body);
       const std::size_t n = whole ? 0 : surface(body).pose->block.size();
       if (whole || std::size_t(m_work->blocks.count) + n > room) {  // a cut may have made more than there is room for
@@ -181,8 +182,9 @@ class Scene {
   Vec3d normal(int body, int vertex) const noexcept {
     const Surface& on = surface(body);
     if (!m_work || !on.moves()) return on.normal(vertex);
-    const std::size_t place = std::size_t(b.first[std::size_t(body)] + (order.is_surface(body) ? vertex : 2 * vertex));
-    if (place >= std::size_t(b.first[std::size_t(body) + 1])) return on.normal(vertex);  // a cut has made it
+    const std::size_t place =
+        std::size_t(ground.first[std::size_t(body)] + (order.is_surface(body) ? vertex : 2 * vertex));
+    if (place >= std::size_t(ground.first[std::size_t(body) + 1])) return on.normal(vertex);  // a cut has made it
     if (m_work->normal_known[place] == 0) {
       m_work->normal[place] = on.normal(vertex);
       m_work->normal_known[place] = 1;
@@ -196,7 +198,7 @@ class Scene {
     return order.is_sheet(c.body) ? beside_sheet(c, from, p, reach) : beside_strand(order.index(c.body), p);
   }
   int nearest_vertex(const Candidate& c, const Surface& on, Vec3d p, double reach) const noexcept {
-    if (is_still(c.body)) return b.grids[std::size_t(c.body - m_walls)].nearest(*on.skin, p);
+    if (is_still(c.body)) return ground.grids[std::size_t(c.body - m_walls)].nearest(*on.skin, p);
     if (c.first == c.last) return nearest_vertex_near(on, p, reach);
     return nearest_vertex_near(on, p, reach, {m_work->hits.data() + c.first, std::size_t(c.last - c.first)});
   }
@@ -213,33 +215,35 @@ class Scene {
     if (!found.there()) return found;
     const Vec3d flat = (p - found.point) - dot(p - found.point, found.normal) * found.normal;
     if (dot(flat, flat) > 1e-6) return {};  // past its border
-    take_side(b.sheets[order.index(body)], from, found);
+    take_side(ground.bodies.membrane(order.index(body)), from, found);
     return found;
   }
   Beside beside_strand(std::size_t k, Vec3d p) const noexcept {
-    const int elements = b.strands[k].nodes() - 1;
+    const int elements = ground.bodies.strand(k).nodes() - 1;
     Beside best;
     if (!m_work) {
-      beside_elements(b.strands[k], b.states[k], 0, elements, p, best);
+      beside_elements(ground.bodies.strand(k), ground.bodies.strand_state(k), 0, elements, p, best);
       return best;
     }
     for (int piece = m_work->first_piece[k]; piece < m_work->first_piece[k + 1]; ++piece) {
       if (!m_work->pieces[std::size_t(piece)].reaches(p, kWetReach)) continue;
       const int first = (piece - m_work->first_piece[k]) * kPiece;
-      beside_elements(b.strands[k], b.states[k], first, std::min(first + kPiece, elements), p, best);
+      beside_elements(ground.bodies.strand(k), ground.bodies.strand_state(k), first, std::min(first + kPiece, elements),
+                      p, best);
     }
     return best;
   }
   /// Boxes around a strand and its pieces, larger by its radius and what rounding may misplace.
   void bound_strand(std::size_t k) noexcept {
-    const StrandBody& body = b.strands[k];
+    const StrandBody& body = ground.bodies.strand(k);
     tissue::Box& whole = m_work->bounds[std::size_t(order.strand(k))] = {};
     for (int piece = m_work->first_piece[k]; piece < m_work->first_piece[k + 1]; ++piece) {
       tissue::Box& box = m_work->pieces[std::size_t(piece)] = {};
       const int first = (piece - m_work->first_piece[k]) * kPiece, last = std::min(first + kPiece, body.nodes() - 1);
       for (int e = first; e < last; ++e) {
         const float thick = float(body.model.radius[std::size_t(e)]) + kSafe;
-        for (const Vec3d x : {b.states[k].x[std::size_t(e)], b.states[k].x[std::size_t(e) + 1]}) {
+        for (const Vec3d x :
+             {ground.bodies.strand_state(k).x[std::size_t(e)], ground.bodies.strand_state(k).x[std::size_t(e) + 1]}) {
           box.add(vec_cast<float>(x) - Vec3f{thick, thick, thick});
           box.add(vec_cast<float>(x) + Vec3f{thick, thick, thick});
         }
@@ -279,7 +283,7 @@ Beside follow(const Scene& scene, int body, std::int32_t film, Vec3d p) noexcept
   const bool sheet = scene.order.is_sheet(body);
   const int start = sheet ? film / 2 : film;
   Beside b = scene.beside_vertex(body, walk_to_nearest(surface, start, p), p);
-  if (sheet) take_side(scene.b.sheets[scene.order.index(body)], p, b);
+  if (sheet) take_side(scene.ground.bodies.membrane(scene.order.index(body)), p, b);
   return b;
 }
 
@@ -287,11 +291,11 @@ Beside follow(const Scene& scene, int body, std::int32_t film, Vec3d p) noexcept
 fluids::Contact stay(const Scene& scene, const fluids::DropletState& s, int drop, Vec3d p) noexcept {
   const int body = s.body[std::size_t(drop)];
   const std::int32_t film = s.ground[std::size_t(drop)].film;
-  if (body >= scene.b.count() || film < 0) return {};
+  if (body >= scene.ground.count() || film < 0) return {};
   const double radius = double(s.radius[std::size_t(drop)]);
   int found = -1;
   Beside best;
-  const Beside own = follow(scene, body, film - scene.b.first[std::size_t(body)], p);
+  const Beside own = follow(scene, body, film - scene.ground.first[std::size_t(body)], p);
   if (own.there() && length(p - own.point) < kLeaves + radius) best = own, found = body;
   for (const WetWork::Candidate& other : scene.near(p, p)) {
     if (other.body == body) continue;
@@ -320,15 +324,16 @@ std::vector<std::int32_t> film_places(std::span<const tissue::Skin* const> skins
   return first;
 }
 
-WetPlace wet_place(const WetBodies& bodies, Vec3d down, std::int32_t place) noexcept {
-  const Scene scene(bodies);
+WetPlace wet_place(const WetGround& ground, Vec3d down, std::int32_t place) noexcept {
+  const Scene scene(ground);
   const int body = scene.body_of(place);
   if (body < 0) return {};
-  const int number = place - bodies.first[std::size_t(body)];
+  const int number = place - ground.first[std::size_t(body)];
   if (scene.order.is_strand(body)) {
     const std::size_t k = scene.order.index(body), node = std::size_t(number);
-    const double radius = bodies.strands[k].model.radius[std::min(node, std::size_t(bodies.strands[k].nodes() - 2))];
-    return {bodies.states[k].x[node] + radius * down, down, bodies.states[k].v[node], body};
+    const double radius =
+        ground.bodies.strand(k).model.radius[std::min(node, std::size_t(ground.bodies.strand(k).nodes() - 2))];
+    return {ground.bodies.strand_state(k).x[node] + radius * down, down, ground.bodies.strand_state(k).v[node], body};
   }
   const Surface& surface = scene.surface(body);
   const bool sheet = scene.order.is_sheet(body);
@@ -336,13 +341,13 @@ WetPlace wet_place(const WetBodies& bodies, Vec3d down, std::int32_t place) noex
   WetPlace out{surface.position(v), surface.normal(v), surface.velocity(v), body};
   if (!sheet) return out;
   if (number % 2 == 1) out.normal = -out.normal;
-  out.point += bodies.sheets[scene.order.index(body)].half_thickness * out.normal;
+  out.point += ground.bodies.membrane(scene.order.index(body)).half_thickness * out.normal;
   return out;
 }
 
-bool covered(const WetBodies& bodies, Vec3d p, double reach) noexcept {
-  const Scene scene(bodies);
-  for (int body = 0; body < bodies.count(); ++body) {
+bool covered(const WetGround& ground, Vec3d p, double reach) noexcept {
+  const Scene scene(ground);
+  for (int body = 0; body < ground.count(); ++body) {
     const Beside b = scene.beside(body, p, p);
     if (!b.there() || b.off > reach || b.off < -kDeepestDrop) continue;
     const Vec3d off = p - b.point, flat = off - dot(off, b.normal) * b.normal;
@@ -369,10 +374,10 @@ WetWork make_wet_work(std::span<const StrandBody> strands, std::span<const std::
   return w;
 }
 
-void answer_drops(const WetBodies& bodies, Vec3d down, const fluids::DropletState& s, fluids::DropletWork& w,
+void answer_drops(const WetGround& ground, Vec3d down, const fluids::DropletState& s, fluids::DropletWork& w,
                   WetWork& wet) noexcept {
   if (w.questions == 0 && w.film_questions == 0) return;
-  const Scene scene(bodies, &wet, w.ways > 1);
+  const Scene scene(ground, &wet, w.ways > 1);
   for (int k = 0; k < w.questions; ++k) {
     const std::size_t i = std::size_t(w.asking[std::size_t(k)]);
     const Vec3d now = place_of(s.x, s.y, s.z, i);
@@ -387,7 +392,7 @@ void answer_drops(const WetBodies& bodies, Vec3d down, const fluids::DropletStat
   }
   for (int k = 0; k < w.film_questions; ++k) {
     const std::int32_t place = w.overfull[std::size_t(k)];
-    const WetPlace at = wet_place(bodies, down, place);
+    const WetPlace at = wet_place(ground, down, place);
     w.film_answers[std::size_t(k)] = {vec_cast<float>(at.point), vec_cast<float>(at.normal),
                                       vec_cast<float>(at.velocity), at.body, place};
   }

@@ -1,8 +1,8 @@
 // What drops meet in a scene: skins of organs and walls, folds (from either side) and strands, as planes; and where on
 // them film lies. Instruments are none of this: fluids know them as capsules.
 //
-//   WetBodies bodies{surfaces, sheets, strands, states, first, grids};  // first: film_places(...), once
-//   answer_drops(bodies, down, state.droplets, work.droplets, wet);     // between fluids' begin_tick and finish_tick
+//   WetGround ground{bodies, first, grids};            // first: film_places(...), once
+//   answer_drops(ground, down, state.droplets, work.droplets, wet);     // between fluids' begin_tick and finish_tick
 //
 // Bodies are numbered in that order (wet_order.hpp). Places of film are skin vertices; a fold has
 // two a node, above and below; a strand one a node.
@@ -14,23 +14,21 @@
 
 #include <trocar/core/fields.hpp>
 #include <trocar/fluids/droplets.hpp>
+#include <trocar/interactions/bodies/bodies.hpp>
 #include <trocar/interactions/contact/skin_grid.hpp>
-#include <trocar/interactions/couplings/strand_body.hpp>
-#include <trocar/interactions/instrument/membrane_contact.hpp>
 #include <trocar/interactions/wetting/wet_order.hpp>
 
 namespace trocar::interactions {
 
-struct WetBodies {
-  std::span<const Surface> surfaces;  ///< organs, walls
-  std::span<const SheetView> sheets;
-  std::span<const StrandBody> strands;
-  std::span<const tissue::StrandState> states;  ///< (strands)
-  std::span<const std::int32_t> first;          ///< (bodies + 1) where a body's places of film begin
-  std::span<const SkinGrid> grids{};            ///< of the last surfaces, which never move; may be empty
+/// What fluids know of bodies beside what all know.
+struct WetGround {
+  Bodies bodies;
+  std::span<const std::int32_t> first;  ///< (bodies + 1) where a body's places of film begin
+  std::span<const SkinGrid> grids{};    ///< of the last surfaces, which never move; may be empty
 
-  WetOrder order() const noexcept { return {surfaces.size(), sheets.size()}; }
-  int count() const noexcept { return int(surfaces.size() + sheets.size() + strands.size()); }
+  std::size_t surface_count() const noexcept { return bodies.work->surfaces.size(); }  ///< organs, walls
+  WetOrder order() const noexcept { return {surface_count(), bodies.membrane_count()}; }
+  int count() const noexcept { return int(surface_count() + bodies.membrane_count() + bodies.strand_count()); }
 };
 
 inline constexpr double kWetReach = 0.006;  ///< [m] between a point and the vertex next to it: more than skins' edges
@@ -70,7 +68,7 @@ struct WetWork {
         v("first_piece", s.first_piece, core::kMadeOnce), v("normal", s.normal), v("normal_known", s.normal_known);
   }
 };
-/// @param first  as in WetBodies; only sizes are looked at
+/// @param first  as in WetGround; only sizes are looked at
 WetWork make_wet_work(std::span<const StrandBody> strands, std::span<const std::int32_t> first);
 
 /// Where each body's places of film begin; the last number is how many there are. Only sizes are looked at.
@@ -84,14 +82,14 @@ struct WetPlace {
   std::int32_t body = -1;         ///< -1: there is no such place
 };
 /// @param down  unit; a strand's film hangs below it
-WetPlace wet_place(const WetBodies& bodies, Vec3d down, std::int32_t place) noexcept;
+WetPlace wet_place(const WetGround& ground, Vec3d down, std::int32_t place) noexcept;
 
 /// Is p nearer than `reach` to tissue or a wall, or in it?
 /// @param reach  [m], at most 2 mm
-bool covered(const WetBodies& bodies, Vec3d p, double reach) noexcept;
+bool covered(const WetGround& ground, Vec3d p, double reach) noexcept;
 
 /// Answers all questions of the drops and of overfull places of film.
-void answer_drops(const WetBodies& bodies, Vec3d down, const fluids::DropletState& state, fluids::DropletWork& work,
+void answer_drops(const WetGround& ground, Vec3d down, const fluids::DropletState& state, fluids::DropletWork& work,
                   WetWork& wet) noexcept;
 
 }  // namespace trocar::interactions

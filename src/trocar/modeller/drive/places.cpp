@@ -1,6 +1,5 @@
 #include <trocar/modeller/drive/places.hpp>
 #include <trocar/sim/model/bodies.hpp>
-#include <trocar/sim/model/host_views.hpp>
 
 namespace trocar::modeller {
 
@@ -12,11 +11,11 @@ std::vector<BodyPlace> places_of(const sim::Model& model, const sim::State& stat
     for (int v = 0; v < skin.size(); ++v)
       if (skin.at_surface(v)) out.push_back({BodyId::organ(std::size_t(i)), skin_point(nodes, skin, v)});
   }
-  sim::HostViews views = sim::make_host_views(model);
-  sim::look_at_hosts(model, state, views);
-  for (std::size_t i = 0; i < model.membranes.size(); ++i)
-    for (std::size_t n = 0; n < views.membranes[i].row_of_node.size(); ++n)
-      out.push_back({BodyId::membrane(i), views.membranes[i].position(int(n))});
+  for (std::size_t i = 0; i < model.membranes.size(); ++i) {
+    const tissue::NodeView nodes = membrane_nodes(bodies_of(model, state), i);
+    for (std::size_t n = 0; n < nodes.row_of_node.size(); ++n)
+      out.push_back({BodyId::membrane(i), nodes.position(int(n))});
+  }
   for (std::size_t i = 0; i < model.strand_bodies.size(); ++i) {
     const interactions::StrandBody& body = model.strand_bodies[i];
     constexpr int kSteps = 60;

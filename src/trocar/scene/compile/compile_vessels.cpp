@@ -12,7 +12,6 @@
 #include <trocar/scene/compile/compile_vessels.hpp>
 #include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/model/bodies.hpp>
-#include <trocar/sim/model/host_views.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -189,7 +188,7 @@ sim::Bleeder bleeder_of(const BleederSetting& setting, const sim::Model& model, 
 class Compiling {
  public:
   Compiling(const Description& d, sim::Model& model, Faults& faults)
-      : m_description(d), m_model(model), m_faults(faults), m_graph(joined(d)), m_views(sim::make_host_views(model)) {}
+      : m_description(d), m_model(model), m_faults(faults), m_graph(joined(d)) {}
 
   void compile() {
     gather();
@@ -303,7 +302,7 @@ class Compiling {
     }
     ride.hold.offset = p;
     if (ride.hold.kind != VesselHold::space) {
-      anchor_point(ride.hold, p, sim::look_at_hosts(m_model, drawn_state(), m_views));
+      anchor_point(ride.hold, p, sim::bodies_of(m_model, drawn_state()));
     }
     return ride.hold;
   }
@@ -357,7 +356,6 @@ class Compiling {
   sim::Model& m_model;
   Faults& m_faults;
   vessels::VesselGraph m_graph;
-  sim::HostViews m_views;
   std::optional<sim::State> m_drawn;
   std::vector<const Vessel*> m_vessels;
   std::vector<std::vector<Carrier>> m_carriers;  // (vessels)

@@ -69,7 +69,7 @@ void look_at_rigids(const StepContext& c, const BagModel& m, BagWork& w) noexcep
 void look_at_pouches(const StepContext& c, const BagModel& m, BagWork& w) noexcept {
   for (const interactions::BagPouch& p : m.pouches) {
     const size_t i = size_t(p.membrane);
-    const bool reached = c.work.sheet_poses[i].bounds.near_box(w.bounds, float(kNearBag));
+    const bool reached = c.work.membranes[i].pose.bounds.near_box(w.bounds, float(kNearBag));
     const tissue::MembraneModel& sheet = c.model.membranes[i].sheet;
     const tissue::NodeView nodes = view_of(sheet.network, c.state.membranes[i].network);
     const double radius = 0.5 * sheet.thickness + kWallOfPouch;
@@ -88,7 +88,7 @@ void look_at_pouches(const StepContext& c, const BagModel& m, BagWork& w) noexce
 void push_pouches(StepContext& c, const BagModel& m, const BagState& s, const BagWork& w) noexcept {
   const Vec3d drift = drift_of(m, s), down = downwards(c);
   for (const interactions::BagPouch& p : m.pouches) {
-    interactions::NetworkLoads& loads = c.work.membrane_loads[size_t(p.membrane)];
+    interactions::NetworkLoads& loads = c.work.membranes[size_t(p.membrane)].loads;
     for (const interactions::BagTouch& t : w.touches)
       if (t.point >= p.first && t.point < p.first + p.count)
         push_off_hoop(t, w.bodies[size_t(t.point)], t.point - p.first, loads);
@@ -140,7 +140,7 @@ void rest_bags(StepContext& c) noexcept {
     for (size_t i = 0; i < c.work.surfaces.size(); ++i) {
       const interactions::Surface& surface = c.work.surfaces[i];
       if (!surface.pose->bounds.near_box(w.bounds, 0.005f)) continue;
-      rest_cloth(m, surface, std::int32_t(i), s, surface.moves() ? &c.work.organ_loads[i] : nullptr, w);
+      rest_cloth(m, surface, std::int32_t(i), s, surface.moves() ? &c.work.organs[i].loads : nullptr, w);
     }
     note_places(m, downwards(c), s, w);
     find_normals(m, s, w);

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/interactions/couplings/border_loads.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
 #include <trocar/sim/bodies/views.hpp>
@@ -16,16 +17,15 @@ constexpr double kBurnTime = 0.15;  // [s] until such a bond has parted.        
 
 interactions::BondedNodes nodes_of(StepContext& c, const interactions::BondSet& set) noexcept {
   const size_t m = size_t(set.membrane);
-  return {c.model.membranes[m].sheet.network, c.state.membranes[m].network, c.work.membrane_loads[m]};
+  return {c.model.membranes[m].sheet.network, c.state.membranes[m].network, c.work.membranes[m].loads};
 }
 
 }  // namespace
 
 void apply_bond_loads(StepContext& c) noexcept {
-  const interactions::Holders holders = holders_of(c);
+  const interactions::Bodies bodies = bodies_of(c);
   for (size_t i = 0; i < c.model.bonds.size(); ++i)
-    interactions::bond_loads(c.model.bonds[i], c.state.bonds[i], nodes_of(c, c.model.bonds[i]), holders, kTick,
-                             c.work.strand_loads, c.work.organ_loads);
+    interactions::bond_loads(c.model.bonds[i], c.state.bonds[i], nodes_of(c, c.model.bonds[i]), bodies, kTick);
 }
 
 namespace {
@@ -33,14 +33,13 @@ namespace {
 /// f(set, state, foot, node) of all bonds, parted ones among them: where they are rooted, and the wall's node.
 template <class F>
 void for_bonds(StepContext& c, F&& f) noexcept {
-  const interactions::Holders holders = holders_of(c);
+  const interactions::Bodies bodies = bodies_of(c);
   for (size_t i = 0; i < c.model.bonds.size(); ++i) {
     const interactions::BondSet& set = c.model.bonds[i];
     const interactions::BondedNodes nodes = nodes_of(c, set);
     for (size_t b = 0; b < set.bonds.size(); ++b) {
       const interactions::Bond& bond = set.bonds[b];
-      f(set, c.state.bonds[i][b], held_place(bond.hold, holders) - bond.hold.offset,
-        tissue::position(nodes.model, nodes.state, bond.node));
+      f(set, c.state.bonds[i][b], foot_of(bond.hold, bodies), tissue::position(nodes.model, nodes.state, bond.node));
     }
   }
 }
@@ -93,8 +92,8 @@ Ooze ooze_from_bonds(StepContext& c, size_t i) noexcept {
   if (!state.raw() || bond.hold.kind != interactions::BorderHold::organ) return {};
   const double flow =
       (breached(set, state) ? set.bleeds : set.oozes) * bond.area * kTick * double(set.bonds.size());  // [m^3]
-  return {held_place(bond.hold, holders_of(c)) - bond.hold.offset,
-          c.model.wet.film[size_t(bond.hold.index)] + bond.hold.vertex, std::int64_t(flow / fluids::kM3PerPicolitre)};
+  return {foot_of(bond.hold, bodies_of(c)), c.model.wet.film[size_t(bond.hold.index)] + bond.hold.vertex,
+          std::int64_t(flow / fluids::kM3PerPicolitre)};
 }
 
 }  // namespace trocar::sim

@@ -20,29 +20,22 @@ void for_fat(StepContext& c, F&& f) noexcept {
   for (std::size_t i = 0; i < bodies.size(); ++i) f(bodies[i], states[i], works[i]);
 }
 
-interactions::TiedWalls walls_of(StepContext& c) noexcept {
-  return {c.work.membrane_models, c.state.membranes, c.work.membrane_loads};
-}
-
 }  // namespace
 
 bool has_fat(const Model& model) noexcept { return !interactions::part_of<Fat>(model.objects).list.empty(); }
 
 void apply_fat_loads(StepContext& c) noexcept {
   if (!has_fat(c.model)) return;
-  const interactions::Holders holders = holders_of(c);
-  for_fat(c,
-          [&](const interactions::FatBody& body, interactions::FatBodyState& state, interactions::FatBodyWork& work) {
-            interactions::apply_fat_loads(body, state, holders, walls_of(c), kTick, work, c.work.strand_loads,
-                                          c.work.organ_loads);
-          });
+  const interactions::Bodies bodies = bodies_of(c);
+  for_fat(c, [&](const interactions::FatBody& body, interactions::FatBodyState& state,
+                 interactions::FatBodyWork& work) { interactions::apply_fat_loads(body, state, bodies, kTick, work); });
 }
 
 int sever_fat(StepContext& c, const geometry::Blade& blade) noexcept {
-  const interactions::Holders holders = holders_of(c);
+  const interactions::Bodies bodies = bodies_of(c);
   int severed = 0;
   for_fat(c, [&](const interactions::FatBody& body, interactions::FatBodyState& state, interactions::FatBodyWork&) {
-    severed += interactions::sever_fat(body, blade, holders, walls_of(c), state);
+    severed += interactions::sever_fat(body, blade, bodies, state);
   });
   return severed;
 }

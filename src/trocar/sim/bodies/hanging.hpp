@@ -1,7 +1,7 @@
 // Springs from an organ's nodes to space: the fat and folds that carry it and are no bodies themselves.
 #pragma once
 
-#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/bodies/loads.hpp>
 #include <trocar/sim/bodies/breathing.hpp>
 
 namespace trocar::sim {

@@ -1,3 +1,4 @@
+#include <trocar/interactions/couplings/border_loads.hpp>
 #include <trocar/interactions/verbs/cut.hpp>
 #include <trocar/sim/bodies/breathing.hpp>
 #include <trocar/sim/bodies/carrying.hpp>
@@ -12,15 +13,15 @@ namespace trocar::sim {
 void pose(StepContext& c, MembraneRef r) noexcept {
   const MembraneBody& m = model_of(c.model, r);
   const tissue::NodeView nodes = view_of(m.sheet.network, c.state.membranes[r.index].network);
-  tissue::pose_skin(nodes, m.skin, c.work.sheet_poses[r.index]);
-  c.work.sheets[r.index] = {{&m.skin, &c.work.sheet_poses[r.index], nodes},
-                            c.state.torn[r.index],
-                            m.sheet.network.fixed,
-                            0.5 * m.sheet.thickness,
-                            m.pinch_reach};
+  tissue::pose_skin(nodes, m.skin, c.work.membranes[r.index].pose);
+  c.work.membranes[r.index].sheet = {{&m.skin, &c.work.membranes[r.index].pose, nodes},
+                                     c.state.torn[r.index],
+                                     m.sheet.network.fixed,
+                                     0.5 * m.sheet.thickness,
+                                     m.pinch_reach};
 }
 
-void hang(StepContext& c, MembraneRef r) noexcept { c.work.membrane_loads[r.index].clear(); }
+void hang(StepContext& c, MembraneRef r) noexcept { c.work.membranes[r.index].loads.clear(); }
 
 void touch(StepContext& c, MembraneRef r, HandContact& hand) noexcept {
   const size_t sides = model_of(c.model, r).sheet.triangles.size() *
@@ -32,38 +33,40 @@ void touch(StepContext& c, MembraneRef r, HandContact& hand) noexcept {
   double& gap = c.work.sheet_gaps[pair];
   gap = kNearSheet;
   if (bond != interactions::SheetBond::none ||
-      interactions::comes_near(shape, c.work.sheet_poses[r.index].bounds, kNearSheet))
-    interactions::tool_on_sheet(hand.touching, c.state.tools[hand.hand], r.id(), c.work.sheets[r.index], side, bond,
-                                c.work.membrane_loads[r.index], gap);
+      interactions::comes_near(shape, c.work.membranes[r.index].pose.bounds, kNearSheet))
+    interactions::tool_on_sheet(hand.touching, c.state.tools[hand.hand], r.id(), c.work.membranes[r.index].sheet, side,
+                                bond, c.work.membranes[r.index].loads, gap);
 }
 
 void find_pulls(StepContext& c, MembraneRef r) noexcept {
-  tissue::border_pulls(model_of(c.model, r).sheet, c.state.membranes[r.index], c.work.membrane_work[r.index],
-                       c.work.pulls[r.index]);
+  tissue::border_pulls(model_of(c.model, r).sheet, c.state.membranes[r.index], c.work.membranes[r.index].body,
+                       c.work.membranes[r.index].pulls);
 }
 
 void pull_on_holders(StepContext& c, MembraneRef r) noexcept {
   const MembraneBody& m = model_of(c.model, r);
-  interactions::border_loads(m.holds, c.work.pulls[r.index], m.sheet, c.state.membranes[r.index], holders_of(c), kTick,
-                             c.work.strand_loads, c.work.organ_loads);
+  interactions::border_loads(m.holds, c.work.membranes[r.index].pulls, m.sheet, c.state.membranes[r.index],
+                             bodies_of(c), kTick);
 }
 
 void advance(StepContext& c, MembraneRef r) noexcept {
   const size_t i = r.index;
   const MembraneBody& m = model_of(c.model, r);
-  const interactions::Holders holders = holders_of(c);
+  const interactions::Bodies bodies = bodies_of(c);
   const Carried by_breath = carried(c, r);
   for (size_t h = 0; h < m.holds.size(); ++h) {
-    c.work.targets[i][h] = held_place(m.holds[h], holders);
-    if (by_breath.moves && m.holds[h].kind == interactions::BorderHold::space) c.work.targets[i][h] += by_breath.x;
+    c.work.membranes[i].targets[h] = held_place(m.holds[h], bodies);
+    if (by_breath.moves && m.holds[h].kind == interactions::BorderHold::space)
+      c.work.membranes[i].targets[h] += by_breath.x;
   }
-  interactions::NetworkLoads& loads = c.work.membrane_loads[i];
+  interactions::NetworkLoads& loads = c.work.membranes[i].loads;
   loads.sort();
-  c.work.membrane_reports[i] = tissue::advance(m.sheet, c.work.targets[i], loads.sorted, loads.reaction,
-                                               c.state.membranes[i], c.work.membrane_work[i], c.work.membrane_scars[i]);
-  c.work.leaks[i] = tissue::leak(m.sheet, c.state.torn[i], c.work.membrane_work[i], c.state.membranes[i]);
-  c.work.leaks[c.model.membranes.size() + i] = leak_by_duct(c, r);
-  carry_along(c, {r.id(), c.work.sheets[i].surface, c.state.torn[i], m.sheet.network.fixed, m.sheet.thickness,
+  c.work.membranes[i].report =
+      tissue::advance(m.sheet, c.work.membranes[i].targets, loads.sorted, loads.reaction, c.state.membranes[i],
+                      c.work.membranes[i].body, c.work.membranes[i].scars);
+  c.work.membranes[i].by_wall = tissue::leak(m.sheet, c.state.torn[i], c.work.membranes[i].body, c.state.membranes[i]);
+  c.work.membranes[i].by_duct = leak_by_duct(c, r);
+  carry_along(c, {r.id(), c.work.membranes[i].sheet.surface, c.state.torn[i], m.sheet.network.fixed, m.sheet.thickness,
                   c.work.sheet_gaps.data() + i, c.model.membranes.size(), c.state.membranes[i].network.nodes});
 }
 
@@ -93,7 +96,7 @@ Parting tear(StepContext& c, MembraneRef r) noexcept {
   return tear.found ? opened(cut(c, r, tear.blade()), counters) : Parting{};
 }
 
-tissue::StepReport report_of(const StepContext& c, MembraneRef r) noexcept { return c.work.membrane_reports[r.index]; }
-bool overloaded(const StepContext& c, MembraneRef r) noexcept { return c.work.membrane_loads[r.index].overflowed; }
+tissue::StepReport report_of(const StepContext& c, MembraneRef r) noexcept { return c.work.membranes[r.index].report; }
+bool overloaded(const StepContext& c, MembraneRef r) noexcept { return c.work.membranes[r.index].loads.overflowed; }
 
 }  // namespace trocar::sim

@@ -33,10 +33,10 @@ void rest_objects(StepContext& c) noexcept {
   const Rigid::States& states = interactions::part_of<Rigid>(c.state.objects);
   interactions::RigidWork& work = interactions::part_of<Rigid>(c.work.objects);
   for (size_t i = 0; i < size_t(c.model.organs()); ++i)
-    rest_on_skin(models, states, c.work.surfaces[i], c.work.organ_loads[i], work);
+    rest_on_skin(models, states, c.work.surfaces[i], c.work.organs[i].loads, work);
   for (size_t i = 0; i < c.model.membranes.size(); ++i)
     if (c.model.membranes[i].sheet.closed())
-      rest_on_skin(models, states, c.work.sheets[i].surface, c.work.membrane_loads[i], work);
+      rest_on_skin(models, states, c.work.membranes[i].sheet.surface, c.work.membranes[i].loads, work);
 }
 
 void advance_objects(StepContext& c) noexcept {

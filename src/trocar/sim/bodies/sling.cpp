@@ -119,8 +119,7 @@ bool has_slings(const Model& model) noexcept {
 
 void rest_slings(StepContext& c) noexcept {
   if (!has_slings(c.model)) return;
-  interactions::strangle(models_of(c), {c.model.strand_bodies, c.state.strands, {}, {}}, c.state.tick, kTick,
-                         states_of(c), works_of(c), {c.work.strand_loads, {}, {}});
+  interactions::strangle(models_of(c), bodies_of(c), c.state.tick, kTick, states_of(c), works_of(c));
 }
 
 void lead_slings(StepContext& c) noexcept {

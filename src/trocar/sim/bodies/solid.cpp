@@ -11,28 +11,28 @@ namespace trocar::sim {
 
 void pose(StepContext& c, SolidRef s) noexcept {
   const size_t i = s.organ();
-  tissue::pose_skin(c.work.nodes[i], *c.work.skins[i], c.work.poses[i]);
+  tissue::pose_skin(c.work.organs[i].nodes, *c.work.organs[i].skin, c.work.organs[i].pose);
   const SolidModel& solid = model_of(c.model, s);
-  c.work.surfaces[i] = {c.work.skins[i], &c.work.poses[i], c.work.nodes[i],
+  c.work.surfaces[i] = {c.work.organs[i].skin, &c.work.organs[i].pose, c.work.organs[i].nodes,
                         can_tear(c.model, s) ? interactions::torn_beyond(solid.cell) : 0};
 }
 
 void hang(StepContext& c, SolidRef s) noexcept {
-  interactions::NetworkLoads& loads = c.work.organ_loads[s.organ()];
+  interactions::NetworkLoads& loads = c.work.organs[s.organ()].loads;
   loads.clear();
   if (is_quasi_static(c, s.organ())) return;  // the springs that hang it are in its compliance
   hang(model_of(c.model, s).anchors, s.organ(), carried(c, s), loads);
 }
 
 void touch(StepContext& c, SolidRef s, HandContact& hand) noexcept {
-  interactions::tool_on_surface(hand.touching, s.id(), c.work.surfaces[s.organ()], c.work.organ_loads[s.organ()],
+  interactions::tool_on_surface(hand.touching, s.id(), c.work.surfaces[s.organ()], c.work.organs[s.organ()].loads,
                                 held_by(c, hand));
 }
 
 std::span<const std::int32_t> pieces_of(const StepContext&, SolidRef) noexcept { return {}; }
 
 std::span<const std::uint8_t> folded_of(StepContext& c, SolidRef s) noexcept {
-  return folded_rows(model_of(c.model, s).network, c.state.solids[s.index], c.work.solid_work[s.index]);
+  return folded_rows(model_of(c.model, s).network, c.state.solids[s.index], c.work.solids[s.index]);
 }
 
 namespace {
@@ -44,14 +44,14 @@ std::span<const Vec3f> pushed_from_within(const StepContext& c, size_t organ) no
 
 void advance(StepContext& c, SolidRef s) noexcept {
   if (advance_at_once(c, s)) return;
-  interactions::NetworkLoads& loads = c.work.organ_loads[s.organ()];
+  interactions::NetworkLoads& loads = c.work.organs[s.organ()].loads;
   loads.sort();
   carry_held_nodes(c, s);
   before_network(c, s);
   const tissue::Hands hands = loads.handled() ? tissue::Hands::on : tissue::Hands::off;
-  c.work.organ_reports[s.organ()] = tissue::advance(model_of(c.model, s).network, loads.sorted, loads.reaction,
-                                                    c.state.solids[s.index], c.work.solid_work[s.index], nullptr, hands,
-                                                    c.work.organ_scars[s.organ()], pushed_from_within(c, s.organ()));
+  c.work.organs[s.organ()].report = tissue::advance(model_of(c.model, s).network, loads.sorted, loads.reaction,
+                                                    c.state.solids[s.index], c.work.solids[s.index], nullptr, hands,
+                                                    c.work.organs[s.organ()].scars, pushed_from_within(c, s.organ()));
   after_network(c, s);
   settle_held_nodes(c, s);
 }
@@ -87,7 +87,7 @@ Parting tear(StepContext& c, SolidRef s) noexcept {
   return {};
 }
 
-tissue::StepReport report_of(const StepContext& c, SolidRef s) noexcept { return c.work.organ_reports[s.organ()]; }
-bool overloaded(const StepContext& c, SolidRef s) noexcept { return c.work.organ_loads[s.organ()].overflowed; }
+tissue::StepReport report_of(const StepContext& c, SolidRef s) noexcept { return c.work.organs[s.organ()].report; }
+bool overloaded(const StepContext& c, SolidRef s) noexcept { return c.work.organs[s.organ()].loads.overflowed; }
 
 }  // namespace trocar::sim

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/interactions/couplings/strand_body.hpp>
+#include <trocar/interactions/bodies/strand_body.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/bodies/spilling.hpp>
@@ -93,7 +93,7 @@ tissue::Leak leak_by_duct(const StepContext& c, MembraneRef r) noexcept {
   const bool stump = before >= 0 && before < body.nodes();
   const Vec3d direction = normalised(stump ? place - duct.x[size_t(before)] : Vec3d{}, {0, 0, 1});
   return tissue::leak_through(m.sheet, open * portable::pi * radius * radius, place, direction,
-                              c.work.membrane_work[r.index], c.state.membranes[r.index]);
+                              c.work.membranes[r.index].body, c.state.membranes[r.index]);
 }
 
 void update_spilled_stones(StepContext& c) noexcept {
@@ -104,8 +104,8 @@ void update_spilled_stones(StepContext& c) noexcept {
     const interactions::RigidModel& stone = models.list[i];
     const size_t pouch = size_t(stone.inside);
     const MembraneBody& m = c.model.membranes[pouch];
-    const tissue::MembraneWork& work = c.work.membrane_work[pouch];
-    const tissue::Leak& hole = c.work.leaks[pouch];
+    const tissue::MembraneWork& work = c.work.membranes[pouch].body;
+    const tissue::Leak& hole = c.work.membranes[pouch].by_wall;
     states[i].x = tissue::enclosed_volume(m.sheet.triangles, work.place, {}).centre;
     const bool carried = hole.picolitres > 0 || dot(hole.direction, c.model.gravity) > 0;
     if (!(hole.area > 0) || !carried || !passes(stone, hole.area)) continue;

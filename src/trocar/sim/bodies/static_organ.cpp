@@ -22,16 +22,16 @@ bool advance_one(StepContext& c, Ref r) noexcept {
   if (i < 0 || !c.state.statics[std::size_t(i)].at_once()) return false;
   const StaticOrgan& organ = c.model.statics[std::size_t(i)];
   StaticOrganState& state = c.state.statics[std::size_t(i)];
-  interactions::NetworkLoads& loads = c.work.organ_loads[r.organ()];
+  interactions::NetworkLoads& loads = c.work.organs[r.organ()].loads;
   loads.keep_order();
-  c.work.organ_reports[r.organ()] =
+  c.work.organs[r.organ()].report =
       tissue::advance(organ.solver, loads.sorted, loads.point, loads.reaction, {carried(c, r).x}, state.body,
                       rows_of(c, r), c.work.static_work[std::size_t(i)].solver);
   if (state.body.turn <= organ.beyond) return true;
   if (organ.hands_over)
     switch_to_dynamic(c, r);
   else
-    c.work.organ_reports[r.organ()].flags |= tissue::StepReport::kBeyondLinear;
+    c.work.organs[r.organ()].report.flags |= tissue::StepReport::kBeyondLinear;
   return true;
 }
 

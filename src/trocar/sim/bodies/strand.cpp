@@ -12,14 +12,14 @@ tissue::StrandEnd end_of(const StepContext& c, const StrandEndModel& end, const 
                          Vec3d& now) noexcept {
   if (end.kind != StrandEndModel::hosted && by_breath.moves) return {drawn + by_breath.x, by_breath.v};
   if (end.kind != StrandEndModel::hosted) return {drawn, {0, 0, 0}};
-  const tissue::StrandEnd next = hosted_end(end.patch, c.work.nodes[size_t(end.organ)], kTick);
+  const tissue::StrandEnd next = hosted_end(end.patch, c.work.organs[size_t(end.organ)].nodes, kTick);
   now = next.x - kTick * next.v;
   return next;
 }
 
 }  // namespace
 
-void hang(StepContext& c, StrandRef r) noexcept { c.work.strand_loads[r.index].clear(); }
+void hang(StepContext& c, StrandRef r) noexcept { c.work.strands[r.index].loads.clear(); }
 
 void touch(StepContext& c, StrandRef r, HandContact& hand) noexcept {
   const interactions::StrandBody& body = c.model.strand_bodies[r.index];
@@ -27,15 +27,15 @@ void touch(StepContext& c, StrandRef r, HandContact& hand) noexcept {
       c.state.tool_side, hand.tool_side,
       size_t(body.nodes() - 1) * size_t(c.model.bends() ? interactions::kMostParts : interactions::kToolParts));
   interactions::tool_on_strand(hand.tool, hand.touching, c.state.tools[hand.hand], body, r.id(),
-                               c.state.strands[r.index], side, c.work.strand_loads[r.index]);
+                               c.state.strands[r.index], side, c.work.strands[r.index].loads);
 }
 
 void advance(StepContext& c, StrandRef r) noexcept {
   const StrandAnatomy& strand = model_of(c.model, r);
   const interactions::StrandBody& body = c.model.strand_bodies[r.index];
-  interactions::StrandLoads& loads = c.work.strand_loads[r.index];
+  interactions::StrandLoads& loads = c.work.strands[r.index].loads;
   tissue::StrandState& state = c.state.strands[r.index];
-  std::array<tissue::StrandEnd, 2>& at = c.work.ends[r.index];
+  std::array<tissue::StrandEnd, 2>& at = c.work.strands[r.index].ends;
   const Carried by_breath = carried(c, r);
   size_t ends = 0;
   if (strand.start.kind != StrandEndModel::free)
@@ -43,9 +43,9 @@ void advance(StepContext& c, StrandRef r) noexcept {
   if (strand.end.kind != StrandEndModel::free)
     at[ends++] = end_of(c, strand.end, by_breath, body.model.rest.back(), state.x.back());
   loads.reaction.assign(loads.list.size(), Vec3d{});
-  c.work.strand_reports[r.index] =
-      tissue::advance(body.model, {at.data(), ends}, loads.list, {c.work.end_reactions[r.index].data(), ends},
-                      loads.reaction, state, c.work.strand_work[r.index], {by_breath.x, by_breath.v});
+  c.work.strands[r.index].report =
+      tissue::advance(body.model, {at.data(), ends}, loads.list, {c.work.strands[r.index].end_reactions.data(), ends},
+                      loads.reaction, state, c.work.strands[r.index].body, {by_breath.x, by_breath.v});
 }
 
 void pull_on_hosts(StepContext& c, StrandRef r) noexcept {
@@ -53,10 +53,10 @@ void pull_on_hosts(StepContext& c, StrandRef r) noexcept {
   size_t ends = 0;
   for (const StrandEndModel* end : {&strand.start, &strand.end}) {
     if (end->kind == StrandEndModel::free) continue;
-    const tissue::StrandReaction& reaction = c.work.end_reactions[r.index][ends++];
+    const tissue::StrandReaction& reaction = c.work.strands[r.index].end_reactions[ends++];
     if (end->kind != StrandEndModel::hosted) continue;
     const size_t host = size_t(end->organ);
-    host_loads(end->patch, reaction, c.work.nodes[host], kTick, int(r.index), c.work.organ_loads[host]);
+    host_loads(end->patch, reaction, c.work.organs[host].nodes, kTick, int(r.index), c.work.organs[host].loads);
   }
 }
 
@@ -76,7 +76,7 @@ Parting tear(StepContext& c, StrandRef r) noexcept {
   return element >= 0 ? cut(c, r, element) : Parting{};
 }
 
-tissue::StepReport report_of(const StepContext& c, StrandRef r) noexcept { return c.work.strand_reports[r.index]; }
-bool overloaded(const StepContext& c, StrandRef r) noexcept { return c.work.strand_loads[r.index].overflowed; }
+tissue::StepReport report_of(const StepContext& c, StrandRef r) noexcept { return c.work.strands[r.index].report; }
+bool overloaded(const StepContext& c, StrandRef r) noexcept { return c.work.strands[r.index].loads.overflowed; }
 
 }  // namespace trocar::sim

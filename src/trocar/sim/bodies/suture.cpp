@@ -13,15 +13,11 @@ using interactions::Suture;
 
 bool has_sutures(const StepContext& c) noexcept { return !c.state.objects.sutures.empty(); }
 
-interactions::TissueBodies bodies_of(const StepContext& c) noexcept {
-  return {c.model.strand_bodies, c.state.strands, {c.work.surfaces.data(), size_t(c.model.organs())}, c.work.sheets};
-}
-
 /// The body's numbers of nodes may have grown by cuts: surfaces are seen again.
 void see_again(StepContext& c) noexcept {
   for (int i = 0; i < c.model.organs(); ++i) c.work.surfaces[size_t(i)].nodes = nodes_of(c.model, c.state, i);
   for (size_t i = 0; i < c.model.membranes.size(); ++i)
-    c.work.sheets[i].surface.nodes = view_of(c.model.membranes[i].sheet.network, c.state.membranes[i].network);
+    c.work.membranes[i].sheet.surface.nodes = view_of(c.model.membranes[i].sheet.network, c.state.membranes[i].network);
 }
 
 /// Whose pull it was: of a loop at the end of its tube that of the hand that has it.
@@ -36,8 +32,7 @@ void rest_sutures(StepContext& c) noexcept {
   if (!has_sutures(c)) return;
   interactions::rest_on_tissue(interactions::part_of<Suture>(c.model.objects), bodies_of(c), c.model.cavity,
                                c.state.tick, kTick, interactions::part_of<Suture>(c.state.objects),
-                               interactions::part_of<Suture>(c.work.objects),
-                               {c.work.strand_loads, c.work.organ_loads, c.work.membrane_loads});
+                               interactions::part_of<Suture>(c.work.objects));
   rest_slings(c);
 }
 

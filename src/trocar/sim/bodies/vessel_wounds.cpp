@@ -3,6 +3,7 @@
 
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/bodies/vessel_wounds.hpp>
+#include <trocar/sim/bodies/views.hpp>
 
 namespace trocar::sim {
 namespace {
@@ -76,7 +77,7 @@ void open_bleeder(StepContext& c) noexcept {
 
 const std::vector<Vec3d>& points_of(StepContext& c, size_t v) noexcept {
   std::vector<Vec3d>& points = c.work.vessel_points[v];
-  if (c.work.vessel_posed[v] == 0) pose_vessel(path_of(c, v), look_at_hosts(c.model, c.state, c.work.hosts), points);
+  if (c.work.vessel_posed[v] == 0) pose_vessel(path_of(c, v), bodies_of(c), points);
   c.work.vessel_posed[v] = 1;
   return points;
 }

@@ -70,15 +70,8 @@ const std::string& Model::organ_look(int organ) const {
   return visit_organ(*this, size_t(organ),
                      [this](auto ref) -> const std::string& { return model_of(*this, ref).look; });
 }
-const tissue::Skin& Model::skin(int organ) const {
-  const std::int32_t lattice = lattice_of(*this, organ);
-  return lattice >= 0 ? solids[size_t(lattice)].skin : cuttable_of(*this, organ).skin.skin;
-}
-
 tissue::NodeView nodes_of(const Model& model, const State& s, int organ) noexcept {
-  const size_t i = size_t(organ), lattices = model.solids.size();
-  return i < lattices ? view_of(model.solids[i].network, s.solids[i])
-                      : view_of(model.cuttables[i - lattices].body, s.cuttables[i - lattices]);
+  return organ_nodes(bodies_of(model, s), size_t(organ));
 }
 
 }  // namespace trocar::sim

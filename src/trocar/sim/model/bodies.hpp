@@ -10,6 +10,7 @@
 // Their numbers: lattices first.
 #pragma once
 
+#include <trocar/interactions/bodies/bodies.hpp>
 #include <trocar/sim/model/state.hpp>
 
 namespace trocar::sim {
@@ -104,6 +105,11 @@ Result visit(const Model& model, BodyId body, Result otherwise, F&& f) {
 template <class F>
 void visit(const Model& model, BodyId body, F&& f) {
   visit(model, body, false, [&f](auto ref) { return f(ref), true; });
+}
+
+/// All bodies at once, outside of a tick.
+inline interactions::Bodies bodies_of(const Model& model, const State& state) noexcept {
+  return {model, state, nullptr, {&model.objects, &state.objects, nullptr}};
 }
 
 /// Is it a body of this Model?

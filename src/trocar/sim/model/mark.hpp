@@ -7,7 +7,7 @@
 #include <string>
 
 #include <trocar/core/fields.hpp>
-#include <trocar/interactions/couplings/strand_body.hpp>
+#include <trocar/interactions/bodies/strand_body.hpp>
 #include <trocar/numerics/vec3.hpp>
 
 namespace trocar::sim {

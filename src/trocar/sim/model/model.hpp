@@ -11,14 +11,11 @@
 #include <trocar/core/tick.hpp>
 #include <trocar/fluids/fluids.hpp>
 #include <trocar/geometry/volumes/cell_mask.hpp>
+#include <trocar/interactions/bodies/models.hpp>
 #include <trocar/interactions/contact/body_contact.hpp>
 #include <trocar/interactions/contact/self_contact.hpp>
 #include <trocar/interactions/contact/skin_grid.hpp>
-#include <trocar/interactions/contact/surface.hpp>
 #include <trocar/interactions/couplings/bonds.hpp>
-#include <trocar/interactions/couplings/border.hpp>
-#include <trocar/interactions/couplings/hosting.hpp>
-#include <trocar/interactions/couplings/strand_body.hpp>
 #include <trocar/interactions/couplings/vessel_path.hpp>
 #include <trocar/interactions/instrument/tool.hpp>
 #include <trocar/interactions/objects/object_kinds.hpp>
@@ -28,90 +25,19 @@
 #include <trocar/sim/model/motion.hpp>
 #include <trocar/sim/model/static_organ.hpp>
 #include <trocar/tissue/heat/electrosurgery.hpp>
-#include <trocar/tissue/network/prestress.hpp>
-#include <trocar/tissue/tets/cuttable_skin.hpp>
 #include <trocar/vessels/flow.hpp>
 
 namespace trocar::sim {
 
 using core::kTick;
+using interactions::CuttableOrgan;
+using interactions::LandmarkModel;
+using interactions::MembraneBody;
+using interactions::SolidModel;
+using interactions::StrandAnatomy;
+using interactions::StrandEndModel;
 
 struct MaterialLibrary;
-
-/// A volumetric organ.
-struct SolidModel {
-  std::string name, look, tissue;
-  double cell = 0;  ///< lattice edge [m]
-  tissue::NetworkModel network;
-  std::vector<tissue::Anchor> anchors;  ///< springs to space
-  tissue::Skin skin;                    ///< contact and clips
-  tissue::Skin fine;                    ///< drawn: the same surface, more vertices
-  double failure_strain = 0;            ///< 0: it never tears
-
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("network", s.network), v("skin", s.skin), v("fine", s.fine), v("failure_strain", s.failure_strain),
-        v("anchors", s.anchors), v("name", s.name, core::kNotHashed), v("look", s.look, core::kNotHashed),
-        v("tissue", s.tissue, core::kNotHashed), v("cell", s.cell, core::kNotHashed);
-  }
-};
-
-/// A volumetric organ that can be cut anywhere. Organs are numbered: solids first, then these.
-struct CuttableOrgan {
-  std::string name, look, tissue;
-  double cell = 0;  ///< a typical edge [m]
-  tissue::CuttableModel body;
-  tissue::CuttableSkin skin;  ///< uncut; what is touched, held and drawn
-  double failure_strain = 0;  ///< 0: it never tears
-
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("body", s.body), v("failure_strain", s.failure_strain), v("name", s.name, core::kNotHashed),
-        v("look", s.look, core::kNotHashed), v("tissue", s.tissue, core::kNotHashed),
-        v("cell", s.cell, core::kNotHashed), v("skin", s.skin, core::kNotHashed);
-  }
-};
-
-/// A stretch of a strand with a name: isthmus, ampulla, fimbria.
-struct LandmarkModel {
-  std::string name;
-  double from = 0, to = 0;  ///< arc length [m]
-
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("name", s.name), v("from", s.from), v("to", s.to);
-  }
-};
-
-/// What holds a strand's end: nothing, space, or an organ.
-struct StrandEndModel {
-  enum Kind : std::int32_t { free, fixed, hosted } kind = free;
-  std::int32_t organ = -1;
-  interactions::HostPatch patch;
-
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("kind", s.kind), v("organ", s.organ), v("patch", s.patch);
-  }
-};
-
-/// A strand as it is known, drawn and held at its ends; what moves is Model::strand_bodies.
-struct StrandAnatomy {
-  std::string name, look, tissue;
-  std::vector<double> outer, inner;  ///< (n) radius and lumen radius at the nodes [m], for drawing and clips
-  StrandEndModel start, end;
-  std::vector<LandmarkModel> landmarks;
-  bool fimbriated = false;
-  double failure_strain = 0;  ///< 0: it never tears
-
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("start", s.start), v("end", s.end), v("failure_strain", s.failure_strain), v("name", s.name, core::kNotHashed),
-        v("look", s.look, core::kNotHashed), v("tissue", s.tissue, core::kNotHashed),
-        v("outer", s.outer, core::kNotHashed), v("inner", s.inner, core::kNotHashed),
-        v("landmarks", s.landmarks, core::kNotHashed), v("fimbriated", s.fimbriated, core::kNotHashed);
-  }
-};
 
 struct WallModel {
   std::string name, look;
@@ -149,31 +75,6 @@ struct DrawnFold {
   template <class S, class V>
   static void fields(S& s, V&& v) {
     v("name", s.name), v("look", s.look), v("strand", s.strand), v("from", s.from), v("to", s.to), v("base", s.base);
-  }
-};
-
-/// A thin fold with mechanics of its own: its border hangs on a strand, its base on other bodies and on space.
-struct MembraneBody {
-  std::string name, look, tissue;
-  std::int32_t strand = -1;  ///< on row 0
-  double from = 0, to = 0;   ///< arc length [m]
-  bool cuttable = true;
-  tissue::MembraneModel sheet;
-  tissue::Skin skin;                            ///< the sheet's own nodes and triangles, one skin vertex per node
-  double pinch_reach = 0;                       ///< of a pouch (interactions::SheetView) [m]
-  std::vector<float> depth;                     ///< (nodes) way from the strand's surface, in the drawn shape [m]
-  std::vector<interactions::BorderHold> holds;  ///< (held nodes)
-  double failure_strain = 0;                    ///< 0: it never tears
-  std::int32_t duct = -1;                       ///< of a pouch: the strand whose lumen opens into it; -1: none
-  bool duct_at_start = false;                   ///< with the strand's beginning; else with its end
-
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("duct", s.duct, core::only_if(s.duct >= 0)), v("duct_at_start", s.duct_at_start, core::only_if(s.duct >= 0));
-    v("sheet", s.sheet), v("skin", s.skin), v("strand", s.strand), v("cuttable", s.cuttable), v("depth", s.depth),
-        v("pinch_reach", s.pinch_reach), v("failure_strain", s.failure_strain), v("holds", s.holds),
-        v("name", s.name, core::kNotHashed), v("look", s.look, core::kNotHashed),
-        v("tissue", s.tissue, core::kNotHashed), v("from", s.from, core::kNotHashed), v("to", s.to, core::kNotHashed);
   }
 };
 
@@ -337,19 +238,13 @@ struct VisibilitySample {
 struct State;
 
 /// A Model names things; State and Work have only numbers.
-struct Model {
+struct Model : interactions::BodyModels {
   std::string name, file;
   std::string anatomy, anatomy_title;  ///< the variant that the seed has; empty: the scene has none
   Vec3d gravity;
-  std::vector<SolidModel> solids;
-  std::vector<CuttableOrgan> cuttables;
-  std::vector<StaticOrgan> statics;  ///< those of both that are quasi-static
-  std::vector<StrandAnatomy> strands;
-  std::vector<interactions::StrandBody>
-      strand_bodies;  ///< (strands) their mechanics, side by side as interactions want them
+  std::vector<StaticOrgan> statics;  ///< those organs that are quasi-static
   std::vector<WallModel> walls;
   std::vector<DrawnFold> drawn_folds;
-  std::vector<MembraneBody> membranes;
   std::vector<interactions::BondSet> bonds;
   interactions::ObjectModels objects;
   VesselsModel vessels;
@@ -383,11 +278,9 @@ struct Model {
   bool irrigates() const noexcept;                ///< there are fluids, and a suction-irrigator in a rack
   double syringe_of(size_t hand) const noexcept;  ///< what the first needle in its rack holds [m^3]; 0: there is none
   int free_nodes() const;                         ///< nodes that move, all bodies
-  int organs() const { return int(solids.size() + cuttables.size()); }
   int surfaces() const { return organs() + int(walls.size()); }  ///< organs first
   const std::string& organ_name(int organ) const;
   const std::string& organ_look(int organ) const;
-  const tissue::Skin& skin(int organ) const;              ///< in the drawn shape
   int organ_index(const std::string& organ) const;        ///< -1 if there is none
   int strand_index(const std::string& strand) const;      ///< -1 if there is none
   int membrane_index(const std::string& membrane) const;  ///< -1 if there is none

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <trocar/fluids/pool_bed.hpp>
-#include <trocar/interactions/contact/surface.hpp>
+#include <trocar/interactions/bodies/surface.hpp>
 #include <trocar/sim/model/pool_floor.hpp>
 
 namespace trocar::sim {

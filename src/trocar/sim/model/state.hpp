@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <trocar/core/fields.hpp>
+#include <trocar/interactions/bodies/states.hpp>
 #include <trocar/interactions/instrument/membrane_contact.hpp>
 #include <trocar/interactions/instrument/tool_contact.hpp>
 #include <trocar/interactions/verbs/vessel_tools.hpp>
@@ -56,13 +57,9 @@ struct Scar {
 };
 inline constexpr std::int32_t kMaxScarred = 1024;
 
-struct State {
+struct State : interactions::BodyStates {
   std::uint64_t tick = 0;  ///< ticks made
-  std::vector<tissue::NetworkState> solids;
-  std::vector<tissue::CuttableState> cuttables;
   std::vector<StaticOrganState> statics;
-  std::vector<tissue::StrandState> strands;
-  std::vector<tissue::MembraneState> membranes;
   std::vector<std::vector<interactions::BondState>> bonds;  ///< (sets of bonds)(bonds)
   interactions::ObjectStates objects;
   std::array<interactions::ToolState, kMaxTools> tools;
@@ -77,7 +74,6 @@ struct State {
   std::vector<std::vector<std::uint8_t>> parted;  ///< (solids) per triangle of the drawn skin: 1 = cut open
   std::vector<Vec3f> sheet_side;                  ///< (hands x triangles of all membranes x kSheetParts or kMostParts)
   std::vector<interactions::SheetBond> sheet_bond;  ///< (hands x membranes)
-  std::vector<std::vector<std::uint8_t>> torn;      ///< (membranes) per triangle: 1 = cut open
   /// For how long nodes have been stretched beyond what they bear (tissue/failure/overstretch.hpp): rows of organs and
   /// of membranes, nodes of strands; empty for bodies that never tear.
   std::vector<std::vector<std::uint8_t>> overstretched_organs, overstretched_membranes, overstretched_strands;

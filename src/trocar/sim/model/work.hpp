@@ -6,13 +6,12 @@
 #include <vector>
 
 #include <trocar/core/fields.hpp>
-#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/bodies/work.hpp>
 #include <trocar/interactions/instrument/wall_stop.hpp>
 #include <trocar/interactions/verbs/grasp.hpp>
 #include <trocar/interactions/wetting/fluid_contact.hpp>
-#include <trocar/sim/model/host_views.hpp>
 #include <trocar/sim/model/state.hpp>
-#include <trocar/tissue/membrane/leak.hpp>
+#include <trocar/sim/model/vessel_carriers.hpp>
 
 namespace trocar::sim {
 
@@ -41,39 +40,19 @@ struct NeedleOutlet {
 /// out, spills or leaks, and finds no room.
 inline constexpr std::int32_t kMaxNeedleOutlets = kMaxTracks + 4 + 3 * kMaxTools;
 
-struct Work {
-  core::ThreadPool* pool = nullptr;             ///< may be null; never changes a bit of the result
-  std::vector<tissue::SkinPose> poses;          ///< (organs)
-  std::vector<interactions::Surface> surfaces;  ///< (organs + walls)
+struct Work : interactions::BodyWork {
+  core::ThreadPool* pool = nullptr;  ///< may be null; never changes a bit of the result
   std::array<interactions::ToolShape, kMaxTools> shapes;
   std::array<interactions::ToolShape, kMaxTools> shapes_before;  ///< where they were when the tick began
   std::vector<interactions::TouchBook> touches;                  ///< (hands) this tick's
   std::array<interactions::WallStop, kMaxTools> wall_stops;      ///< (hands)
-  std::vector<interactions::NetworkLoads> organ_loads;           ///< (organs)
-  std::vector<std::vector<tissue::ScarredSpring>> organ_scars;   ///< (organs) those of this tick
-  std::vector<interactions::StrandLoads> strand_loads;
-  std::vector<tissue::NetworkWork> solid_work;
-  std::vector<tissue::CuttableWork> cuttable_work;
   std::vector<StaticOrganWork> static_work;
-  std::vector<tissue::StrandWork> strand_work;
-  std::vector<std::array<tissue::StrandEnd, 2>> ends;  ///< (strands)
-  std::vector<std::array<tissue::StrandReaction, 2>> end_reactions;
   std::vector<std::int32_t> parts;   ///< (nodes of the largest organ) what hangs together, for cuts
   std::vector<std::uint8_t> beyond;  ///< (rows of the largest organ or membrane) springs stretched too far
-  std::vector<tissue::StepReport> organ_reports, strand_reports, membrane_reports;
-  std::vector<tissue::SkinPose> sheet_poses;    ///< (membranes)
-  std::vector<interactions::SheetView> sheets;  ///< (membranes)
-  std::vector<double> sheet_gaps;               ///< (hands x membranes) apart by at least this much [m]
-  std::vector<interactions::NetworkLoads> membrane_loads;
-  std::vector<std::vector<tissue::ScarredSpring>> membrane_scars;  ///< (membranes) those of this tick
-  std::vector<tissue::MembraneWork> membrane_work;
-  std::vector<const tissue::MembraneModel*> membrane_models;  ///< (membranes) of the Model
-  std::vector<tissue::Leak> leaks;                            ///< (2 membranes) of this tick: by the wall, by the duct
+  std::vector<double> sheet_gaps;    ///< (hands x membranes) apart by at least this much [m]
   interactions::ObjectWork objects;
-  std::vector<std::vector<tissue::BorderPull>> pulls;  ///< (membranes)(held nodes)
-  std::vector<std::vector<Vec3d>> targets;             ///< (membranes)(held nodes)
-  std::vector<Vec3d> wave_force;                       ///< (nodes of the largest organ with waves) [N]
-  HostViews hosts;
+  std::vector<Vec3d> wave_force;  ///< (nodes of the largest organ with waves) [N]
+  RiddenCorners ridden;
   std::vector<std::vector<Vec3d>> vessel_points;  ///< (vessels)(points of the path) [m]
   std::vector<std::uint8_t> vessel_posed;         ///< (vessels) 0: its points are not known in this tick
   vessels::FlowWork flow;
@@ -96,33 +75,24 @@ struct Work {
   std::int32_t needle_outlet_count = 0;
   std::vector<fluids::Outlet> wounds;  ///< (2 kMaxOpenings) sides of openings
   std::array<fluids::Capsule, kMaxTools * interactions::kToolParts> wet_tools;
-  std::array<fluids::SuctionIrrigator, kMaxTools> valves;  ///< (hands) closed where there is none
-  std::vector<tissue::NodeView> nodes;                     ///< (organs) of the State; again in every tick
-  std::vector<tissue::CuttableSkin> cuttable_skins;
-  std::vector<const tissue::Skin*> skins;                      ///< (organs) of the Model, or the above
+  std::array<fluids::SuctionIrrigator, kMaxTools> valves;      ///< (hands) closed where there is none
   std::vector<int> organ_order, strand_order, membrane_order;  ///< by how much there is to do, for the threads
   std::vector<int> skin_order;                                 ///< (organs + membranes) the same
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("pool", s.pool, core::kMadeOnce), v("poses", s.poses), v("surfaces", s.surfaces), v("shapes", s.shapes),
+    v("pool", s.pool, core::kMadeOnce), v("organs", s.organs), v("solids", s.solids), v("cuttables", s.cuttables),
+        v("strands", s.strands), v("membranes", s.membranes), v("surfaces", s.surfaces), v("shapes", s.shapes),
         v("shapes_before", s.shapes_before), v("touches", s.touches), v("wall_stops", s.wall_stops),
-        v("organ_loads", s.organ_loads), v("organ_scars", s.organ_scars), v("strand_loads", s.strand_loads),
-        v("solid_work", s.solid_work), v("cuttable_work", s.cuttable_work), v("static_work", s.static_work),
-        v("strand_work", s.strand_work), v("ends", s.ends), v("end_reactions", s.end_reactions), v("parts", s.parts),
-        v("beyond", s.beyond), v("organ_reports", s.organ_reports), v("strand_reports", s.strand_reports),
-        v("membrane_reports", s.membrane_reports), v("sheet_poses", s.sheet_poses), v("sheets", s.sheets),
-        v("sheet_gaps", s.sheet_gaps), v("membrane_loads", s.membrane_loads), v("membrane_scars", s.membrane_scars),
-        v("membrane_work", s.membrane_work), v("membrane_models", s.membrane_models, core::kMadeOnce),
-        v("leaks", s.leaks), v("objects", s.objects), v("pulls", s.pulls), v("targets", s.targets),
-        v("wave_force", s.wave_force), v("hosts", s.hosts), v("vessel_points", s.vessel_points),
-        v("vessel_posed", s.vessel_posed), v("flow", s.flow), v("open", s.open), v("closed", s.closed),
-        v("flows", s.flows), v("walls", s.walls), v("busy", s.busy), v("impact_at", s.impact_at), v("bleeds", s.bleeds),
-        v("bleed_count", s.bleed_count), v("heat", s.heat), v("heat_sources", s.heat_sources), v("steam", s.steam),
-        v("current_flows", s.current_flows), v("fluids", s.fluids), v("wet", s.wet), v("infusion", s.infusion),
-        v("needle_outlets", s.needle_outlets), v("needle_outlet_count", s.needle_outlet_count), v("wounds", s.wounds),
-        v("wet_tools", s.wet_tools), v("valves", s.valves), v("nodes", s.nodes), v("cuttable_skins", s.cuttable_skins),
-        v("skins", s.skins, core::kMadeOnce), v("organ_order", s.organ_order, core::kMadeOnce),
+        v("static_work", s.static_work), v("parts", s.parts), v("beyond", s.beyond), v("sheet_gaps", s.sheet_gaps),
+        v("objects", s.objects), v("wave_force", s.wave_force), v("ridden", s.ridden),
+        v("vessel_points", s.vessel_points), v("vessel_posed", s.vessel_posed), v("flow", s.flow), v("open", s.open),
+        v("closed", s.closed), v("flows", s.flows), v("walls", s.walls), v("busy", s.busy), v("impact_at", s.impact_at),
+        v("bleeds", s.bleeds), v("bleed_count", s.bleed_count), v("heat", s.heat), v("heat_sources", s.heat_sources),
+        v("steam", s.steam), v("current_flows", s.current_flows), v("fluids", s.fluids), v("wet", s.wet),
+        v("infusion", s.infusion), v("needle_outlets", s.needle_outlets),
+        v("needle_outlet_count", s.needle_outlet_count), v("wounds", s.wounds), v("wet_tools", s.wet_tools),
+        v("valves", s.valves), v("organ_order", s.organ_order, core::kMadeOnce),
         v("strand_order", s.strand_order, core::kMadeOnce), v("membrane_order", s.membrane_order, core::kMadeOnce),
         v("skin_order", s.skin_order, core::kMadeOnce);
   }

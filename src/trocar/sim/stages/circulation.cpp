@@ -23,10 +23,11 @@ using CutPlaces = std::array<double, interactions::kMaxOpenings>;
 // The others wait until somebody asks.
 void pose_vessels(StepContext& c) noexcept {
   if (!c.model.vessels.there()) return;
-  const interactions::VesselHosts hosts = look_at_hosts_of_all(c.model, c.state, c.work.hosts);
+  const interactions::Bodies bodies = bodies_of(c);
+  pose(bodies, c.work.ridden);
   for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
     c.work.vessel_posed[v] = c.model.vessels.list[v].pulses();
-    if (c.work.vessel_posed[v] != 0) pose_vessel(path_of(c, v), hosts, c.work.vessel_points[v]);
+    if (c.work.vessel_posed[v] != 0) pose_vessel(path_of(c, v), bodies, c.work.vessel_points[v], c.work.ridden.place);
   }
 }
 
@@ -53,19 +54,19 @@ void push(StepContext& c, const interactions::VesselPoint& p, Vec3d force, inter
       on.element = p.hold.element;
       on.w = p.hold.w;
       on.f0 = force;
-      c.work.strand_loads[i].add(on, tag);
+      c.work.strands[i].loads.add(on, tag);
       return;
     }
     case VesselHold::organ:
-      return c.work.organ_loads[i].add(load, tag);
+      return c.work.organs[i].loads.add(load, tag);
     case VesselHold::membrane:
-      return c.work.membrane_loads[i].add(load, tag);
+      return c.work.membranes[i].loads.add(load, tag);
     case VesselHold::cell: {
       size_t most = 0;
       for (size_t k = 1; k < 4; ++k)
         if (p.hold.share[k] > p.hold.share[most]) most = k;
       load.node = corner_of(c, p.hold, most);
-      return c.work.organ_loads[i].add(load, tag);
+      return c.work.organs[i].loads.add(load, tag);
     }
     case VesselHold::space:
       return;
@@ -174,14 +175,14 @@ Vec3d upwards(const StepContext& c, Vec3d along) noexcept {
 void note_bleeds(StepContext& c) noexcept {
   c.work.bleed_count = 0;
   if (c.state.opening_count == 0) return;
-  const interactions::VesselHosts hosts = look_at_hosts(c.model, c.state, c.work.hosts);
+  const interactions::Bodies bodies = bodies_of(c);
   CutPlaces places;
   int posed = -1;
   for (int i = 0; i < c.state.opening_count; ++i) {
     const interactions::VesselOpening& o = c.state.openings[size_t(i)];
     const VesselPath& path = path_of(c, size_t(o.vessel));
     std::vector<Vec3d>& points = c.work.vessel_points[size_t(o.vessel)];
-    if (posed != o.vessel) pose_vessel(path, hosts, points);
+    if (posed != o.vessel) pose_vessel(path, bodies, points);
     posed = o.vessel;
     const std::span<const double> cuts = cuts_of(c.state, o.vessel, places);
     const vessels::OpeningFlow& flow = c.work.flows[size_t(i)];

@@ -14,7 +14,7 @@ size_t sides_of(size_t all, size_t hands) noexcept { return hands > 0 ? all / ha
 
 // Instruments on tissue: contact and hold.
 void resolve_instrument_contacts(StepContext& c) noexcept {
-  const interactions::TissueView view = tissue_of(c);
+  const interactions::Bodies bodies = bodies_of(c);
   const size_t hands = c.model.hands.size();
   for (size_t t = 0; t < hands; ++t) {
     const interactions::ToolShape& shape = c.work.shapes[t];
@@ -28,7 +28,7 @@ void resolve_instrument_contacts(StepContext& c) noexcept {
                      t * sides_of(c.state.sheet_side.size(), hands)};
     visit_bodies(c.model, [&](auto body) { touch(c, body, hand); });
     touch_objects(c, hand);
-    interactions::hold_loads(shape, int(t), view, c.state.tools[t], loads_of(c));
+    interactions::hold_loads(shape, int(t), bodies, c.state.tools[t]);
   }
 }
 
@@ -41,25 +41,25 @@ void resolve_body_contacts(StepContext& c) noexcept {
     const std::span<std::int32_t> nearest{s.nearest.data() + at, p.sample.size()};
     at += p.sample.size();
     const interactions::Surface& surface = c.work.surfaces[size_t(p.surface)];
-    interactions::NetworkLoads* back = surface.moves() ? &c.work.organ_loads[size_t(p.surface)] : nullptr;
+    interactions::NetworkLoads* back = surface.moves() ? &c.work.organs[size_t(p.surface)].loads : nullptr;
     if (p.strand >= 0) {
       const size_t i = size_t(p.strand);
-      strand_on_surface(p, c.model.strand_bodies[i], s.strands[i], surface, s.tick, nearest, c.work.strand_loads[i],
+      strand_on_surface(p, c.model.strand_bodies[i], s.strands[i], surface, s.tick, nearest, c.work.strands[i].loads,
                         back);
     } else if (p.membrane >= 0) {
       const size_t i = size_t(p.membrane);
-      solid_on_surface(p, c.work.sheets[i].surface, surface, s.tick, nearest, c.work.membrane_loads[i], back);
+      solid_on_surface(p, c.work.membranes[i].sheet.surface, surface, s.tick, nearest, c.work.membranes[i].loads, back);
     } else {
       const size_t i = size_t(p.solid);
-      solid_on_surface(p, c.work.surfaces[i], surface, s.tick, nearest, c.work.organ_loads[i], back);
+      solid_on_surface(p, c.work.surfaces[i], surface, s.tick, nearest, c.work.organs[i].loads, back);
     }
   }
   size_t side = 0;
   for (const interactions::StrandPair& p : c.model.strand_pairs) {
     const size_t n = p.overlap.size(), a = size_t(p.a), b = size_t(p.b);
     strand_on_strand(p, c.model.strand_bodies[a], s.strands[a], c.model.strand_bodies[b], s.strands[b],
-                     {s.nearest.data() + at, n}, {s.strand_side.data() + side, n}, c.work.strand_loads[a],
-                     c.work.strand_loads[b]);
+                     {s.nearest.data() + at, n}, {s.strand_side.data() + side, n}, c.work.strands[a].loads,
+                     c.work.strands[b].loads);
     at += n;
     side += n;
   }
@@ -68,7 +68,7 @@ void resolve_body_contacts(StepContext& c) noexcept {
     const std::span<std::int32_t> nearest{s.nearest.data() + at, p.sample.size()};
     visit_organ(c.model, organ, [&](auto body) {
       self_contact(p, c.work.surfaces[organ], pieces_of(c, body), folded_of(c, body), s.tick, nearest,
-                   c.work.organ_loads[organ]);
+                   c.work.organs[organ].loads);
     });
     at += p.sample.size();
   }

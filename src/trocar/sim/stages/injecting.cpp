@@ -81,10 +81,10 @@ void share_out_pending(StepContext& c, size_t hand, NeedleHand& n, bool drugged)
     const tissue::InfusionModel& infusion = c.model.injection.organs[organ].infusion;
     tissue::InfusionState& fluid = c.state.injection.organs[organ];
     const double spread = tissue::spread_of(fluids::kM3PerPicolitre * double(n.here));
-    in = tissue::infuse(infusion, c.work.nodes[organ], n.at, n.pending, spread, drugged,
+    in = tissue::infuse(infusion, c.work.organs[organ].nodes, n.at, n.pending, spread, drugged,
                         std::uint32_t(c.state.tick + 1), fluid, c.work.infusion[organ]);
-    c.state.injection.fills[hand] =
-        resistance_of(infusion.opening, tissue::filled_about(infusion, c.work.nodes[organ], n.at, spread, fluid));
+    c.state.injection.fills[hand] = resistance_of(
+        infusion.opening, tissue::filled_about(infusion, c.work.organs[organ].nodes, n.at, spread, fluid));
     loosen_bonds(c, n.at, fluids::kM3PerPicolitre * double(in), spread);
   }
   c.state.injection.given[organ] -= n.pending - in;
@@ -134,7 +134,8 @@ void dent_skins(StepContext& c, size_t hand, const NeedleLine& line, NeedleHand&
     n.touch = interactions::caught_at(c.work.surfaces[i], BodyId::organ(i), line);
   if (!n.touch.body.exists()) return;
   const size_t organ = n.touch.body.index();
-  n.press = interactions::press_skin(surface_of(n.touch), n.touch, line, std::int32_t(hand), c.work.organ_loads[organ]);
+  n.press =
+      interactions::press_skin(surface_of(n.touch), n.touch, line, std::int32_t(hand), c.work.organs[organ].loads);
   const double gives = interactions::kGroundBevel * c.model.injection.organs[organ].puncture;
   if (gives > 0 && n.press >= gives) go_in(c, hand, n);
 }
@@ -161,7 +162,7 @@ void pierce_with(StepContext& c, size_t hand) noexcept {
   if (!n.in()) return dent_skins(c, hand, line, n);
   const size_t organ = n.entry.body.index();
   interactions::carry_skin(c.work.surfaces[organ], n.entry, line, n.anchor, std::int32_t(hand),
-                           c.work.organ_loads[organ]);
+                           c.work.organs[organ].loads);
   n.depth = interactions::depth_below(c.work.surfaces[organ], n.at);
 }
 
@@ -191,7 +192,7 @@ interactions::AtTip at_tip(const StepContext& c, size_t hand, const NeedleHand& 
   const size_t organ = n.entry.body.index();
   if (!takes_up(c, organ)) return at;
   at.opening = c.model.injection.organs[organ].infusion.opening;
-  at.pressure = tissue::pressure_at(c.work.nodes[organ], n.at, c.state.injection.organs[organ]);
+  at.pressure = tissue::pressure_at(c.work.organs[organ].nodes, n.at, c.state.injection.organs[organ]);
   at.fills = c.state.injection.fills[hand];
   at.gapes = kGapes;
   return at;
@@ -285,11 +286,11 @@ void leak_tracks(StepContext& c) noexcept {
     const interactions::Surface& surface = c.work.surfaces[organ];
     const Vec3d inside =
         interactions::place_on(surface, track.at) - kTrackDeep * interactions::normal_on(surface, track.at);
-    const double pressure = tissue::pressure_at(c.work.nodes[organ], inside, s.organs[organ]);
+    const double pressure = tissue::pressure_at(c.work.organs[organ].nodes, inside, s.organs[organ]);
     const double flow = kTrackLeaks * portable::exp(-age / kTrackCloses) * pressure;
     const std::int64_t wants = fluids::whole_picolitres(flow, double(kShareTicks) * kTick, track.carry);
-    const std::int64_t out = tissue::let_out(c.model.injection.organs[organ].infusion, c.work.nodes[organ], inside,
-                                             wants, kTrackWide, s.organs[organ], c.work.infusion[organ]);
+    const std::int64_t out = tissue::let_out(c.model.injection.organs[organ].infusion, c.work.organs[organ].nodes,
+                                             inside, wants, kTrackWide, s.organs[organ], c.work.infusion[organ]);
     leak_at(c, track.at, out);
     track.leaked += out;
     s.tracks[size_t(kept++)] = track;
@@ -299,7 +300,7 @@ void leak_tracks(StepContext& c) noexcept {
 
 /// Where a tear of an organ opens to the outside: the skin that is nearest to that node.
 NeedleOutlet tear_at(const StepContext& c, size_t organ, std::int32_t row) noexcept {
-  const tissue::NodeView& nodes = c.work.nodes[organ];
+  const tissue::NodeView& nodes = c.work.organs[organ].nodes;
   const tissue::NodeState& node = nodes.rows[size_t(row)];
   NeedleOutlet out;
   out.place = Vec3d{double(node.x), double(node.y), double(node.z)} + nodes.origin;

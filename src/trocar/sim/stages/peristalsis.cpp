@@ -8,14 +8,14 @@ void apply_peristalsis(StepContext& c) noexcept {
   for (const PeristalsisModel& p : c.model.motion.peristalsis) {
     const std::size_t organ = std::size_t(p.solid);
     for (const std::int32_t node : p.wave.nodes) c.work.wave_force[std::size_t(node)] = {0, 0, 0};
-    add_wave(p.wave, c.work.nodes[organ], now, c.work.wave_force);
+    add_wave(p.wave, c.work.organs[organ].nodes, now, c.work.wave_force);
     for (const std::int32_t node : p.wave.nodes) {
       const Vec3d f = c.work.wave_force[std::size_t(node)];
       if (f.x == 0 && f.y == 0 && f.z == 0) continue;
       tissue::NodeLoad load;
       load.node = node;
       load.f0 = vec_cast<float>(f);
-      c.work.organ_loads[organ].add(load, {interactions::Owner::anchor, p.solid, 0});  // nobody asks for its reaction
+      c.work.organs[organ].loads.add(load, {interactions::Owner::anchor, p.solid, 0});  // nobody asks for its reaction
     }
   }
 }

@@ -11,7 +11,7 @@ void view_walls(StepContext& c) noexcept {
 }
 
 void view_organs(StepContext& c) noexcept {
-  for (int i = 0; i < c.model.organs(); ++i) c.work.nodes[size_t(i)] = nodes_of(c.model, c.state, i);
+  for (int i = 0; i < c.model.organs(); ++i) c.work.organs[size_t(i)].nodes = nodes_of(c.model, c.state, i);
 }
 
 // Skins: x = W q, boxes.

@@ -36,7 +36,7 @@ double stands_for(const interactions::VesselPath& path, size_t i) noexcept {
   return 0.5 * path.length * (path.points[i + 1].s - path.points[i - 1].s);
 }
 
-PulseReader::PulseReader(const Model& model) : m_model(model), m_hosts(make_host_views(model)) {
+PulseReader::PulseReader(const Model& model) : m_model(model) {
   size_t longest = 0;
   for (const Vessel& v : model.vessels.list) longest = std::max(longest, v.path.points.size());
   m_line.resize(longest);
@@ -47,7 +47,7 @@ double PulseReader::area(const State& state, int hand, int vessel) {
   if (!v.pulses() || !presses(state, size_t(hand))) return 0;
   const interactions::ToolShape shape = shape_of(m_model, state, size_t(hand));
   const std::span<Vec3d> line = std::span(m_line).first(v.path.points.size());
-  pose_vessel(v.path, look_at_hosts(m_model, state, m_hosts), line);
+  pose_vessel(v.path, bodies_of(m_model, state), line);
   double sum = 0;
   for (size_t i = 1; i + 1 < line.size(); ++i) {
     const interactions::VesselPoint& p = v.path.points[i];

@@ -5,7 +5,7 @@
 //   reader.area(state, hand, vessel) * gain * pressure above the mean      // [N], as the step does
 #pragma once
 
-#include <trocar/sim/model/host_views.hpp>
+#include <trocar/sim/model/bodies.hpp>
 
 namespace trocar::sim {
 
@@ -39,7 +39,6 @@ class PulseReader {
 
  private:
   const Model& m_model;
-  HostViews m_hosts;
   std::vector<Vec3d> m_line;
 };
 

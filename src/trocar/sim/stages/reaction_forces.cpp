@@ -26,6 +26,10 @@ void account(StepContext& c, interactions::Tag tag, Vec3d force) noexcept {
   on_tissue[2] += float(force.z);
 }
 
+void account(StepContext& c, const interactions::NetworkLoads& loads) noexcept {
+  for (size_t i = 0; i < loads.sorted.size(); ++i) account(c, loads.owner[i], vec_cast<double>(loads.reaction[i]));
+}
+
 }  // namespace
 
 void collect_reaction_forces(StepContext& c) noexcept {
@@ -33,25 +37,23 @@ void collect_reaction_forces(StepContext& c) noexcept {
     for (double& f : tool.contact_force) f = 0;
     for (interactions::Hold& h : tool.hold) h.force[0] = h.force[1] = h.force[2] = 0;
   }
-  for (const interactions::StrandLoads& l : c.work.strand_loads)
-    for (size_t i = 0; i < l.list.size(); ++i) account(c, l.tag[i], l.reaction[i]);
-  for (const interactions::NetworkLoads& l : c.work.organ_loads)
-    for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.owner[i], vec_cast<double>(l.reaction[i]));
-  for (const interactions::NetworkLoads& l : c.work.membrane_loads)
-    for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.owner[i], vec_cast<double>(l.reaction[i]));
+  for (const interactions::StrandBodyWork& w : c.work.strands)
+    for (size_t i = 0; i < w.loads.list.size(); ++i) account(c, w.loads.tag[i], w.loads.reaction[i]);
+  for (const interactions::OrganWork& w : c.work.organs) account(c, w.loads);
+  for (const interactions::MembraneBodyWork& w : c.work.membranes) account(c, w.loads);
   interactions::ObjectKinds::for_each([&c](auto kind) {
     kind.account(interactions::part_of<decltype(kind)>(c.work.objects), kTick,
                  [&c](interactions::Tag tag, Vec3d force) { account(c, tag, force); });
   });
   feel_instruments(c);
-  const interactions::TissueView view = tissue_of(c);
+  const interactions::Bodies bodies = bodies_of(c);
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     interactions::ToolState& tool = c.state.tools[t];
     const interactions::WallStop& wall = c.work.wall_stops[t];
     if (wall.stopped) add_force(tool.contact_force, wall.force * wall.normal);
     const int held = tool.holds, slips = tool.slipped;
     slip_in_jaws(c, t);
-    interactions::slip(c.model.tool(c.state, t), c.work.shapes[t], view, tool);
+    interactions::slip(c.model.tool(c.state, t), c.work.shapes[t], bodies, tool);
     if (held > 0 && tool.holds == 0) emit_grip_end(c, t, slips);
     interactions::remember(tool, joints_of(c.state, t), c.work.touches[t], c.state.touches[t], port_shift(c.state, t));
   }

@@ -63,7 +63,7 @@ Vec3d sample_point(const Model& model, const State& state, const Work& work, con
   }
   if (target.kind == VisibilityTarget::mark) return mark_sample(model, state, model.marks[i], sample.where, eye);
   if (target.kind == VisibilityTarget::organ) return work.surfaces[i].position(sample.where);
-  if (target.kind == VisibilityTarget::fold) return work.sheets[i].surface.position(sample.where);
+  if (target.kind == VisibilityTarget::fold) return work.membranes[i].sheet.surface.position(sample.where);
   const interactions::StrandBody& body = model.strand_bodies[i];
   const Vec3d centre = point_at(body, state.strands[i], {sample.where, sample.w});
   return centre + body.model.radius[size_t(sample.where)] * normalised(eye - centre);
@@ -78,7 +78,7 @@ bool faces_eye(const Model& model, const State& state, const Work& work, const V
   }
   if (target.kind == VisibilityTarget::fold)  // of a closed wall one side only is outside
     return !model.membranes[size_t(target.index)].sheet.closed() ||
-           dot(work.sheets[size_t(target.index)].surface.normal(sample.where), eye - point) > 0;
+           dot(work.membranes[size_t(target.index)].sheet.surface.normal(sample.where), eye - point) > 0;
   if (target.kind != VisibilityTarget::organ) return true;
   return dot(work.surfaces[size_t(target.index)].normal(sample.where), eye - point) > 0;
 }
@@ -96,8 +96,8 @@ bool before_folds(const Work& work, Vec3d eye, Vec3d point, double margin) noexc
   const double distance = length(point - eye);
   if (distance <= margin) return true;
   const Vec3d end = eye + (1.0 - margin / distance) * (point - eye);
-  for (const interactions::SheetView& sheet : work.sheets)
-    if (hits_surface(sheet.surface, eye, end, sheet.parted)) return false;
+  for (const interactions::MembraneBodyWork& membrane : work.membranes)
+    if (hits_surface(membrane.sheet.surface, eye, end, membrane.sheet.parted)) return false;
   return true;
 }
 

@@ -11,11 +11,11 @@ namespace trocar::sim {
 namespace {
 
 /// Bodies as fluids meet them: skins as posed in this tick, nodes as they move now.
-interactions::WetBodies wet_bodies(StepContext& c) noexcept {
-  for (size_t i = 0; i < size_t(c.model.organs()); ++i) c.work.surfaces[i].nodes = c.work.nodes[i];
+interactions::WetGround wet_ground(StepContext& c) noexcept {
+  for (size_t i = 0; i < size_t(c.model.organs()); ++i) c.work.surfaces[i].nodes = c.work.organs[i].nodes;
   for (size_t i = 0; i < c.model.membranes.size(); ++i)
-    c.work.sheets[i].surface.nodes = view_of(c.model.membranes[i].sheet.network, c.state.membranes[i].network);
-  return {c.work.surfaces, c.work.sheets, c.model.strand_bodies, c.state.strands, c.model.wet.film, c.model.wet.grids};
+    c.work.membranes[i].sheet.surface.nodes = view_of(c.model.membranes[i].sheet.network, c.state.membranes[i].network);
+  return {bodies_of(c), c.model.wet.film, c.model.wet.grids};
 }
 
 /// An opening's side keeps its number for as long as it is there.
@@ -44,11 +44,11 @@ fluids::Outlet& next_outlet(StepContext& c, size_t& place) noexcept {
 /// What runs out of pouches by their walls and by their ducts, as bile. @return the place taken last, counted down
 size_t lay_out_leaks(StepContext& c, size_t place) noexcept {
   const size_t membranes = c.model.membranes.size();
-  for (size_t i = 0; i < c.work.leaks.size(); ++i) {
+  for (size_t i = 0; i < 2 * membranes; ++i) {
     const MembraneBody& m = c.model.membranes[i % membranes];
     if (m.sheet.enclosure.kind == tissue::Enclosure::none || (i >= membranes && m.duct < 0)) continue;
     fluids::Outlet& o = next_outlet(c, place);
-    const tissue::Leak& leak = c.work.leaks[i];
+    const tissue::Leak& leak = i < membranes ? c.work.membranes[i].by_wall : c.work.membranes[i - membranes].by_duct;
     if (leak.picolitres == 0 || m.sheet.enclosure.kind == tissue::Enclosure::gas) continue;
     o.flow.bile += leak.picolitres;
     if (o.area > 0) continue;
@@ -118,7 +118,7 @@ int lay_out_instruments(StepContext& c, int bodies) noexcept {
 }
 
 /// Valves of the instruments that have them. While a hand puts its instrument away nothing flows.
-void lay_out_valves(StepContext& c, const interactions::WetBodies& bodies) noexcept {
+void lay_out_valves(StepContext& c, const interactions::WetGround& ground) noexcept {
   c.work.valves = {};
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     const interactions::ToolModel& tool = c.model.tool(c.state, t);
@@ -130,7 +130,7 @@ void lay_out_valves(StepContext& c, const interactions::WetBodies& bodies) noexc
     out.velocity = vec_cast<float>(bore.velocity);
     out.irrigation = (c.input.pedals & irrigates(int(t))) != 0 ? 1 : 0;
     out.suction = (c.input.pedals & sucks(int(t))) != 0 ? 1 : 0;
-    out.blocked = out.suction > 0 && covered(bodies, bore.end, interactions::kPlugs);
+    out.blocked = out.suction > 0 && covered(ground, bore.end, interactions::kPlugs);
   }
 }
 
@@ -191,13 +191,13 @@ struct Push {
 };
 
 void press_surface(StepContext& c, size_t i, int vertex, const Push& push) noexcept {
-  if (i >= size_t(c.model.organs()) || vertex >= c.work.skins[i]->size()) return;  // a wall
-  const tissue::NodeView& nodes = c.work.nodes[i];
+  if (i >= size_t(c.model.organs()) || vertex >= c.work.organs[i].skin->size()) return;  // a wall
+  const tissue::NodeView& nodes = c.work.organs[i].nodes;
   interactions::SkinLoad load;
-  load.f0 = push.force(tissue::skin_velocity(nodes, *c.work.skins[i], vertex));
+  load.f0 = push.force(tissue::skin_velocity(nodes, *c.work.organs[i].skin, vertex));
   load.dir = push.dir;
   load.d = push.drag();
-  add_skin_load(nodes, *c.work.skins[i], vertex, load, {}, c.work.organ_loads[i]);
+  add_skin_load(nodes, *c.work.organs[i].skin, vertex, load, {}, c.work.organs[i].loads);
 }
 
 void press_sheet(StepContext& c, size_t i, int node, const Push& push) noexcept {
@@ -207,7 +207,7 @@ void press_sheet(StepContext& c, size_t i, int node, const Push& push) noexcept 
   load.f0 = vec_cast<float>(push.force(nodes.velocity(node)));
   load.dir = vec_cast<float>(push.dir);
   load.d = float(push.drag());
-  c.work.membrane_loads[i].add(load, {});
+  c.work.membranes[i].loads.add(load, {});
 }
 
 void press_strand(StepContext& c, size_t i, int node, const Push& push) noexcept {
@@ -218,7 +218,7 @@ void press_strand(StepContext& c, size_t i, int node, const Push& push) noexcept
   load.f0 = push.force(c.state.strands[i].v[size_t(node)]);
   load.dir = push.dir;
   load.d = push.drag();
-  c.work.strand_loads[i].add(load, {});
+  c.work.strands[i].loads.add(load, {});
 }
 
 }  // namespace
@@ -240,9 +240,9 @@ void move_fluids(StepContext& c) noexcept {
   if (!c.model.wet.there) return;
   lay_out_bleeding(c);
   lay_out_needles(c, lay_out_oozing(c, lay_out_leaks(c, c.work.wounds.size())));
-  const interactions::WetBodies bodies = wet_bodies(c);
-  const int tools = lay_out_instruments(c, bodies.count());
-  lay_out_valves(c, bodies);
+  const interactions::WetGround ground = wet_ground(c);
+  const int tools = lay_out_instruments(c, ground.count());
+  lay_out_valves(c, ground);
   fluids::FluidsInput input;
   input.openings = c.work.wounds;
   input.capsules = {c.work.wet_tools.data(), size_t(tools)};
@@ -253,7 +253,7 @@ void move_fluids(StepContext& c) noexcept {
   if (c.work.steam.kilograms > 0) input.boiled = {&c.work.steam, 1};
   input.smoke.coagulating = c.work.current_flows;
   begin_tick(c.model.wet.model, input, c.state.fluids, c.work.fluids);
-  answer_drops(bodies, normalised(c.model.gravity, {0, 0, -1}), c.state.fluids.droplets, c.work.fluids.droplets,
+  answer_drops(ground, normalised(c.model.gravity, {0, 0, -1}), c.state.fluids.droplets, c.work.fluids.droplets,
                c.work.wet);
   const fluids::FluidsReport report = finish_tick(c.model.wet.model, input, c.state.fluids, c.work.fluids);
   if (report.report.flags & fluids::FluidReport::kDropletsFull) c.report.flags |= StepReport::kDropsFull;

@@ -19,20 +19,20 @@ ElectrodeHand& electrode_of(StepContext& c, size_t t) noexcept {
 
 void begin_adhesion(StepContext& c, size_t t, const interactions::ElectrodeTouch& touch, ElectrodeHand& hand) noexcept {
   if (hand.stuck.body.exists() || hand.current.stuck < kGlues) return;
-  hand.stuck = interactions::stuck_at(c.work.shapes[t], tissue_of(c), touch.point);
+  hand.stuck = interactions::stuck_at(c.work.shapes[t], bodies_of(c), touch.point);
 }
 
 // Char on electrodes.
 void apply_adhesion(StepContext& c) noexcept {
   if (!c.model.energy.there) return;
-  const interactions::TissueView view = tissue_of(c);
+  const interactions::Bodies bodies = bodies_of(c);
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     ElectrodeHand& hand = electrode_of(c, t);
     if (!hand.stuck.body.exists()) continue;
     const interactions::ToolShape& shape = c.work.shapes[t];
     const double bears = c.model.tool(c.state, t).electrode.current.stick_force * hand.current.stuck;
-    if (interactions::is_whole(view, hand.stuck) && interactions::stuck_pull(shape, view, hand.stuck) <= bears) {
-      interactions::stuck_load(shape, int(t), view, hand.stuck, loads_of(c));
+    if (interactions::is_whole(bodies, hand.stuck) && interactions::stuck_pull(shape, bodies, hand.stuck) <= bears) {
+      interactions::stuck_load(shape, int(t), bodies, hand.stuck);
       continue;
     }
     tissue::tear_off(hand.current);

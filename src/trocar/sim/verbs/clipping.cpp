@@ -76,7 +76,7 @@ void Clipping::work(StepContext& c, std::size_t t) noexcept {
   interactions::ToolState& tool = s.tools[t];
   stop_at_clips(c, t);
   const int clips = tool.clips_left;
-  const bool fired = update_clip_applier(c.model.tool(s, t), c.work.shapes[t], int(t), tissue_of(c), s.strands,
+  const bool fired = update_clip_applier(c.model.tool(s, t), c.work.shapes[t], int(t), bodies_of(c), s.strands,
                                          jaw_tips_visible(c.model, s, int(t)), s.tick, tool, {s.clips, s.clip_count});
   if (fired) {
     const int clip = s.clip_count - 1;

@@ -27,7 +27,7 @@ void record_organ_cut(StepContext& c, size_t t, size_t organ) noexcept {
 
 bool blades_near(const StepContext& c, size_t t, size_t organ, double margin) noexcept {
   const interactions::ToolShape& shape = c.work.shapes[t];
-  return c.work.poses[organ].bounds.near_segment(shape.pivot, shape.frame.tip, margin);
+  return c.work.organs[organ].pose.bounds.near_segment(shape.pivot, shape.frame.tip, margin);
 }
 
 /// What cannot be recorded is not cut.
@@ -72,7 +72,7 @@ void cut_folds(StepContext& c, size_t t, const geometry::Blade& blade, bool clos
   visit_membranes(c.model, [&](MembraneRef r) {
     const MembraneBody& m = model_of(c.model, r);
     if (m.sheet.closed() != closed_walls) return;
-    if (!m.cuttable || !c.work.sheet_poses[r.index].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) return;
+    if (!m.cuttable || !c.work.membranes[r.index].pose.bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) return;
     const int place = place_in_buffer(s, t, m.strand);
     if (place == interactions::kMaxCuts) return;  // what cannot be recorded is not cut
     const Parting fold = cut(c, r, blade);
@@ -124,7 +124,7 @@ void Cutting::work(StepContext& c, std::size_t t) noexcept {
   const int before = s.cut_count;
   cut_flesh(c, t);
   const bool armed = tool.armed != 0;
-  update_scissors(model, c.work.shapes[t], int(t), tissue_of(c), s.strands, jaw_tips_visible(c.model, s, int(t)),
+  update_scissors(model, c.work.shapes[t], int(t), bodies_of(c), s.strands, jaw_tips_visible(c.model, s, int(t)),
                   s.tick, tool, {s.cuts, s.cut_count});
   if (armed && !tool.armed) {
     cut_threads(c, t);

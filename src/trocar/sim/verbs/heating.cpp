@@ -45,7 +45,7 @@ void sink(const StepContext& c, ElectrodeTouch& touch) noexcept {
 ElectrodeTouch touch_of(const StepContext& c, size_t t, tissue::EnergyMode mode) noexcept {
   if (!at_work(c.state.electrodes[t], mode)) return {};
   ElectrodeTouch touch =
-      interactions::electrode_touch(c.model.tool(c.state, t), c.work.shapes[t], c.state.tools[t], tissue_of(c));
+      interactions::electrode_touch(c.model.tool(c.state, t), c.work.shapes[t], c.state.tools[t], bodies_of(c));
   sink(c, touch);
   return touch;
 }

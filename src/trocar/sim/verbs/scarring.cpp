@@ -134,9 +134,9 @@ void scar(StepContext& c, const ElectrodeTouch& touch, StrandRef r) noexcept {
 
 using Springs = std::vector<tissue::ScarredSpring>;
 
-Springs& springs_of(StepContext& c, SolidRef r) noexcept { return c.work.organ_scars[r.organ()]; }
-Springs& springs_of(StepContext& c, CuttableRef r) noexcept { return c.work.organ_scars[r.organ()]; }
-Springs& springs_of(StepContext& c, MembraneRef r) noexcept { return c.work.membrane_scars[r.index]; }
+Springs& springs_of(StepContext& c, SolidRef r) noexcept { return c.work.organs[r.organ()].scars; }
+Springs& springs_of(StepContext& c, CuttableRef r) noexcept { return c.work.organs[r.organ()].scars; }
+Springs& springs_of(StepContext& c, MembraneRef r) noexcept { return c.work.membranes[r.index].scars; }
 
 void add_spring(const tissue::NetworkModel& m, const tissue::NetworkState& state, const Scar& scar,
                 Springs& to) noexcept {
@@ -184,8 +184,8 @@ void scar_tissue(StepContext& c, const ElectrodeTouch& touch) noexcept {
 }
 
 void apply_scars(StepContext& c) noexcept {
-  for (Springs& of : c.work.organ_scars) of.clear();
-  for (Springs& of : c.work.membrane_scars) of.clear();
+  for (interactions::OrganWork& of : c.work.organs) of.scars.clear();
+  for (interactions::MembraneBodyWork& of : c.work.membranes) of.scars.clear();
   for (int i = 0; i < c.state.scarred_count; ++i) {
     const Scar& scar = c.state.scarred[size_t(i)];
     visit(c.model, scar.body, [&](auto body) { add(c, scar, body); });

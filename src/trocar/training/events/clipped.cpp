@@ -5,6 +5,7 @@
 
 #include <trocar/interactions/objects/suture_clip.hpp>
 #include <trocar/interactions/verbs/clip.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/events/registry.hpp>
 #include <trocar/training/facts/needs.hpp>
@@ -147,11 +148,8 @@ bool foresee(const Snapshot& snapshot, int hand, Foreseen& out) {
   const interactions::ToolState& tool = snapshot.state.tools[size_t(hand)];
   if (!applier.can().set_clips || !tool.armed) return false;
   const interactions::ToolShape shape = sim::shape_of(snapshot.model, snapshot.state, size_t(hand));
-  interactions::TissueView view;
-  view.strands = snapshot.model.strand_bodies;
-  view.strand_states = snapshot.state.strands;
   out.clip = {};
-  interactions::fit_clip(applier, shape, view, out.clip);
+  interactions::fit_clip(applier, shape, sim::bodies_of(snapshot.model, snapshot.state), out.clip);
   if (out.clip.strand < 0) return false;
   out.clip.tool = hand;
   out.clip.closing_time = 3600;

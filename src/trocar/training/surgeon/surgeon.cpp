@@ -16,7 +16,6 @@ Surgeon::Surgeon(const sim::Model& model, const Tremor& tremor) : m_arms(model, 
     const std::string& name = model.hands[h].name;
     m_jaws[h] = {model.target_index(name + ".jaw_a"), model.target_index(name + ".jaw_b")};
   }
-  m_hosts = sim::make_host_views(model);
 }
 
 void Surgeon::begin_tick(const sim::Model& model, const sim::State& state) {
@@ -91,7 +90,7 @@ interactions::VesselSpot Surgeon::vessel_spot(int vessel, double s) {
   const interactions::VesselPath& path = m_model->vessels.list[size_t(vessel)].path;
   if (m_posed_vessel != vessel) {
     m_line.resize(path.points.size());
-    pose_vessel(path, look_at_hosts(*m_model, *m_state, m_hosts), m_line);
+    pose_vessel(path, bodies_of(*m_model, *m_state), m_line);
     m_posed_vessel = vessel;
   }
   return interactions::vessel_spot(path, m_line, {}, s);

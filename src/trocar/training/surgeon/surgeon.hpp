@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include <trocar/sim/model/host_views.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/suture/knots/knots.hpp>
 #include <trocar/training/surgeon/arms.hpp>
 #include <trocar/training/surgeon/camera_hand.hpp>
@@ -119,7 +119,6 @@ class Surgeon {
   double m_distance = 0;
   bool m_declares = false;
   std::optional<Vec3d> m_facing;
-  sim::HostViews m_hosts;
   std::vector<Vec3d> m_line;  ///< of the vessel that was asked for last, as it lies in this tick
   int m_posed_vessel = -1;
 };

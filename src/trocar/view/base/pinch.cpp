@@ -4,7 +4,7 @@
 #include <trocar/interactions/objects/suture_clip.hpp>
 #include <trocar/interactions/verbs/cut.hpp>
 #include <trocar/sim/bodies/sling.hpp>
-#include <trocar/sim/model/host_views.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/view/base/mesh_buffer.hpp>
 #include <trocar/view/base/pinch.hpp>
 
@@ -26,9 +26,8 @@ bool holds(const interactions::ToolState& tool, BodyId body) {
 sim::ClipSeat seat_of(const Clip& clip, const sim::Model& model, const sim::State& state) {
   if (clip.strand >= 0) return sim::seat_on_strand(clip, model, state);
   const interactions::VesselPath& path = model.vessels.list[std::size_t(clip.vessel - 1)].path;
-  sim::HostViews views = sim::make_host_views(model);
   std::vector<Vec3d> points(path.points.size());
-  pose_vessel(path, sim::look_at_hosts(model, state, views), points);
+  pose_vessel(path, sim::bodies_of(model, state), points);
   return sim::seat_on_vessel(clip, model, state, points);
 }
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <trocar/interactions/couplings/strand_body.hpp>
+#include <trocar/interactions/bodies/strand_body.hpp>
 
 namespace trocar::view {
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/numerics/portable.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/view/bodies/vessel_drawing.hpp>
 
 namespace trocar::view {
@@ -149,7 +150,7 @@ bool is_in_sight(const interactions::VesselPath& path) {
 
 VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, const Detail& detail,
                              Lie lie)
-    : m_model(&model), m_veins(veins), m_lie(lie), m_hosts(sim::make_host_views(model)) {
+    : m_model(&model), m_veins(veins), m_lie(lie) {
   for (const sim::Vessel& vessel : model.vessels.list) m_paths.push_back(nestled(vessel.path));
   for (const sim::DetailLevel& level : detail.levels()) m_errors.push_back(level.error);
   const sim::State state = sim::initial_state(model);
@@ -255,14 +256,14 @@ void VesselDrawing::join(const Run& run, std::size_t rings_apart, std::uint32_t 
 }
 
 void VesselDrawing::place(const sim::State& state) {
-  const interactions::VesselHosts hosts = sim::look_at_hosts(*m_model, state, m_hosts);
+  const interactions::Bodies bodies = sim::bodies_of(*m_model, state);
   std::vector<Vec3d> points;
   int posed = -1;
   for (Run& run : m_runs) {
     const interactions::VesselPath& path = m_model->vessels.list[std::size_t(run.vessel)].path;
     if (posed != run.vessel) {
       points.resize(path.points.size());
-      pose_vessel(m_paths[std::size_t(run.vessel)], hosts, points);
+      pose_vessel(m_paths[std::size_t(run.vessel)], bodies, points);
       posed = run.vessel;
     }
     run.line = line_of(run, state, points);

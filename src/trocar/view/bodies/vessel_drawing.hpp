@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include <trocar/sim/model/host_views.hpp>
+#include <trocar/sim/model/vessel_carriers.hpp>
 #include <trocar/view/base/level_of_detail.hpp>
 
 namespace trocar::view {
@@ -58,7 +58,6 @@ class VesselDrawing {
   std::vector<Run> m_runs;
   std::vector<double> m_errors;  ///< (levels) [m]
   int m_laid_out_for = -1;       ///< openings
-  sim::HostViews m_hosts;
   MeshBuffer m_buffer;
   std::vector<float> m_pressure;
   OwnedMesh m_mesh;

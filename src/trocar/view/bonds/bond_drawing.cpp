@@ -2,9 +2,10 @@
 #include <cmath>
 #include <utility>
 
+#include <trocar/interactions/couplings/border_loads.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
-#include <trocar/view/bodies/drawn_holders.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/view/bonds/bond_drawing.hpp>
 
 namespace trocar::view {
@@ -63,11 +64,11 @@ void BondDrawing::lay_thread(std::uint32_t first, Vec3d from, Vec3d to, Vec3d as
 }
 
 void BondDrawing::place(const sim::State& state) {
-  const DrawnHolders holders(*m_model, state);
+  const interactions::Bodies bodies = sim::bodies_of(*m_model, state);
   const tissue::NetworkModel& wall = m_model->membranes[membrane()].sheet.network;
   for (std::size_t i = 0; i < m_set->bonds.size(); ++i) {
     const interactions::Bond& bond = m_set->bonds[i];
-    const Vec3d foot = holders.foot(bond.hold);
+    const Vec3d foot = foot_of(bond.hold, bodies);
     const Vec3d node = tissue::position(wall, state.membranes[membrane()].network, bond.node);
     const Vec3d along = normalised(node - foot, Vec3d{0, 0, 1});
     for (int k = 0; k < kThreads; ++k) {

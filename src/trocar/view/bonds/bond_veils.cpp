@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/interactions/couplings/border_loads.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
-#include <trocar/view/bodies/drawn_holders.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/view/bonds/bond_veils.hpp>
 
 namespace trocar::view {
@@ -83,7 +84,7 @@ BondVeils::BondVeils(const sim::Model& model, std::size_t set, render::Backend& 
 
 /// @return has any of it changed since it was drawn?
 bool BondVeils::gather(const sim::State& state) {
-  const DrawnHolders holders(*m_model, state);
+  const interactions::Bodies bodies = sim::bodies_of(*m_model, state);
   const tissue::NetworkModel& wall = m_model->membranes[membrane()].sheet.network;
   m_ties.resize(m_set->bonds.size());
   m_ends.clear();
@@ -91,7 +92,7 @@ bool BondVeils::gather(const sim::State& state) {
   for (std::size_t i = 0; i < m_ties.size(); ++i) {
     const interactions::Bond& bond = m_set->bonds[i];
     VeilTie& tie = m_ties[i];
-    tie.foot = holders.foot(bond.hold);
+    tie.foot = foot_of(bond.hold, bodies);
     tie.node = tissue::position(wall, state.membranes[membrane()].network, bond.node);
     const double whole = 1 - std::clamp(double(state.bonds[m_index][i].damage), 0.0, 1.0);
     harmed = harmed || whole != tie.whole;

@@ -2,6 +2,7 @@
 
 #include <trocar/interactions/verbs/cut.hpp>
 #include <trocar/numerics/portable.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/view/base/looks.hpp>
 #include <trocar/view/base/pinch.hpp>
 #include <trocar/view/fluids/blood_run.hpp>
@@ -47,15 +48,14 @@ bool shut(const sim::State& state, const interactions::Cut& cut, double side) {
 
 }  // namespace
 
-WetDrawing::WetDrawing(const sim::Model& model)
-    : m_model(&model), m_drawing(model.wet.model), m_hosts(sim::make_host_views(model)) {
+WetDrawing::WetDrawing(const sim::Model& model) : m_model(&model), m_drawing(model.wet.model) {
   for (int i = 0; i < model.organs(); ++i) m_poses.push_back(tissue::make_pose(model.skin(i)));
   for (const sim::MembraneBody& m : model.membranes) m_poses.push_back(tissue::make_pose(m.skin));
-  m_surfaces.resize(std::size_t(model.surfaces()));
-  m_sheets.resize(model.membranes.size());
+  m_bodies.surfaces.resize(std::size_t(model.surfaces()));
+  m_bodies.membranes.resize(model.membranes.size());
   m_places.resize(std::size_t(model.wet.film.back()));
   m_sheer.resize(model.wet.film.size() - 1);
-  const interactions::WetOrder order(m_surfaces.size(), m_sheets.size());
+  const interactions::WetOrder order(m_bodies.surfaces.size(), model.membranes.size());
   for (std::size_t i = 0; i < model.membranes.size(); ++i)
     m_sheer[std::size_t(order.sheet(i))] = look(model, model.membranes[i].look).translucent;
   measure_places();
@@ -80,29 +80,29 @@ void WetDrawing::pose(const sim::State& state) {
   for (std::size_t i = 0; i < organs; ++i) {
     const tissue::NodeView nodes = nodes_of(*m_model, state, int(i));
     pose_skin(nodes, m_model->skin(int(i)), m_poses[i]);
-    m_surfaces[i] = {&m_model->skin(int(i)), &m_poses[i], nodes};
+    m_bodies.surfaces[i] = {&m_model->skin(int(i)), &m_poses[i], nodes};
   }
   for (std::size_t i = 0; i < m_model->walls.size(); ++i)
-    m_surfaces[organs + i] = {&m_model->walls[i].skin, &m_model->walls[i].pose, {}};
-  for (std::size_t i = 0; i < m_sheets.size(); ++i) {
+    m_bodies.surfaces[organs + i] = {&m_model->walls[i].skin, &m_model->walls[i].pose, {}};
+  for (std::size_t i = 0; i < m_bodies.membranes.size(); ++i) {
     const sim::MembraneBody& m = m_model->membranes[i];
     const tissue::NodeView nodes = view_of(m.sheet.network, state.membranes[i].network);
     pose_skin(nodes, m.skin, m_poses[organs + i]);
-    m_sheets[i] = {{&m.skin, &m_poses[organs + i], nodes},
-                   state.torn[i],
-                   m.sheet.network.fixed,
-                   0.5 * m.sheet.thickness,
-                   m.pinch_reach};
+    m_bodies.membranes[i].sheet = {{&m.skin, &m_poses[organs + i], nodes},
+                                   state.torn[i],
+                                   m.sheet.network.fixed,
+                                   0.5 * m.sheet.thickness,
+                                   m.pinch_reach};
   }
 }
 
 void WetDrawing::list(const sim::State& state, render::Frame& frame) {
   pose(state);
-  const interactions::WetBodies bodies{m_surfaces, m_sheets, m_model->strand_bodies, state.strands, m_model->wet.film};
+  const interactions::WetGround ground{{*m_model, state, &m_bodies}, m_model->wet.film};
   const Vec3d down = normalised(m_model->gravity, {0, 0, -1});
   for (std::size_t i = 0; i < m_places.size(); ++i) {
     if (state.fluids.droplets.film[i].total() == 0) continue;
-    const interactions::WetPlace at = wet_place(bodies, down, std::int32_t(i));
+    const interactions::WetPlace at = wet_place(ground, down, std::int32_t(i));
     const bool sheer = at.body >= 0 && m_sheer[std::size_t(at.body)] != 0;
     m_places[i] = {vec_cast<float>(at.point), vec_cast<float>(at.normal), m_places[i].area, sheer};
   }
@@ -115,13 +115,13 @@ void WetDrawing::list(const sim::State& state, render::Frame& frame) {
 /// From every opening of a vessel, also when it bleeds no more.
 void WetDrawing::list_runs(const sim::State& state, render::Liquid& liquid) {
   if (state.opening_count == 0) return;
-  const interactions::VesselHosts hosts = sim::look_at_hosts(*m_model, state, m_hosts);
+  const interactions::Bodies bodies = sim::bodies_of(*m_model, state);
   std::vector<Vec3d> points;
   for (int i = 0; i < state.opening_count; ++i) {
     const interactions::VesselOpening& opening = state.openings[std::size_t(i)];
     const sim::Vessel& vessel = m_model->vessels.list[std::size_t(opening.vessel)];
     points.resize(vessel.path.points.size());
-    pose_vessel(vessel.path, hosts, points);
+    pose_vessel(vessel.path, bodies, points);
     BloodRun run;
     run.wound = vessel_spot(vessel.path, points, {}, opening.s).place;
     run.since = sim::kTick * double(state.tick - std::min(state.tick, opening.tick));

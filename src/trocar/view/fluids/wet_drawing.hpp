@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <trocar/interactions/wetting/fluid_contact.hpp>
-#include <trocar/sim/model/host_views.hpp>
 #include <trocar/sim/model/state.hpp>
+#include <trocar/sim/model/vessel_carriers.hpp>
 #include <trocar/view/fluids/fluid_drawing.hpp>
 
 namespace trocar::view {
@@ -28,12 +28,10 @@ class WetDrawing {
 
   const sim::Model* m_model;
   FluidDrawing m_drawing;
-  std::vector<tissue::SkinPose> m_poses;          ///< (organs, membranes)
-  std::vector<interactions::Surface> m_surfaces;  ///< (organs, walls)
-  std::vector<interactions::SheetView> m_sheets;
-  sim::HostViews m_hosts;
-  std::vector<FilmPlace> m_places;    ///< (film cells)
-  std::vector<std::uint8_t> m_sheer;  ///< (bodies)
+  std::vector<tissue::SkinPose> m_poses;  ///< (organs, membranes)
+  interactions::BodyWork m_bodies;        ///< surfaces and sheets, posed
+  std::vector<FilmPlace> m_places;        ///< (film cells)
+  std::vector<std::uint8_t> m_sheer;      ///< (bodies)
 };
 
 }  // namespace trocar::view

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/interactions/couplings/border_loads.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
-#include <trocar/view/bodies/drawn_holders.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/view/objects/fat_drawing.hpp>
 
 namespace trocar::view {
@@ -139,11 +140,11 @@ void FatDrawing::draw_nodules(Drawn& d) {
 /// By what rags hang on ducts and organs.
 void FatDrawing::add_roots(const Drawn& d, const sim::State& state, const interactions::FatBodyState& fat) {
   const tissue::FatModel& m = d.body->fat;
-  const DrawnHolders holders(*m_model, state);
+  const interactions::Bodies bodies = sim::bodies_of(*m_model, state);
   for (std::size_t i = 0; i < d.body->roots.bonds.size(); ++i) {
     const interactions::Bond& root = d.body->roots.bonds[i];
     if (!fat.roots[i].holds() || m_held[std::size_t(root.node)] >= kRag) continue;
-    const Vec3d foot = holders.foot(root.hold), lobule = position(m, fat.fat, root.node);
+    const Vec3d foot = foot_of(root.hold, bodies), lobule = position(m, fat.fat, root.node);
     if (length(lobule - foot) > kThreadTo * m.spacing) continue;  // keyframes of a recording do not know what parted
     add_thread(foot, lobule, m.network.rest[std::size_t(root.node)],
                burn_of(m, fat.fat.lobules[std::size_t(root.node)]), m_buffer);
@@ -153,7 +154,7 @@ void FatDrawing::add_roots(const Drawn& d, const sim::State& state, const intera
 /// In the gaps between lobules, and to what they are rooted on, as long as that holds.
 void FatDrawing::add_veils(Drawn& d, const sim::State& state, const interactions::FatBodyState& fat) const {
   const tissue::FatModel& m = d.body->fat;
-  const DrawnHolders holders(*m_model, state);
+  const interactions::Bodies bodies = sim::bodies_of(*m_model, state);
   VeilFrame frame;
   std::vector<int> at(std::size_t(m.lobules()), -1);
   for (std::size_t i = 0; i < m_lobules.size(); ++i) {
@@ -169,7 +170,7 @@ void FatDrawing::add_veils(Drawn& d, const sim::State& state, const interactions
   for (std::size_t i = 0; i < d.body->roots.bonds.size(); ++i) {
     const interactions::Bond& root = d.body->roots.bonds[i];
     const int lobule = at[std::size_t(root.node)];
-    const Vec3f foot = vec_cast<float>(holders.foot(root.hold));
+    const Vec3f foot = vec_cast<float>(foot_of(root.hold, bodies));
     if (!fat.roots[i].holds() || lobule < 0) continue;
     if (length(foot - frame.places[std::size_t(lobule)]) > kRootAtMost * float(m.spacing)) continue;
     link(lobule, int(frame.places.size()));

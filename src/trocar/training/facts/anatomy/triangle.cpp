@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/interactions/couplings/strand_body.hpp>
+#include <trocar/interactions/bodies/strand_body.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/training/facts/registry.hpp>
 

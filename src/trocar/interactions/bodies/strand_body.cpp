@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <trocar/core/field_hash.hpp>
-#include <trocar/interactions/couplings/strand_body.hpp>
+#include <trocar/interactions/bodies/strand_body.hpp>
 
 namespace trocar::interactions {
 namespace {

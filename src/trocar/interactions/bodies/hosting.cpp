@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include <trocar/interactions/couplings/hosting.hpp>
+#include <trocar/interactions/bodies/hosting.hpp>
 
 namespace trocar::interactions {
 namespace {

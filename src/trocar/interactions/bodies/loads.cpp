@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/bodies/loads.hpp>
 
 namespace trocar::interactions {
 

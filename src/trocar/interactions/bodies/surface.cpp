@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include <trocar/geometry/surfaces/nearest.hpp>
-#include <trocar/interactions/contact/surface.hpp>
+#include <trocar/interactions/bodies/surface.hpp>
 
 namespace trocar::interactions {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <trocar/core/fields.hpp>
-#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/bodies/loads.hpp>
 
 namespace trocar::interactions {
 

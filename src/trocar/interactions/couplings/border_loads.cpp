@@ -1,5 +1,5 @@
 #include <trocar/core/field_hash.hpp>
-#include <trocar/interactions/couplings/border.hpp>
+#include <trocar/interactions/couplings/border_loads.hpp>
 
 namespace trocar::interactions {
 namespace {
@@ -22,48 +22,51 @@ double whole_share(const tissue::MembraneModel& sheet, const tissue::MembraneSta
 
 double added_damping(const tissue::BorderPull& pull, double dt) noexcept { return 0.35 * pull.k * dt + 0.6 * pull.d; }
 
-Vec3d held_place(const BorderHold& hold, const Holders& holders) noexcept {
+Vec3d held_place(const BorderHold& hold, const Bodies& bodies) noexcept {
   const std::size_t i = std::size_t(hold.index);
   if (hold.kind == BorderHold::strand)
-    return point_at(holders.strands[i], holders.strand_states[i], hold.place) + hold.offset;
-  if (hold.kind == BorderHold::organ) return skin_point(holders.nodes[i], *holders.skins[i], hold.vertex) + hold.offset;
+    return point_at(bodies.strand(i), bodies.strand_state(i), hold.place) + hold.offset;
+  if (hold.kind == BorderHold::organ)
+    return skin_point(organ_nodes(bodies, i), skin_of(bodies, i), hold.vertex) + hold.offset;
   return hold.offset;
 }
 
-Vec3d held_velocity(const BorderHold& hold, const Holders& holders) noexcept {
+Vec3d foot_of(const BorderHold& hold, const Bodies& bodies) noexcept { return held_place(hold, bodies) - hold.offset; }
+
+Vec3d held_velocity(const BorderHold& hold, const Bodies& bodies) noexcept {
   const std::size_t i = std::size_t(hold.index);
-  if (hold.kind == BorderHold::organ) return skin_velocity(holders.nodes[i], *holders.skins[i], hold.vertex);
+  if (hold.kind == BorderHold::organ) return skin_velocity(organ_nodes(bodies, i), skin_of(bodies, i), hold.vertex);
   if (hold.kind != BorderHold::strand) return {};
-  const tissue::StrandState& s = holders.strand_states[i];
+  const tissue::StrandState& s = bodies.strand_state(i);
   const std::size_t e = std::size_t(hold.place.element);
   return s.v[e] + bearing(hold.place, s) * (s.v[e + 1] - s.v[e]);
 }
 
-void bear(const BorderHold& hold, Vec3d force, double d, const Holders& holders, std::span<StrandLoads> strand_loads,
-          std::span<NetworkLoads> organ_loads) noexcept {
+void bear(const BorderHold& hold, Vec3d force, double d, const Bodies& bodies) noexcept {
   const std::size_t i = std::size_t(hold.index);
   if (hold.kind == BorderHold::strand) {
     tissue::StrandLoad load;
     load.element = hold.place.element;
-    load.w = bearing(hold.place, holders.strand_states[i]);
+    load.w = bearing(hold.place, bodies.strand_state(i));
     load.d = d;
-    load.f0 = force + d * held_velocity(hold, holders);
-    strand_loads[i].add(load, {Owner::body, 0, 0});
+    load.f0 = force + d * held_velocity(hold, bodies);
+    bodies.work->strands[i].loads.add(load, {Owner::body, 0, 0});
   } else if (hold.kind == BorderHold::organ) {
     SkinLoad load;
     load.d = d;
-    load.f0 = force + d * counted_on(held_velocity(hold, holders));
-    add_skin_load(holders.nodes[i], *holders.skins[i], hold.vertex, load, {Owner::strand_end, 0, 0}, organ_loads[i]);
+    load.f0 = force + d * counted_on(held_velocity(hold, bodies));
+    add_skin_load(organ_nodes(bodies, i), skin_of(bodies, i), hold.vertex, load, {Owner::strand_end, 0, 0},
+                  bodies.work->organs[i].loads);
   }
 }
 
 void border_loads(std::span<const BorderHold> holds, std::span<const tissue::BorderPull> pulls,
-                  const tissue::MembraneModel& sheet, const tissue::MembraneState& state, const Holders& holders,
-                  double dt, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads) noexcept {
+                  const tissue::MembraneModel& sheet, const tissue::MembraneState& state, const Bodies& bodies,
+                  double dt) noexcept {
   for (std::size_t h = 0; h < holds.size(); ++h) {
     if (holds[h].kind == BorderHold::space) continue;
     const Vec3d force = pulls[h].force - whole_share(sheet, state, h) * holds[h].drawn_pull;
-    bear(holds[h], force, added_damping(pulls[h], dt), holders, strand_loads, organ_loads);
+    bear(holds[h], force, added_damping(pulls[h], dt), bodies);
   }
 }
 
