@@ -15,6 +15,12 @@ OrganWork make_organ(const tissue::Skin& skin, std::size_t anchors, std::size_t 
   return w;
 }
 
+std::size_t rows_of(const BodyModels& models, std::size_t organ) {
+  const std::size_t lattices = models.solids.size();
+  return std::size_t(organ < lattices ? models.solids[organ].network.rows
+                                      : models.cuttables[organ - lattices].body.rows);
+}
+
 }  // namespace
 
 BodyWork make_work(const BodyModels& models, std::size_t walls, std::size_t scars) {
@@ -27,6 +33,11 @@ BodyWork make_work(const BodyModels& models, std::size_t walls, std::size_t scar
   for (const CuttableOrgan& c : models.cuttables) {
     w.cuttables.push_back({tissue::make_work(c.body), tissue::make_skin(c.body)});
     w.organs.push_back(make_organ(w.cuttables.back().skin.skin, c.body.anchors.size(), kCellSprings * scars));
+  }
+  for (const StaticOrgan& o : models.statics) {
+    const OrganWork& organ = w.organs[std::size_t(o.organ)];
+    w.statics.push_back({tissue::make_work(o.solver, int(organ.loads.gathered.capacity())), {}});
+    w.statics.back().before.resize(rows_of(models, std::size_t(o.organ)));
   }
   for (const StrandBody& b : models.strand_bodies) {
     StrandBodyWork& strand = w.strands.emplace_back();
@@ -58,6 +69,39 @@ tissue::NodeView membrane_nodes(const Bodies& bodies, std::size_t membrane) noex
 
 tissue::NodeView nodes_of(const Bodies& bodies, BodyId body) noexcept {
   return body.is(BodyKind::organ) ? organ_nodes(bodies, body.index()) : membrane_nodes(bodies, body.index());
+}
+
+std::size_t node_count(const Bodies& bodies, BodyId body) noexcept {
+  if (is_tetrahedral(bodies, body)) return std::size_t(tets_of(bodies, body).nodes);
+  return nodes_of(bodies, body).row_of_node.size();
+}
+
+std::span<const Vec3d> drawn_nodes(const BodyModels& models, BodyId body) noexcept {
+  const std::size_t i = body.index(), lattices = models.solids.size();
+  if (body.is(BodyKind::membrane)) return models.membranes[i].sheet.network.rest;
+  if (i < lattices) return models.solids[i].network.rest;
+  const tissue::CuttableModel& tets = models.cuttables[i - lattices].body;
+  return {tets.drawn.rest.data(), std::size_t(tets.own_nodes)};
+}
+
+bool takes_loads(const Bodies& bodies, BodyId body, std::int32_t node) noexcept {
+  if (!body.is(BodyKind::organ)) return true;
+  for (const StaticOrgan& organ : bodies.models.statics)
+    if (organ.organ == std::int32_t(body.index()))
+      return std::size_t(node) < organ.solver.slot.size() && organ.solver.slot[std::size_t(node)] >= 0;
+  return true;
+}
+
+bool is_tetrahedral(const Bodies& bodies, BodyId body) noexcept {
+  return body.is(BodyKind::organ) && body.index() >= bodies.models.solids.size();
+}
+
+const geometry::CuttableTets& tets_of(const Bodies& bodies, BodyId body) noexcept {
+  return bodies.states.cuttables[body.index() - bodies.models.solids.size()].tets;
+}
+
+const geometry::Tet* cell_of(const Bodies& bodies, BodyId body, std::int32_t cell) noexcept {
+  return is_tetrahedral(bodies, body) && cell >= 0 ? &tets_of(bodies, body).cells[std::size_t(cell)] : nullptr;
 }
 
 const tissue::Skin& skin_of(const Bodies& bodies, std::size_t organ) noexcept {

@@ -42,6 +42,16 @@ struct Bodies {
 tissue::NodeView nodes_of(const Bodies& bodies, BodyId body) noexcept;
 tissue::NodeView organ_nodes(const Bodies& bodies, std::size_t organ) noexcept;
 tissue::NodeView membrane_nodes(const Bodies& bodies, std::size_t membrane) noexcept;
+std::size_t node_count(const Bodies& bodies, BodyId body) noexcept;
+/// Where its nodes were drawn, without those that cuts have made [m].
+std::span<const Vec3d> drawn_nodes(const BodyModels& models, BodyId body) noexcept;
+/// Of a quasi-static organ only the nodes that its solver keeps do.
+bool takes_loads(const Bodies& bodies, BodyId body, std::int32_t node) noexcept;
+bool is_tetrahedral(const Bodies& bodies, BodyId body) noexcept;
+/// Of a tetrahedral body, as cuts have left them.
+const geometry::CuttableTets& tets_of(const Bodies& bodies, BodyId body) noexcept;
+/// That one; null for bodies of another kind.
+const geometry::Tet* cell_of(const Bodies& bodies, BodyId body, std::int32_t cell) noexcept;
 /// Of an organ: in a tick with what cuts have made of it.
 const tissue::Skin& skin_of(const Bodies& bodies, std::size_t organ) noexcept;
 /// Where loads on an organ or a membrane go. Only in a tick.

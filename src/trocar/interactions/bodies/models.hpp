@@ -9,6 +9,7 @@
 #include <trocar/core/fields.hpp>
 #include <trocar/interactions/bodies/border.hpp>
 #include <trocar/interactions/bodies/hosting.hpp>
+#include <trocar/interactions/bodies/static_organ.hpp>
 #include <trocar/interactions/bodies/strand_body.hpp>
 #include <trocar/tissue/membrane/membrane.hpp>
 #include <trocar/tissue/network/prestress.hpp>
@@ -122,6 +123,7 @@ struct MembraneBody {
 struct BodyModels {
   std::vector<SolidModel> solids;
   std::vector<CuttableOrgan> cuttables;
+  std::vector<StaticOrgan> statics;  ///< those of both that are quasi-static
   std::vector<StrandAnatomy> strands;
   std::vector<StrandBody> strand_bodies;  ///< (strands) their mechanics
   std::vector<MembraneBody> membranes;

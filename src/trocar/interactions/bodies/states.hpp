@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <trocar/interactions/bodies/static_organ.hpp>
 #include <trocar/tissue/membrane/membrane.hpp>
 #include <trocar/tissue/network/network.hpp>
 #include <trocar/tissue/strand/strand.hpp>
@@ -15,6 +16,7 @@ namespace trocar::interactions {
 struct BodyStates {
   std::vector<tissue::NetworkState> solids;
   std::vector<tissue::CuttableState> cuttables;
+  std::vector<StaticOrganState> statics;  ///< (BodyModels::statics)
   std::vector<tissue::StrandState> strands;
   std::vector<tissue::MembraneState> membranes;
   std::vector<std::vector<std::uint8_t>> torn;  ///< (membranes) per triangle: 1 = cut open

@@ -76,6 +76,7 @@ struct BodyWork {
   std::vector<OrganWork> organs;
   std::vector<tissue::NetworkWork> solids;
   std::vector<TetrahedralWork> cuttables;
+  std::vector<StaticOrganWork> statics;
   std::vector<StrandBodyWork> strands;
   std::vector<MembraneBodyWork> membranes;
   std::vector<Surface> surfaces;  ///< (organs, walls)

@@ -21,12 +21,12 @@ bool advance_one(StepContext& c, Ref r) noexcept {
   const int i = static_number(c.model, r.organ());
   if (i < 0 || !c.state.statics[std::size_t(i)].at_once()) return false;
   const StaticOrgan& organ = c.model.statics[std::size_t(i)];
-  StaticOrganState& state = c.state.statics[std::size_t(i)];
+  interactions::StaticOrganState& state = c.state.statics[std::size_t(i)];
   interactions::NetworkLoads& loads = c.work.organs[r.organ()].loads;
   loads.keep_order();
   c.work.organs[r.organ()].report =
       tissue::advance(organ.solver, loads.sorted, loads.point, loads.reaction, {carried(c, r).x}, state.body,
-                      rows_of(c, r), c.work.static_work[std::size_t(i)].solver);
+                      rows_of(c, r), c.work.statics[std::size_t(i)].solver);
   if (state.body.turn <= organ.beyond) return true;
   if (organ.hands_over)
     switch_to_dynamic(c, r);
@@ -53,27 +53,27 @@ void switch_one_to_dynamic(StepContext& c, Ref r) noexcept {
 
 /// The organ's state while the difference comes in; null: it does not.
 template <class Ref>
-StaticOrganState* fading(StepContext& c, Ref r, std::size_t& i) noexcept {
+interactions::StaticOrganState* fading(StepContext& c, Ref r, std::size_t& i) noexcept {
   const int number = static_number(c.model, r.organ());
   if (number < 0) return nullptr;
   i = std::size_t(number);
-  StaticOrganState& state = c.state.statics[i];
-  return state.at_once() || state.handed_over > kFadeTicks ? nullptr : &state;
+  interactions::StaticOrganState& state = c.state.statics[i];
+  return state.at_once() || state.handed_over > interactions::kFadeTicks ? nullptr : &state;
 }
 
 template <class Ref>
 void before_one(StepContext& c, Ref r) noexcept {
   std::size_t i = 0;
-  if (fading(c, r, i)) c.work.static_work[i].before = rows_of(c, r);
+  if (fading(c, r, i)) c.work.statics[i].before = rows_of(c, r);
 }
 
 template <class Ref>
 void after_one(StepContext& c, Ref r) noexcept {
   std::size_t i = 0;
-  StaticOrganState* state = fading(c, r, i);
+  interactions::StaticOrganState* state = fading(c, r, i);
   if (!state) return;
-  const float share = float(state->handed_over) / float(kFadeTicks);
-  const std::vector<tissue::NodeState>& before = c.work.static_work[i].before;
+  const float share = float(state->handed_over) / float(interactions::kFadeTicks);
+  const std::vector<tissue::NodeState>& before = c.work.statics[i].before;
   std::vector<tissue::NodeState>& rows = rows_of(c, r);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     tissue::NodeState& n = rows[k];

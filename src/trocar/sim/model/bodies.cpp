@@ -47,10 +47,7 @@ const CuttableOrgan& cuttable_of(const Model& model, int organ) noexcept {
 }
 
 std::span<const Vec3d> drawn_nodes(const Model& model, int organ) noexcept {
-  const std::int32_t lattice = lattice_of(model, organ);
-  if (lattice >= 0) return model.solids[size_t(lattice)].network.rest;
-  const tissue::CuttableModel& body = cuttable_of(model, organ).body;
-  return {body.drawn.rest.data(), size_t(body.own_nodes)};
+  return interactions::drawn_nodes(model, BodyId::organ(size_t(organ)));
 }
 
 int places_on(const Model& model, BodyId body) {

@@ -23,7 +23,6 @@
 #include <trocar/sim/model/input.hpp>
 #include <trocar/sim/model/mark.hpp>
 #include <trocar/sim/model/motion.hpp>
-#include <trocar/sim/model/static_organ.hpp>
 #include <trocar/tissue/heat/electrosurgery.hpp>
 #include <trocar/vessels/flow.hpp>
 
@@ -34,6 +33,8 @@ using interactions::CuttableOrgan;
 using interactions::LandmarkModel;
 using interactions::MembraneBody;
 using interactions::SolidModel;
+using interactions::StaticOrgan;
+using interactions::StaticOrganState;
 using interactions::StrandAnatomy;
 using interactions::StrandEndModel;
 
@@ -242,7 +243,6 @@ struct Model : interactions::BodyModels {
   std::string name, file;
   std::string anatomy, anatomy_title;  ///< the variant that the seed has; empty: the scene has none
   Vec3d gravity;
-  std::vector<StaticOrgan> statics;  ///< those organs that are quasi-static
   std::vector<WallModel> walls;
   std::vector<DrawnFold> drawn_folds;
   std::vector<interactions::BondSet> bonds;

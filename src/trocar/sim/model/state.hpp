@@ -59,7 +59,6 @@ inline constexpr std::int32_t kMaxScarred = 1024;
 
 struct State : interactions::BodyStates {
   std::uint64_t tick = 0;  ///< ticks made
-  std::vector<StaticOrganState> statics;
   std::vector<std::vector<interactions::BondState>> bonds;  ///< (sets of bonds)(bonds)
   interactions::ObjectStates objects;
   std::array<interactions::ToolState, kMaxTools> tools;

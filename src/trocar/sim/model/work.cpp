@@ -31,11 +31,6 @@ void order_bodies(const Model& model, Work& w) {
   w.skin_order = by_cost(skins);
 }
 
-size_t rows_of_organ(const Model& model, size_t organ) {
-  const size_t lattices = model.solids.size();
-  return size_t(organ < lattices ? model.solids[organ].network.rows : model.cuttables[organ - lattices].body.rows);
-}
-
 }  // namespace
 
 Work make_work(const Model& model, core::ThreadPool* pool) {
@@ -51,11 +46,6 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
   for (const MembraneBody& m : model.membranes) {
     w.parts.resize(std::max(w.parts.size(), size_t(m.sheet.nodes())));
     w.beyond.resize(std::max(w.beyond.size(), size_t(m.sheet.network.rows)));
-  }
-  for (const StaticOrgan& o : model.statics) {
-    const interactions::NetworkLoads& loads = w.organs[size_t(o.organ)].loads;
-    w.static_work.push_back({tissue::make_work(o.solver, int(loads.gathered.capacity())), {}});
-    w.static_work.back().before.resize(rows_of_organ(model, size_t(o.organ)));
   }
   for (const PeristalsisModel& p : model.motion.peristalsis) {
     const size_t organ = size_t(p.solid), nodes = size_t(model.solids[organ].network.nodes);

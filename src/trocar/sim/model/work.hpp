@@ -46,7 +46,6 @@ struct Work : interactions::BodyWork {
   std::array<interactions::ToolShape, kMaxTools> shapes_before;  ///< where they were when the tick began
   std::vector<interactions::TouchBook> touches;                  ///< (hands) this tick's
   std::array<interactions::WallStop, kMaxTools> wall_stops;      ///< (hands)
-  std::vector<StaticOrganWork> static_work;
   std::vector<std::int32_t> parts;   ///< (nodes of the largest organ) what hangs together, for cuts
   std::vector<std::uint8_t> beyond;  ///< (rows of the largest organ or membrane) springs stretched too far
   std::vector<double> sheet_gaps;    ///< (hands x membranes) apart by at least this much [m]
@@ -84,7 +83,7 @@ struct Work : interactions::BodyWork {
     v("pool", s.pool, core::kMadeOnce), v("organs", s.organs), v("solids", s.solids), v("cuttables", s.cuttables),
         v("strands", s.strands), v("membranes", s.membranes), v("surfaces", s.surfaces), v("shapes", s.shapes),
         v("shapes_before", s.shapes_before), v("touches", s.touches), v("wall_stops", s.wall_stops),
-        v("static_work", s.static_work), v("parts", s.parts), v("beyond", s.beyond), v("sheet_gaps", s.sheet_gaps),
+        v("statics", s.statics), v("parts", s.parts), v("beyond", s.beyond), v("sheet_gaps", s.sheet_gaps),
         v("objects", s.objects), v("wave_force", s.wave_force), v("ridden", s.ridden),
         v("vessel_points", s.vessel_points), v("vessel_posed", s.vessel_posed), v("flow", s.flow), v("open", s.open),
         v("closed", s.closed), v("flows", s.flows), v("walls", s.walls), v("busy", s.busy), v("impact_at", s.impact_at),

@@ -9,7 +9,7 @@
 #include <trocar/core/fields.hpp>
 #include <trocar/tissue/elastostatic/elastostatic.hpp>
 
-namespace trocar::sim {
+namespace trocar::interactions {
 
 inline constexpr std::uint32_t kFadeTicks = 100;  ///< over which the difference between both solvers is added
 
@@ -48,4 +48,4 @@ struct StaticOrganWork {
   }
 };
 
-}  // namespace trocar::sim
+}  // namespace trocar::interactions

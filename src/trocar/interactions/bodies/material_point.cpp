@@ -1,0 +1,509 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/interactions/bodies/bodies.hpp>
+#include <trocar/interactions/bodies/material_point.hpp>
+
+namespace trocar::interactions {
+namespace {
+
+Vec3d offset_of(const MaterialPoint& p) noexcept { return {p.offset[0], p.offset[1], p.offset[2]}; }
+void set_offset(MaterialPoint& p, Vec3d off) noexcept { p.offset = {off.x, off.y, off.z}; }
+
+// --- rods ---
+
+/// How it rides on a rod now: on an element that is whole, `along` beyond the place in it, as on a stump.
+struct OnRod {
+  std::size_t element = 0;
+  double w = 0, along = 0;  ///< 0 .. 1; [m]
+};
+
+OnRod on_rod(const StrandBody& body, const tissue::StrandState& s, const MaterialPoint& p) noexcept {
+  const std::size_t e = std::size_t(p.element), n = std::size_t(body.nodes());
+  const double w = double(p.weight[0]);
+  if (s.alive[e]) return {e, w, 0};
+  const double drawn = body.arc[e + 1] - body.arc[e];
+  if (w <= 0.5) return e > 0 && s.alive[e - 1] ? OnRod{e - 1, 1, w * drawn} : OnRod{e, 0, w * drawn};
+  return e + 2 < n && s.alive[e + 1] ? OnRod{e + 1, 0, (w - 1) * drawn} : OnRod{e, 1, (w - 1) * drawn};
+}
+
+Vec3d direction(const std::vector<Vec3d>& x, std::size_t e) noexcept { return normalised(x[e + 1] - x[e]); }
+
+/// Turns v as the smallest rotation from direction a to direction b does.
+Vec3d turned(Vec3d v, Vec3d a, Vec3d b) noexcept {
+  const Vec3d axis = cross(a, b);
+  const double c = dot(a, b);
+  if (c < -0.999) return v;
+  return v * c + cross(axis, v) + axis * (dot(axis, v) / (1.0 + c));
+}
+
+/// A rod's element as the frame of what is beside it.
+struct RodFrame {
+  Vec3d drawn, now;
+  double length = 1;
+
+  RodFrame(const StrandBody& body, const tissue::StrandState& s, std::size_t e) noexcept
+      : drawn(direction(body.model.rest, e)), now(direction(s.x, e)), length(trocar::length(s.x[e + 1] - s.x[e])) {}
+
+  Vec3d beside(const OnRod& on, const MaterialPoint& p) const noexcept {
+    return on.along * now + turned(offset_of(p), drawn, now);
+  }
+  /// Of what turns with it: t' follows the ends' velocities, and the smallest rotation from the drawn direction twists
+  /// about t as t' goes around that.
+  Vec3d spin(Vec3d along) const noexcept { return cross(now, along) + dot(twist(), along) * now; }
+  /// Transpose of spin(): torque . spin(t') = g . t'.
+  Vec3d transposed(Vec3d torque) const noexcept { return cross(torque, now) + dot(torque, now) * twist(); }
+
+ private:
+  Vec3d twist() const noexcept {
+    const double c = dot(drawn, now);
+    return c < -0.999 ? Vec3d{} : cross(now, drawn) / (1.0 + c);
+  }
+};
+
+// --- bodies of nodes ---
+
+/// The row as it is now. Sums are taken from its first node, so that weights that add up to 1 but for rounding do.
+struct Row {
+  std::array<std::int32_t, kRowNodes> node{};
+  std::array<double, kRowNodes> weight{};
+  std::array<Vec3d, kRowNodes> x, v;
+  int count = 0;
+
+  Vec3d mean(const std::array<Vec3d, kRowNodes>& of) const noexcept {
+    Vec3d sum;
+    for (int i = 1; i < count; ++i) sum += weight[std::size_t(i)] * (of[std::size_t(i)] - of[0]);
+    return of[0] + sum;
+  }
+  double magnitude() const noexcept {
+    double sum = 0;
+    for (int i = 0; i < count; ++i) sum += std::fabs(weight[std::size_t(i)]);
+    return sum;
+  }
+};
+
+/// Where a membrane's triangle has been cut open its corners go different ways: the heaviest one has the point.
+void keep_heaviest(Row& row) noexcept {
+  std::size_t most = 0;
+  for (std::size_t i = 1; i < std::size_t(row.count); ++i)
+    if (row.weight[i] > row.weight[most]) most = i;
+  for (std::size_t i = 0; i < std::size_t(row.count); ++i) row.weight[i] = i == most ? 1 : 0;
+}
+
+Row row_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
+  const tissue::NodeView nodes = nodes_of(bodies, p.body);
+  const geometry::Tet* const cell = cell_of(bodies, p.body, p.element);
+  Row row;
+  row.count = p.count;
+  for (std::size_t i = 0; i < std::size_t(p.count); ++i) {
+    row.node[i] = cell ? (*cell)[std::size_t(p.node[i])] : p.node[i];
+    row.weight[i] = double(p.weight[i]);
+    row.x[i] = nodes.position(row.node[i]);
+    row.v[i] = nodes.velocity(row.node[i]);
+  }
+  if (p.body.is(BodyKind::membrane) && p.element >= 0 && bodies.states.torn[p.body.index()][std::size_t(p.element)])
+    keep_heaviest(row);
+  return row;
+}
+
+/// Edge, across and normal of a triangle of nodes.
+struct TriangleFrame {
+  Vec3d edge, across, normal;
+  double length = 1, height = 1, foot = 0;  ///< of the edge; of the third node over it, and where on it, 0 .. 1
+
+  explicit TriangleFrame(const std::array<Vec3d, kRowNodes>& x) noexcept {
+    const Vec3d ab = x[1] - x[0], ac = x[2] - x[0];
+    length = std::max(1e-9, trocar::length(ab));
+    edge = normalised(ab);
+    normal = normalised(cross(ab, ac));
+    across = cross(normal, edge);
+    height = std::max(1e-9, dot(ac, across));
+    foot = dot(ac, edge) / length;
+  }
+  Vec3d out(Vec3d v) const noexcept { return v.x * edge + v.y * across + v.z * normal; }
+  Vec3d in(Vec3d v) const noexcept { return {dot(v, edge), dot(v, across), dot(v, normal)}; }
+  Vec3d spin(const std::array<Vec3d, kRowNodes>& v) const noexcept {
+    const Vec3d ab = v[1] - v[0];
+    return (dot(normal, v[2] - v[0] - foot * ab) / height) * edge - (dot(normal, ab) / length) * across +
+           (dot(across, ab) / length) * normal;
+  }
+  /// Transpose of spin(): the forces on the three nodes that a torque is.
+  void bear(Vec3d torque, Vec3d (&force)[3]) const noexcept {
+    const Vec3d lift = (dot(torque, edge) / height) * normal;
+    const Vec3d swing = (1 / length) * (dot(torque, normal) * across - dot(torque, across) * normal);
+    force[0] = (foot - 1) * lift - swing;
+    force[1] = swing - foot * lift;
+    force[2] = lift;
+  }
+};
+
+Vec3d beside(const Row& row, const MaterialPoint& p) noexcept {
+  return p.frame == MaterialPoint::triangle ? TriangleFrame(row.x).out(offset_of(p)) : offset_of(p);
+}
+
+Vec3d along(Vec3d v, Vec3d dir) noexcept { return dir.x == 0 && dir.y == 0 && dir.z == 0 ? v : dot(v, dir) * dir; }
+
+/// All of a load as it is now.
+Vec3d force_of(const PointLoad& load, Vec3d x, Vec3d v) noexcept {
+  return load.f0 + along(load.k * (load.target - x) - load.d * v, load.dir);
+}
+
+void put_on_rod(const Bodies& bodies, const MaterialPoint& p, const PointLoad& load, Tag tag) noexcept {
+  const std::size_t i = p.body.index();
+  const StrandBody& body = bodies.strand(i);
+  const tissue::StrandState& s = bodies.strand_state(i);
+  const OnRod on = on_rod(body, s, p);
+  const RodFrame frame(body, s, on.element);
+  const Vec3d off = frame.beside(on, p), ends = s.v[on.element + 1] - s.v[on.element];
+  const Vec3d way = (ends - dot(ends, frame.now) * frame.now) / frame.length;
+  const Vec3d swings = cross(frame.spin(way), off), axis = s.v[on.element] + on.w * ends;
+  StrandLoads& loads = bodies.work->strands[i].loads;
+  tissue::StrandLoad at;
+  at.element = int(on.element);
+  at.w = on.w;
+  at.f0 = load.f0 - along(load.d * swings, load.dir);
+  at.k = load.k;
+  at.x0 = load.target - off;
+  at.dir = load.dir;
+  at.d = load.d;
+  loads.add(at, tag);
+  const Vec3d x = s.x[on.element] + on.w * (s.x[on.element + 1] - s.x[on.element]) + off;
+  const Vec3d g = frame.transposed(cross(off, force_of(load, x, axis + swings)));
+  const Vec3d couple = (g - dot(g, frame.now) * frame.now) / frame.length;
+  if (dot(couple, couple) < 1e-24) return;  // [N^2]
+  tissue::StrandLoad end;
+  end.element = int(on.element);
+  end.f0 = -couple;
+  loads.add(end, tag);
+  end.w = 1;
+  end.f0 = couple;
+  loads.add(end, tag);
+}
+
+void put_on_nodes(const Bodies& bodies, const MaterialPoint& p, const PointLoad& load, Tag tag) noexcept {
+  const Row row = row_of(bodies, p);
+  NetworkLoads& loads = loads_on(bodies, p.body);
+  const Vec3d off = beside(row, p), x = row.mean(row.x) + off;
+  Vec3d v = row.mean(row.v), couple[3] = {};
+  if (p.frame == MaterialPoint::triangle) {
+    const TriangleFrame frame(row.x);
+    v += cross(frame.spin(row.v), off);
+    frame.bear(cross(off, force_of(load, x, counted_on(v))), couple);
+  }
+  v = counted_on(v);
+  // Each node bears a share of k and d as if it were alone: more than they are together, so that what is stable for
+  // one point is for its row. Weights beyond 1, of points outside of their nodes, count for the coupling between them.
+  const double magnitude = row.magnitude();
+  bool another = false;
+  for (std::size_t i = 0; i < std::size_t(row.count); ++i) {
+    const double share = row.weight[i], counts = std::fabs(share) * magnitude;
+    Vec3d f0 = share * (load.f0 - along(load.d * v, load.dir));
+    if (p.frame == MaterialPoint::triangle && i < 3) f0 += couple[i];
+    if (share == 0 && f0.x == 0 && f0.y == 0 && f0.z == 0) continue;
+    tissue::NodeLoad node;
+    node.node = row.node[i];
+    node.k = float(counts * load.k);
+    node.d = float(counts * load.d);
+    node.dir = vec_cast<float>(load.dir);
+    node.f0 = vec_cast<float>(f0 + along((counts * load.d) * counted_on(row.v[i]), load.dir));
+    if (counts > 0) node.x0 = vec_cast<float>(row.x[i] + (share / counts) * (load.target - x));
+    loads.add(node, tag, another);
+    another = true;
+  }
+}
+
+/// Nodes of a row that are not there twice, and that take loads.
+struct Corners {
+  std::array<std::int32_t, kRowNodes> node{};
+  std::array<Vec3d, kRowNodes> x;
+  int count = 0;
+
+  bool has(std::int32_t n) const noexcept {
+    return std::find(node.begin(), node.begin() + count, n) != node.begin() + count;
+  }
+  void add(std::int32_t n, Vec3d at) noexcept {
+    if (count == kRowNodes || has(n)) return;
+    node[std::size_t(count)] = n;
+    x[std::size_t(count++)] = at;
+  }
+};
+
+/// With weights of the corners; what those do not give is left as an offset.
+void fit(const Corners& corners, Vec3d place, MaterialPoint& p) noexcept {
+  p.count = corners.count;
+  std::copy(corners.node.begin(), corners.node.end(), p.node.begin());
+  const std::size_t n = std::size_t(p.count);
+  if (!fit_affine({corners.x.data(), n}, place, {p.weight.data(), n})) {
+    p.count = std::min(1, p.count);
+    p.weight = {1};
+  }
+  Row row;
+  row.count = p.count;
+  row.x = corners.x;
+  for (std::size_t i = 0; i < n; ++i) row.weight[i] = double(p.weight[i]);
+  const Vec3d off = place - row.mean(row.x);
+  if (p.count < 3 || p.frame != MaterialPoint::triangle) {
+    p.frame = MaterialPoint::space;
+    set_offset(p, off);
+  } else {
+    set_offset(p, TriangleFrame(row.x).in(off));
+  }
+}
+
+NearNodes nodes_near(const Bodies& bodies, BodyId body, Vec3d place) noexcept {
+  const tissue::NodeView nodes = nodes_of(bodies, body);
+  NearNodes near;
+  for (std::size_t n = 0; n < node_count(bodies, body); ++n) {
+    if (!takes_loads(bodies, body, int(n))) continue;
+    const Vec3d off = nodes.position(int(n)) - place;
+    near.offer(std::int32_t(n), dot(off, off));
+  }
+  return near;
+}
+
+/// In the cell that it is in or least outside of, of those at some nodes.
+MaterialPoint in_a_cell(const Bodies& bodies, BodyId body, std::span<const std::int32_t> at, Vec3d place) noexcept {
+  const tissue::NodeView nodes = nodes_of(bodies, body);
+  const std::vector<geometry::Tet>& cells = tets_of(bodies, body).cells;
+  MaterialPoint best;
+  double least = 1e30;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const auto near = [&](std::int32_t n) { return std::find(at.begin(), at.end(), n) != at.end(); };
+    if (std::none_of(cells[c].begin(), cells[c].end(), near)) continue;
+    Corners corners;
+    for (std::int32_t k = 0; k < 4; ++k) {
+      const std::int32_t n = cells[c][std::size_t(k)];
+      if (takes_loads(bodies, body, n)) corners.add(k, nodes.position(n));
+    }
+    if (corners.count < 3) continue;
+    MaterialPoint p;
+    p.body = body;
+    p.element = std::int32_t(c);
+    p.frame = corners.count == 3 ? MaterialPoint::triangle : MaterialPoint::space;
+    fit(corners, place, p);
+    double magnitude = length(offset_of(p)) / 0.001;
+    for (std::size_t i = 0; i < std::size_t(p.count); ++i) magnitude += std::fabs(double(p.weight[i]));
+    if (magnitude < least) least = magnitude, best = p;
+  }
+  return best;
+}
+
+MaterialPoint in_a_triangle(const Bodies& bodies, std::size_t membrane, Vec3d place) noexcept {
+  const tissue::NodeView nodes = membrane_nodes(bodies, membrane);
+  const auto& triangles = bodies.models.membranes[membrane].sheet.triangles;
+  const std::vector<std::uint8_t>& torn = bodies.states.torn[membrane];
+  MaterialPoint best;
+  geometry::TrianglePoint<double> nearest{};
+  double least = 1e30;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (torn[t]) continue;
+    const auto [a, b, c] = triangles[t];
+    const auto on = geometry::closest_on_triangle(place, nodes.position(a), nodes.position(b), nodes.position(c));
+    if (!(on.distance2 < least)) continue;
+    least = on.distance2;
+    nearest = on;
+    best.element = std::int32_t(t);
+  }
+  if (best.element < 0) return {};
+  best.body = BodyId::membrane(membrane);
+  best.count = 3;
+  best.frame = MaterialPoint::triangle;
+  Row row;
+  for (std::size_t k = 0; k < 3; ++k) {
+    best.node[k] = triangles[std::size_t(best.element)][k];
+    best.weight[k] = float(nearest.weights[int(k)]);
+    row.x[k] = nodes.position(best.node[k]);
+    row.weight[k] = double(best.weight[k]);
+  }
+  row.count = 3;
+  set_offset(best, TriangleFrame(row.x).in(place - row.mean(row.x)));
+  return best;
+}
+
+MaterialPoint on_nearest_element(const Bodies& bodies, std::size_t rod, Vec3d place) noexcept {
+  const tissue::StrandState& s = bodies.strand_state(rod);
+  std::int32_t best = -1;
+  double least = 1e30, w = 0;
+  for (int e = 0; e + 1 < bodies.strand(rod).nodes(); ++e) {
+    const Vec3d a = s.x[std::size_t(e)], b = s.x[std::size_t(e) + 1];
+    if (!s.alive[std::size_t(e)]) continue;
+    const double at = geometry::closest_on_segment(place, a, b);
+    const double far2 = geometry::distance2(place, a + at * (b - a));
+    if (far2 < least) least = far2, best = e, w = at;
+  }
+  if (best < 0) return {};
+  const Vec3d a = s.x[std::size_t(best)], b = s.x[std::size_t(best) + 1];
+  return at_element(bodies, rod, best, w, place - (a + w * (b - a)));
+}
+
+}  // namespace
+
+MaterialPoint in_space(Vec3d place) noexcept {
+  MaterialPoint p;
+  set_offset(p, place);
+  return p;
+}
+
+MaterialPoint at_node(const Bodies& bodies, BodyId body, std::int32_t node, Vec3d offset) noexcept {
+  MaterialPoint p;
+  p.body = body;
+  p.count = 1;
+  p.node[0] = node;
+  p.weight[0] = 1;
+  set_offset(p, offset);
+  if (!body.is(BodyKind::membrane) || (offset.x == 0 && offset.y == 0 && offset.z == 0)) return p;
+  const auto& triangles = bodies.models.membranes[body.index()].sheet.triangles;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto at = std::find(triangles[t].begin(), triangles[t].end(), node);
+    if (at == triangles[t].end()) continue;
+    const std::size_t first = std::size_t(at - triangles[t].begin());
+    const tissue::NodeView nodes = membrane_nodes(bodies, body.index());
+    std::array<Vec3d, kRowNodes> x;
+    for (std::size_t k = 0; k < 3; ++k) {
+      p.node[k] = triangles[t][(first + k) % 3];
+      x[k] = nodes.position(p.node[k]);
+    }
+    p.element = std::int32_t(t);
+    p.count = 3;
+    p.frame = MaterialPoint::triangle;
+    set_offset(p, TriangleFrame(x).in(offset));
+    return p;
+  }
+  return p;
+}
+
+MaterialPoint at_element(const Bodies& bodies, std::size_t rod, std::int32_t element, double w, Vec3d offset) noexcept {
+  const StrandBody& body = bodies.strand(rod);
+  const std::size_t e = std::size_t(element);
+  MaterialPoint p;
+  p.body = BodyId::strand(rod);
+  p.element = element;
+  p.weight[0] = float(w);
+  p.frame = MaterialPoint::rod;
+  set_offset(p, turned(offset, direction(bodies.strand_state(rod).x, e), direction(body.model.rest, e)));
+  return p;
+}
+
+MaterialPoint at_vertex(const Bodies& bodies, std::size_t organ, std::int32_t vertex, Vec3d place) noexcept {
+  const BodyId body = BodyId::organ(organ);
+  const tissue::NodeView nodes = organ_nodes(bodies, organ);
+  Corners corners;
+  skin_of(bodies, organ).each_carrier(vertex, [&](int node, int, float) {
+    if (takes_loads(bodies, body, node)) corners.add(node, nodes.position(node));
+  });
+  if (is_tetrahedral(bodies, body)) return in_a_cell(bodies, body, {corners.node.data(), 1}, place);
+  MaterialPoint p;
+  p.body = body;
+  fit(corners, place, p);
+  return p;
+}
+
+MaterialPoint attach(const Bodies& bodies, BodyId body, Vec3d place) noexcept {
+  if (body.is(BodyKind::strand)) return on_nearest_element(bodies, body.index(), place);
+  if (body.is(BodyKind::membrane)) return in_a_triangle(bodies, body.index(), place);
+  const NearNodes near = nodes_near(bodies, body, place);
+  const std::span<const std::int32_t> found{near.node.data(), std::size_t(near.count)};
+  if (is_tetrahedral(bodies, body)) return in_a_cell(bodies, body, found, place);
+  const tissue::NodeView nodes = nodes_of(bodies, body);
+  Corners corners;
+  for (const std::int32_t n : found) corners.add(n, nodes.position(n));
+  MaterialPoint p;
+  if (corners.count == 0) return p;
+  p.body = body;
+  fit(corners, place, p);
+  return p;
+}
+
+Vec3d foot_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
+  if (p.in_space()) return offset_of(p);
+  if (!p.body.is(BodyKind::strand)) {
+    const Row row = row_of(bodies, p);
+    return row.mean(row.x);
+  }
+  const tissue::StrandState& s = bodies.strand_state(p.body.index());
+  const OnRod on = on_rod(bodies.strand(p.body.index()), s, p);
+  return s.x[on.element] + on.w * (s.x[on.element + 1] - s.x[on.element]) + on.along * direction(s.x, on.element);
+}
+
+Vec3d place_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
+  if (p.in_space()) return offset_of(p);
+  if (!p.body.is(BodyKind::strand)) {
+    const Row row = row_of(bodies, p);
+    return row.mean(row.x) + beside(row, p);
+  }
+  const StrandBody& body = bodies.strand(p.body.index());
+  const tissue::StrandState& s = bodies.strand_state(p.body.index());
+  const OnRod on = on_rod(body, s, p);
+  return s.x[on.element] + on.w * (s.x[on.element + 1] - s.x[on.element]) + RodFrame(body, s, on.element).beside(on, p);
+}
+
+Vec3d velocity_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
+  if (p.in_space()) return {};
+  if (!p.body.is(BodyKind::strand)) {
+    const Row row = row_of(bodies, p);
+    Vec3d v = row.mean(row.v);
+    if (p.frame == MaterialPoint::triangle) {
+      const TriangleFrame frame(row.x);
+      v += cross(frame.spin(row.v), frame.out(offset_of(p)));
+    }
+    return counted_on(v);
+  }
+  const StrandBody& body = bodies.strand(p.body.index());
+  const tissue::StrandState& s = bodies.strand_state(p.body.index());
+  const OnRod on = on_rod(body, s, p);
+  const RodFrame frame(body, s, on.element);
+  const Vec3d ends = s.v[on.element + 1] - s.v[on.element];
+  const Vec3d way = (ends - dot(ends, frame.now) * frame.now) / frame.length;
+  return s.v[on.element] + on.w * ends + cross(frame.spin(way), frame.beside(on, p));
+}
+
+Vec3d drawn_place(const Bodies& bodies, const MaterialPoint& p) noexcept {
+  if (p.in_space()) return offset_of(p);
+  if (p.body.is(BodyKind::strand)) {
+    const std::vector<Vec3d>& rest = bodies.strand(p.body.index()).model.rest;
+    const std::size_t e = std::size_t(p.element);
+    return rest[e] + double(p.weight[0]) * (rest[e + 1] - rest[e]) + offset_of(p);
+  }
+  const std::span<const Vec3d> rest = is_tetrahedral(bodies, p.body)
+                                          ? std::span<const Vec3d>(tets_of(bodies, p.body).rest)
+                                          : drawn_nodes(bodies.models, p.body);
+  const geometry::Tet* const cell = cell_of(bodies, p.body, p.element);
+  Row row;
+  row.count = p.count;
+  for (std::size_t i = 0; i < std::size_t(p.count); ++i) {
+    row.weight[i] = double(p.weight[i]);
+    row.x[i] = rest[std::size_t(cell ? (*cell)[std::size_t(p.node[i])] : p.node[i])];
+  }
+  return row.mean(row.x) + beside(row, p);
+}
+
+void put_load(const Bodies& bodies, const MaterialPoint& p, const PointLoad& load, Tag tag) noexcept {
+  if (p.in_space()) return;
+  if (p.body.is(BodyKind::strand)) return put_on_rod(bodies, p, load, tag);
+  put_on_nodes(bodies, p, load, tag);
+}
+
+NodeForces transposed(const Bodies& bodies, const MaterialPoint& p, Vec3d force) noexcept {
+  NodeForces out;
+  if (p.in_space()) return out;
+  if (!p.body.is(BodyKind::strand)) {
+    const Row row = row_of(bodies, p);
+    Vec3d couple[3] = {};
+    if (p.frame == MaterialPoint::triangle) TriangleFrame(row.x).bear(cross(beside(row, p), force), couple);
+    for (std::size_t i = 0; i < std::size_t(row.count); ++i)
+      out.add(row.node[i], row.weight[i] * force + (p.frame == MaterialPoint::triangle && i < 3 ? couple[i] : Vec3d{}));
+    return out;
+  }
+  const StrandBody& body = bodies.strand(p.body.index());
+  const tissue::StrandState& s = bodies.strand_state(p.body.index());
+  const OnRod on = on_rod(body, s, p);
+  const RodFrame frame(body, s, on.element);
+  const Vec3d g = frame.transposed(cross(frame.beside(on, p), force));
+  const Vec3d couple = (g - dot(g, frame.now) * frame.now) / frame.length;
+  out.add(std::int32_t(on.element), (1 - on.w) * force - couple);
+  out.add(std::int32_t(on.element) + 1, on.w * force + couple);
+  return out;
+}
+
+}  // namespace trocar::interactions
