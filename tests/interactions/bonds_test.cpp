@@ -20,11 +20,11 @@ constexpr int kColumns = 31, kRows = 5;  // along the strip, and across it
 
 /// A strip in the plane z = 0, bonded to space but for its first column, which a jaw holds.
 struct Strip {
-  tissue::MembraneModel sheet;
-  tissue::MembraneState state;
-  tissue::MembraneWork work;
-  NetworkLoads loads;
-  test::FewBodies few;  ///< none: bonds hold on space
+  test::FewBodies few;
+  tissue::MembraneModel& sheet = few.models.membranes.emplace_back().sheet;
+  tissue::MembraneState& state = few.states.membranes.emplace_back();
+  tissue::MembraneWork& work = few.work.membranes.emplace_back().body;
+  NetworkLoads& loads = few.work.membranes.back().loads;
   BondSet set;
   std::vector<BondState> bonds;
   std::vector<Vec3d> targets;
@@ -48,10 +48,9 @@ struct Strip {
     for (int i = 0; i < sheet.nodes(); ++i) {
       const int column = i % kColumns, row = i / kColumns;
       if (column == 0) continue;
-      BorderHold hold;
-      hold.offset = d.positions[std::size_t(i)];
       const double side = row == 0 || row == kRows - 1 ? 0.5 : 1.0;
-      set.bonds.push_back({i, hold, side * kSpacing * kSpacing});
+      set.bonds.push_back({at_node(few.all(), BodyId::membrane(0), i), in_space(d.positions[std::size_t(i)]),
+                           side * kSpacing * kSpacing});
     }
     bonds.resize(set.bonds.size());
     for (int node : sheet.held_nodes) targets.push_back(d.positions[std::size_t(node)]);
@@ -60,8 +59,7 @@ struct Strip {
   Vec3d pull(Vec3d way) {
     for (Vec3d& target : targets) target += way;
     loads.clear();
-    const BondedNodes tied{sheet.network, state.network, loads};
-    bond_loads(set, bonds, tied, few.all(), kTick);
+    bond_loads(few.all(), set, bonds, kTick);
     loads.sort();
     EXPECT_FALSE(loads.overflowed);
     EXPECT_TRUE(tissue::advance(sheet, targets, loads.sorted, loads.reaction, state, work).fine());

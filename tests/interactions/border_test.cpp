@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/tick.hpp>
-#include <trocar/interactions/couplings/border_loads.hpp>
+#include <trocar/interactions/couplings/border.hpp>
 
 #include "few_bodies.hpp"
 
@@ -19,10 +19,11 @@ using core::kTick;
 /// A free strand along x with a sheet that hangs from it; the sheet's other border is free.
 struct Hanging {
   test::FewBodies few;
-  tissue::MembraneModel sheet;
-  tissue::MembraneState state;
-  tissue::MembraneWork work;
-  std::vector<BorderHold> holds;
+  MembraneBody& membrane = few.models.membranes.emplace_back();
+  tissue::MembraneModel& sheet = membrane.sheet;
+  std::vector<Attachment>& holds = membrane.holds;
+  tissue::MembraneState& state = few.states.membranes.emplace_back();
+  tissue::MembraneWork& work = few.work.membranes.emplace_back().body;
   std::vector<tissue::BorderPull> pulls;
   std::vector<Vec3d> targets;
   Vec3d force{0, 0, 0};   ///< on every node of the strand [N]
@@ -60,11 +61,8 @@ struct Hanging {
     state = rest_state(sheet);
     work = make_work(sheet);
     for (int node : sheet.held_nodes) {
-      BorderHold hold;
-      hold.kind = BorderHold::strand;
-      hold.index = 0;
-      hold.place = place_at(body(), 0.002 + 0.0025 * node);
-      holds.push_back(hold);
+      const StrandPlace at = place_at(body(), 0.002 + 0.0025 * node);
+      holds.push_back({at_element(few.all(), 0, at.element, at.w, {})});
     }
     pulls.resize(holds.size());
     targets.resize(holds.size());
@@ -76,7 +74,7 @@ struct Hanging {
   bool step() {
     loads().clear();
     border_pulls(sheet, state, work, pulls);
-    border_loads(holds, pulls, sheet, state, few.all(), kTick);
+    border_loads(few.all(), 0, pulls, kTick);
     for (int i = 0; i < body().nodes(); ++i) {
       tissue::StrandLoad load;
       load.element = std::min(i, body().nodes() - 2);
@@ -89,11 +87,13 @@ struct Hanging {
     const bool strand_fine =
         advance(body().model, {}, loads().list, {}, loads().reaction, strand(), few.work.strands[0].body).fine();
     for (size_t h = 0; h < holds.size(); ++h) {
-      const size_t e = size_t(holds[h].place.element);
-      const auto at = [&](const std::vector<Vec3d>& v) { return v[e] + holds[h].place.w * (v[e + 1] - v[e]); };
+      const size_t e = size_t(holds[h].point.element);
+      const auto at = [&](const std::vector<Vec3d>& v) {
+        return v[e] + double(holds[h].point.weight[0]) * (v[e + 1] - v[e]);
+      };
       astray += kTick * added_damping(pulls[h], kTick) * (at(strand().v) - at(before));
     }
-    for (size_t h = 0; h < holds.size(); ++h) targets[h] = held_place(holds[h], few.all());
+    for (size_t h = 0; h < holds.size(); ++h) targets[h] = place_of(few.all(), holds[h].point);
     return advance(sheet, targets, {}, {}, state, work).fine() && strand_fine;
   }
   /// Of strand and sheet; held nodes have no mass of their own in the sheet's motion.
@@ -120,7 +120,7 @@ TEST(Border, EdgeNodesAreExactlyWhereTheStrandIs) {
     ASSERT_TRUE(h.step());
     for (size_t k = 0; k < h.holds.size(); ++k)
       ASSERT_LT(length(position(h.sheet.network, h.state.network, h.sheet.held_nodes[k]) -
-                       held_place(h.holds[k], h.few.all())),
+                       place_of(h.few.all(), h.holds[k].point)),
                 1e-8);
   }
 }
@@ -175,7 +175,7 @@ TEST(Border, TheStrandBearsTheSheetsWeight) {
   for (int i = 0; i < 4000; ++i) ASSERT_TRUE(h.step());
   h.loads().clear();
   border_pulls(h.sheet, h.state, h.work, h.pulls);
-  border_loads(h.holds, h.pulls, h.sheet, h.state, h.few.all(), kTick);
+  border_loads(h.few.all(), 0, h.pulls, kTick);
   advance(h.body().model, {}, h.loads().list, ends, {}, h.strand(), h.few.work.strands[0].body);
   double weight = 0;
   for (int i = 0; i < h.sheet.nodes(); ++i)

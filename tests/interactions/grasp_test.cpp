@@ -171,8 +171,8 @@ TEST(Grasp, ThePullIsWhatTheFoundationTheOrganAndTheWeightDo) {
     }
     on_tube -= g.work.strands[kTube].end_reactions[0].force;
     for (size_t h = 0; h < g.model.membranes[0].holds.size(); ++h) {
-      const BorderHold& hold = g.model.membranes[0].holds[h];
-      if (hold.kind == BorderHold::strand) on_tube += g.work.membranes[0].pulls[h].force - hold.drawn_pull;
+      const Attachment& hold = g.model.membranes[0].holds[h];
+      if (hold.point.body.is(BodyKind::strand)) on_tube += g.work.membranes[0].pulls[h].force - hold.drawn_pull;
     }
     const Vec3d pull = g.pull(kGrasper);  // of the tissue on the jaws
     EXPECT_GT(length(pull), 0.05);

@@ -299,10 +299,13 @@ TEST(Anatomy, AMesosalpinxHangsFromEachTube) {
     ASSERT_GE(i, 0);
     const sim::MembraneBody& fold = m.membranes[std::size_t(i)];
     EXPECT_EQ(fold.strand, m.strand_index(std::string("tube_") + side));
-    int on[3] = {0, 0, 0};
-    for (const interactions::BorderHold& hold : fold.holds) ++on[hold.kind];
-    EXPECT_GT(on[interactions::BorderHold::strand], fold.sheet.columns);  // tube and ovarian ligament
-    EXPECT_GT(on[interactions::BorderHold::organ], 2);                    // the ovary
+    int on_rods = 0, on_organs = 0;
+    for (const interactions::Attachment& hold : fold.holds) {
+      on_rods += hold.point.body.is(BodyKind::strand);
+      on_organs += hold.point.body.is(BodyKind::organ);
+    }
+    EXPECT_GT(on_rods, fold.sheet.columns);  // tube and ovarian ligament
+    EXPECT_GT(on_organs, 2);                 // the ovary
     double width = 0;
     for (int c = 0; c < fold.sheet.columns; ++c)
       width = std::max(width, double(fold.depth[std::size_t((fold.sheet.rows - 1) * fold.sheet.columns + c)]));

@@ -36,7 +36,7 @@ Description spill() { return read_scene(TROCAR_SOURCE_DIR "/scenes/cholecystecto
 
 TEST(BagFile, TheShippedSceneHasABagFiveStonesAndBile) {
   const sim::Model m = compile(spill());
-  const auto& bags = interactions::part_of<interactions::Bag>(m.objects).list;
+  const auto& bags = interactions::part_of<interactions::Bag>(m).list;
   ASSERT_EQ(bags.size(), 1u);
   EXPECT_EQ(bags[0].rigids, 5);
   EXPECT_EQ(bags[0].pouches.size(), 1u) << "the gallbladder";
@@ -46,7 +46,7 @@ TEST(BagFile, TheShippedSceneHasABagFiveStonesAndBile) {
 
 TEST(BagFile, ABagOf60MillimetresIsAboutAsLargeAsItsMakersSay) {
   const sim::Model m = compile(spill());
-  const interactions::BagModel& bag = interactions::part_of<interactions::Bag>(m.objects).list[0];
+  const interactions::BagModel& bag = interactions::part_of<interactions::Bag>(m).list[0];
   double volume = 0;  // of what its surface and the mouth's disc enclose [m^3]
   for (const auto& t : bag.triangles)
     volume += dot(bag.drawn[size_t(t[0])], cross(bag.drawn[size_t(t[1])], bag.drawn[size_t(t[2])])) / 6;

@@ -42,10 +42,10 @@ TEST(BowelScene, TheMesenteryHangsOnTheArcadeAndCarriesTheGutAllAlong) {
     ASSERT_EQ(model.membranes.size(), 1u);
     const sim::MembraneBody& fold = model.membranes.front();
     int on_gut = 0, on_arcade = 0;
-    for (const interactions::BorderHold& hold : fold.holds) {
-      if (hold.kind == interactions::BorderHold::strand)
+    for (const interactions::Attachment& hold : fold.holds) {
+      if (hold.point.body.is(BodyKind::strand))
         ++on_arcade;
-      else if (hold.kind != interactions::BorderHold::space)
+      else if (!hold.point.in_space())
         ++on_gut;
     }
     EXPECT_EQ(on_arcade, fold.sheet.columns) << seed;

@@ -30,9 +30,7 @@ std::string refusal(const std::function<void(FatSetting&)>& spoil) {
 }
 bool tells(const std::string& message, const char* what) { return message.find(what) != std::string::npos; }
 
-const interactions::FatBody& body_of(const sim::Model& m) {
-  return interactions::part_of<interactions::Fat>(m.objects).list.front();
-}
+const interactions::FatBody& body_of(const sim::Model& m) { return m.fat.front(); }
 
 }  // namespace
 
@@ -48,14 +46,16 @@ TEST(FatFile, NoLobuleLiesInWhatItSurrounds) {
 TEST(FatFile, ItHoldsOnCordsLiverAndGallbladder) {
   const sim::Model m = compile(calot());
   const interactions::FatBody& body = body_of(m);
-  int on_duct = 0, on_artery = 0;
-  for (const interactions::Bond& b : body.roots.bonds) {
-    on_duct += b.hold.kind == interactions::BorderHold::strand && b.hold.index == m.strand_index("cystic_duct");
-    on_artery += b.hold.kind == interactions::BorderHold::strand && b.hold.index == m.strand_index("cystic_artery");
+  const BodyId duct = sim::body_of(m, "cystic_duct"), artery = sim::body_of(m, "cystic_artery");
+  int on_duct = 0, on_artery = 0, on_wall = 0;
+  for (const interactions::Bond& b : m.bonds[std::size_t(body.roots)].bonds) {
+    on_duct += b.far.body == duct;
+    on_artery += b.far.body == artery;
+    on_wall += b.far.body.is(BodyKind::membrane);
   }
   EXPECT_GT(on_duct, 10);
   EXPECT_GT(on_artery, 10);
-  EXPECT_FALSE(body.ties.empty());
+  EXPECT_GT(on_wall, 5);
   EXPECT_GT(std::count(body.fat.serosal.begin(), body.fat.serosal.end(), 1), 50);
 }
 

@@ -84,9 +84,9 @@ const Model& box_with_gallbladder() {
   return made;
 }
 
-const BagModel& bag_model() { return interactions::part_of<Bag>(box_model().objects).list.front(); }
-const BagState& bag(const State& s) { return interactions::part_of<Bag>(s.objects).front(); }
-RigidState& stone(State& s, size_t i) { return interactions::part_of<Rigid>(s.objects)[i]; }
+const BagModel& bag_model() { return interactions::part_of<Bag>(box_model()).list.front(); }
+const BagState& bag(const State& s) { return interactions::part_of<Bag>(s).front(); }
+RigidState& stone(State& s, size_t i) { return interactions::part_of<Rigid>(s)[i]; }
 bool inside(const State& s, size_t i) { return share_in(bag_model(), bag(s), BodyId(BodyKind::rigid, i)).inside == 1; }
 double fastest(const BagState& s) {
   double most = 0;
@@ -151,7 +151,7 @@ struct BaggedGallbladder : Bagged {
   }
   double inside() const {
     const interactions::BagShare share =
-        share_in(interactions::part_of<Bag>(model.objects).list.front(), bag(state), BodyId::membrane(0));
+        share_in(interactions::part_of<Bag>(model).list.front(), bag(state), BodyId::membrane(0));
     return double(share.inside) / share.all;
   }
   /// Of its nodes, root mean square over a tenth of a second [m/s].

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/interactions/couplings/border_loads.hpp>
+#include <trocar/interactions/couplings/bonds.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
@@ -121,9 +121,8 @@ TEST(BondedPouch, ABladeBetweenWallAndLiverPartsWhatItCrosses) {
   StepReport report = step(m, m.start, s, w);
   StepContext context{m, m.start, s, w, report};
   const interactions::Bond& bond = m.bonds[0].bonds[m.bonds[0].bonds.size() / 2];
-  const Vec3d node = position(m.membranes[0].sheet.network, s.membranes[0].network, bond.node);
-  const Vec3d out = normalised(bond.hold.offset);
-  const int severed = sever_bonds(context, geometry::square_blade(node - 0.5 * bond.hold.offset, out, 0.006));
+  const Vec3d node = place_of(bodies_of(context), bond.near), across = node - root_of(bodies_of(context), bond);
+  const int severed = sever_bonds(context, geometry::square_blade(node - 0.5 * across, normalised(across), 0.006));
   EXPECT_GE(severed, 1);
   EXPECT_LT(size_t(severed), m.bonds[0].bonds.size());
   EXPECT_LT(share(s), 1);
@@ -141,7 +140,7 @@ TEST(BondedPouch, FluidInItsPlaneLoosensBondsByAtMostEightyFivePercentAndPartsNo
   const interactions::Bodies bodies = bodies_of(context);
   const std::vector<interactions::Bond>& bonds = m.bonds[0].bonds;
   std::vector<Vec3d> feet;
-  for (const interactions::Bond& bond : bonds) feet.push_back(foot_of(bond.hold, bodies));
+  for (const interactions::Bond& bond : bonds) feet.push_back(root_of(bodies, bond));
   const size_t middle = bonds.size() / 2;
   constexpr double kSpread = 0.004;
   loosen_bonds(context, feet[middle], 2e-6, kSpread);
@@ -219,7 +218,7 @@ TEST(BondedPouch, WhereItWasTornOffBloodOozesUntilThatIsCoagulated) {
   StepReport report;
   StepContext context{m, m.start, s, w, report};
   const interactions::Bodies bodies = bodies_of(context);
-  for (const interactions::Bond& bond : bed.bonds) burn_bonds(context, foot_of(bond.hold, bodies), 0.001);
+  for (const interactions::Bond& bond : bed.bonds) burn_bonds(context, root_of(bodies, bond), 0.001);
   for (const interactions::BondState& bond : s.bonds[0]) EXPECT_FALSE(bond.raw());
   const std::int64_t before = bled();
   for (int tick = 0; tick < 200; ++tick) ASSERT_TRUE(step(m, m.start, s, w).fine());
@@ -242,7 +241,7 @@ void burn_all(const Model& m, State& s, Work& w, double seconds) {
   StepReport report;
   StepContext context{m, m.start, s, w, report};
   const interactions::Bodies bodies = bodies_of(context);
-  for (const interactions::Bond& bond : m.bonds[0].bonds) burn_bonds(context, foot_of(bond.hold, bodies), seconds);
+  for (const interactions::Bond& bond : m.bonds[0].bonds) burn_bonds(context, root_of(bodies, bond), seconds);
 }
 
 }  // namespace

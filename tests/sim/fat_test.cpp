@@ -16,7 +16,6 @@
 using namespace trocar;
 using namespace trocar::sim;
 using interactions::BondState;
-using interactions::Fat;
 
 namespace {
 
@@ -26,9 +25,11 @@ const Model& model() {
   static const Model made = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/calot/scene.json"));
   return made;
 }
-const interactions::FatBody& body() { return interactions::part_of<Fat>(model().objects).list.front(); }
-interactions::FatBodyState& fat_of(State& s) { return interactions::part_of<Fat>(s.objects).front(); }
-const interactions::FatBodyState& fat_of(const State& s) { return interactions::part_of<Fat>(s.objects).front(); }
+const interactions::FatBody& body() { return model().fat.front(); }
+tissue::FatState& fat_of(State& s) { return s.fat.front(); }
+const tissue::FatState& fat_of(const State& s) { return s.fat.front(); }
+const std::vector<interactions::Bond>& roots() { return model().bonds[size_t(body().roots)].bonds; }
+const std::vector<BondState>& root_states(const State& s) { return s.bonds[size_t(body().roots)]; }
 
 /// The lobule whose place as drawn is nearest.
 int lobule_near(Vec3d p) {
@@ -43,7 +44,7 @@ Vec3d in_front() { return body().fat.network.rest[size_t(lobule_near({-0.046, 0.
 
 double whole_septa(const State& s) {
   double sum = 0;
-  for (int i = 0; i < body().fat.septa(); ++i) sum += holding(body().fat, fat_of(s).fat, i);
+  for (int i = 0; i < body().fat.septa(); ++i) sum += holding(body().fat, fat_of(s), i);
   return sum / body().fat.septa();
 }
 
@@ -103,20 +104,19 @@ const Story& torn() {
 TEST(FatInItsScene, HangsAsDrawnAndNothingGivesWay) {
   const Model& m = model();
   EXPECT_GT(body().fat.lobules(), 200);
-  EXPECT_GT(body().roots.bonds.size(), 50u);
-  EXPECT_GT(body().ties.size(), 5u);
+  EXPECT_GT(roots().size(), 55u);
   State s = initial_state(m);
   Work w = make_work(m);
   double worst = 0;
   for (int tick = 0; tick < 1500; ++tick) {
     ASSERT_TRUE(step(m, m.start, s, w).fine()) << tick;
     for (int n = 0; n < body().fat.lobules(); ++n)
-      worst = std::max(worst, length(position(body().fat, fat_of(s).fat, n) - body().fat.network.rest[size_t(n)]));
+      worst = std::max(worst, length(position(body().fat, fat_of(s), n) - body().fat.network.rest[size_t(n)]));
   }
   RecordProperty("moved_mm", std::to_string(1e3 * worst));
   EXPECT_LT(worst, 0.001);
   EXPECT_EQ(whole_septa(s), 1);
-  for (const BondState& root : fat_of(s).roots) EXPECT_TRUE(root.damage == 0);
+  for (const BondState& root : root_states(s)) EXPECT_TRUE(root.damage == 0);
 }
 
 TEST(FatInItsScene, JawsTearItOutAndItNeverGrowsTogether) {
@@ -140,7 +140,7 @@ TEST(FatInItsScene, KeyframesShowWhereItIsAndWhatHolds) {
   const std::vector<std::uint8_t> bytes = display_bytes(model(), torn().end);
   ASSERT_TRUE(restore_display(model(), bytes, shown));
   for (int n = 0; n < body().fat.lobules(); ++n) {
-    const Vec3d off = position(body().fat, fat_of(shown).fat, n) - position(body().fat, fat_of(torn().end).fat, n);
+    const Vec3d off = position(body().fat, fat_of(shown), n) - position(body().fat, fat_of(torn().end), n);
     EXPECT_LT(length(off), 2e-5);
   }
   EXPECT_NEAR(whole_septa(shown), whole_septa(torn().end), 0.01);
@@ -158,15 +158,15 @@ TEST(FatInItsScene, AHookBoilsItAwayAndItsWaterIsBooked) {
     ASSERT_TRUE(step(m, input, s, w).fine()) << tick;
     steam += w.steam.kilograms;
   }
-  const tissue::FatState& fat = fat_of(s).fat;
+  const tissue::FatState& fat = fat_of(s);
   EXPECT_GT(fat.gone, 0);
   double boiled = 0;
   for (const tissue::Lobule& l : fat.lobules) boiled += l.boiled;
   EXPECT_NEAR(steam, boiled, 1e-9 * boiled);
   EXPECT_GE(boiled, fat.gone * body().fat.material.water * body().fat.mass * (1 - 1e-9));
-  for (size_t i = 0; i < body().roots.bonds.size(); ++i)
-    if (fat.lobules[size_t(body().roots.bonds[i].node)].gone()) {
-      EXPECT_FALSE(fat_of(s).roots[i].holds());
+  for (size_t i = 0; i < roots().size(); ++i)
+    if (fat.lobules[size_t(roots()[i].node())].gone()) {
+      EXPECT_FALSE(root_states(s)[i].holds());
     }
 }
 
@@ -176,8 +176,8 @@ TEST(FatInItsScene, BladesPartIt) {
   Work w = make_work(m);
   StepReport report = step(m, m.start, s, w);
   StepContext context{m, m.start, s, w, report};
-  EXPECT_GT(sever_fat(context, geometry::square_blade(in_front(), {1, 0, 0}, 0.006)), 3);
-  EXPECT_EQ(sever_fat(context, geometry::square_blade({0, 0, 0.05}, {1, 0, 0}, 0.006)), 0);
+  EXPECT_GT(sever_septa(context, geometry::square_blade(in_front(), {1, 0, 0}, 0.006)), 3);
+  EXPECT_EQ(sever_septa(context, geometry::square_blade({0, 0, 0.05}, {1, 0, 0}, 0.006)), 0);
   EXPECT_LT(whole_septa(s), 1);
   for (int tick = 0; tick < 200; ++tick) ASSERT_TRUE(step(m, m.start, s, w).fine());
 }
@@ -188,6 +188,6 @@ TEST(FatInItsScene, HidesWhatLiesInIt) {
   const size_t duct = size_t(m.strand_index("cystic_duct"));
   const Vec3d eye{-0.012, 0.012, -0.029}, middle = s.strands[duct].x[s.strands[duct].x.size() / 2];
   EXPECT_TRUE(behind_fat(m, s, eye, middle));
-  for (tissue::Lobule& l : fat_of(s).fat.lobules) l.marks |= tissue::Lobule::kBoiledAway;
+  for (tissue::Lobule& l : fat_of(s).lobules) l.marks |= tissue::Lobule::kBoiledAway;
   EXPECT_FALSE(behind_fat(m, s, eye, middle));
 }

@@ -304,9 +304,9 @@ const Model& spill_model() { return shipped("cholecystectomy_spill"); }
 Lively lively_bag() {
   const Model& m = spill_model();
   Lively l{initial_state(m), make_work(m)};
-  interactions::BagState& bag = interactions::part_of<interactions::Bag>(l.state.objects).front();
-  const interactions::BagModel& model = interactions::part_of<interactions::Bag>(m.objects).list.front();
-  auto& stones = interactions::part_of<interactions::Rigid>(l.state.objects);
+  interactions::BagState& bag = interactions::part_of<interactions::Bag>(l.state).front();
+  const interactions::BagModel& model = interactions::part_of<interactions::Bag>(m).list.front();
+  auto& stones = interactions::part_of<interactions::Rigid>(l.state);
   const kinematics::TipFrame hand = kinematics::forward(m.hands[1].port, pose_of(m.start.tools[1]));
   bag.hoop = bag.unrolled = 1;
   bag.frame = {hand.tip, hand.axis(), hand.normal()};
@@ -329,7 +329,7 @@ const Model& injection_model() { return shipped("gynaecology_injection"); }
 /// With a hole, a bite, a clip, and thread that lies on itself and on a shaft, and is crushed there.
 State stitched() {
   State s = initial_state(suture_model());
-  interactions::SutureState& suture = interactions::part_of<interactions::Suture>(s.objects).front();
+  interactions::SutureState& suture = interactions::part_of<interactions::Suture>(s).front();
   suture.hole_count = suture.bite_count = 1;
   suture.crushed = 1;
   suture.thread.self_count = suture.thread.touch_count = suture.thread.clip_count = 1;
@@ -472,8 +472,7 @@ TEST(Fields, EveryFieldOfAModelThatIsListedCountsInItsSeal) {
       model.bonds.emplace_back().bonds.emplace_back();
       model.bonds.back().breaches = true;
       if (m == &small::model()) model.solids[0].skin.more = model.solids[0].skin.weights;
-      for (interactions::RigidModel& stone : interactions::part_of<interactions::Rigid>(model.objects).list)
-        stone.inside = 0;
+      for (interactions::RigidModel& stone : interactions::part_of<interactions::Rigid>(model).list) stone.inside = 0;
       const auto sealed = [&] {
         seal(model);
         return model.hash;

@@ -41,11 +41,11 @@ Model one_ring(Vec3d at, Vec3d axis = {0, 0, 1}, Vec3d gravity = {0, 0, -9.81}, 
   return scene::compile(d);
 }
 
-RigidState& ring(State& s, size_t i = 0) { return interactions::part_of<Rigid>(s.objects)[i]; }
-const RigidState& ring(const State& s, size_t i = 0) { return interactions::part_of<Rigid>(s.objects)[i]; }
+RigidState& ring(State& s, size_t i = 0) { return interactions::part_of<Rigid>(s)[i]; }
+const RigidState& ring(const State& s, size_t i = 0) { return interactions::part_of<Rigid>(s)[i]; }
 
 double energy(const Model& m, const State& s, size_t i = 0) {
-  const interactions::RigidModel& body = interactions::part_of<Rigid>(m.objects).list[i];
+  const interactions::RigidModel& body = interactions::part_of<Rigid>(m).list[i];
   const RigidState& now = ring(s, i);
   const Vec3d w = rotate(conjugate(now.q), now.w);
   return body.mass * (0.5 * dot(now.v, now.v) - dot(m.gravity, now.x)) + 0.5 * dot(w, body.inertia * w);
@@ -87,7 +87,7 @@ TEST(Rigid, ARingAtRestStays) {
   for (int i = 0; i < 500; ++i) step(m, m.start, s, w);
   const State settled = s;
   for (int i = 0; i < 5000; ++i) step(m, m.start, s, w);
-  for (size_t i = 0; i < interactions::part_of<Rigid>(s.objects).size(); ++i) {
+  for (size_t i = 0; i < interactions::part_of<Rigid>(s).size(); ++i) {
     EXPECT_LT(length(ring(s, i).x - ring(settled, i).x), 1e-6) << i;
     EXPECT_NEAR(ring(s, i).x.z, kLies, 1e-4) << i;
     EXPECT_LT(length(ring(s, i).w), 1e-3) << i;
@@ -169,9 +169,9 @@ TEST(Rigid, ARingGoesFromHandToHand) {
   ASSERT_GT(t.tool(kLeft).holds, 0);
   const RigidState held = ring(t.state);
   // The right hand comes to the rim across from where the left one holds it, with jaws that straddle it.
-  const Vec3d far_rim = held.x + (held.x - interactions::Rigid::point(interactions::part_of<Rigid>(t.model.objects),
-                                                                      interactions::part_of<Rigid>(t.state.objects),
-                                                                      t.tool(kLeft).hold[0]));
+  const Vec3d far_rim =
+      held.x + (held.x - interactions::Rigid::point(interactions::part_of<Rigid>(t.model),
+                                                    interactions::part_of<Rigid>(t.state), t.tool(kLeft).hold[0]));
   t.input.tools[kRight].handle = 0.5f;
   t.carry(kRight, {0.022, 0.088, -0.075}, far_rim + Vec3d{0.01, 0, 0.02}, 0.1);
   t.carry(kRight, far_rim + Vec3d{0.01, 0, 0.02}, far_rim, 0.05);
@@ -274,7 +274,7 @@ TEST(Rigid, WhatLiesOnTissueWeighsOnIt) {
   double force = 0;  // that the skin is pressed with, mean of some ticks
   for (int i = 0; i < 100; ++i) {
     step(m, m.start, s, w);
-    for (const interactions::RigidBed& bed : interactions::part_of<Rigid>(w.objects).beds)
+    for (const interactions::RigidBed& bed : interactions::part_of<Rigid>(w).beds)
       force += std::max(0.0, -bed.gap) * 150 * bed.normal.z / 100;
   }
   EXPECT_NEAR(force, 9.81e-3, 2e-3);

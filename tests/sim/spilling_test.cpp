@@ -80,7 +80,7 @@ struct Spilling {
   const tissue::EnclosureState& inside() const { return state.membranes[pouch].enclosure; }
   double lost() const { return (1 - inside().left) * model.membranes[pouch].sheet.enclosure.volume; }
   std::int64_t booked() const { return state.fluids.ledger.in[size_t(fluids::Source::kBled)].bile; }
-  const Rigid::States& stones() const { return interactions::part_of<Rigid>(state.objects); }
+  const Rigid::States& stones() const { return interactions::part_of<Rigid>(state); }
   int inside_still() const {
     return int(std::count_if(stones().begin(), stones().end(), [](const auto& s) { return s.inside(); }));
   }
@@ -168,7 +168,7 @@ TEST(Stones, FallOutOfAHoleThatIsWideEnoughAndNoLargerOnesDo) {
     for (size_t i = 0; i < before.size(); ++i) {
       if (!before[i].inside() || run.stones()[i].inside()) continue;
       hole_when_out[i] = hole.area;
-      const auto& stone = interactions::part_of<Rigid>(run.model.objects).list[i];
+      const auto& stone = interactions::part_of<Rigid>(run.model).list[i];
       volume += 4.0 / 3 * portable::pi * stone.pebble.x * stone.pebble.y * stone.pebble.z;
       EXPECT_LT(length(run.stones()[i].x - hole.place), 0.01) << "at the hole";
     }

@@ -85,14 +85,15 @@ TEST(BluntDissection, SpreadJawsPushWallAndLiverApartAndTheBondsBetweenThemPart)
   Dissection d("gallbladder_bed", "maryland");
   const interactions::BondSet& bed = d.m_model.bonds.at(0);
   const auto node = [&](const interactions::Bond& bond) {
-    return position(d.m_model.membranes[0].sheet.network, d.m_state.membranes[0].network, bond.node);
+    return place_of(bodies_of(d.m_model, d.m_state), bond.near);
   };
   constexpr Vec3d kInside{-0.072, 0.122, -0.075};
   const interactions::Bond& near = *std::min_element(bed.bonds.begin(), bed.bonds.end(), [&](auto& a, auto& b) {
     return length(node(a) - kInside) < length(node(b) - kInside);
   });
-  const Vec3d gap = node(near) - 0.5 * near.hold.offset;
-  d.aim(gap, normalised(near.hold.offset));
+  const Vec3d across = node(near) - root_of(bodies_of(d.m_model, d.m_state), near);
+  const Vec3d gap = node(near) - 0.5 * across;
+  d.aim(gap, normalised(across));
   d.go(gap + 0.005 * d.m_along, 0.025);
   EXPECT_EQ(interactions::holding_share(bed, d.m_state.bonds[0]), 1) << "a closed tip goes between them";
   d.spread(2.5, d.m_model.organ_index("liver"));
@@ -109,17 +110,15 @@ TEST(BluntDissection, SpreadJawsPushWallAndLiverApartAndTheBondsBetweenThemPart)
 }
 
 TEST(BluntDissection, ABluntTipWipesFatOffTheCysticDuct) {
-  using interactions::Fat;
   Dissection d("calot", "suction_irrigator");
-  const interactions::FatBody& fat = interactions::part_of<Fat>(d.m_model.objects).list.front();
+  const interactions::FatBody& fat = d.m_model.fat.front();
   const auto holding_roots = [&] {
-    const auto& roots = interactions::part_of<Fat>(d.m_state.objects).front().roots;
+    const auto& roots = d.m_state.bonds[size_t(fat.roots)];
     return std::count_if(roots.begin(), roots.end(), [](const auto& r) { return r.holds(); });
   };
   const auto septa = [&] {
     double sum = 0;
-    for (int i = 0; i < fat.fat.septa(); ++i)
-      sum += holding(fat.fat, interactions::part_of<Fat>(d.m_state.objects).front().fat, i);
+    for (int i = 0; i < fat.fat.septa(); ++i) sum += holding(fat.fat, d.m_state.fat.front(), i);
     return sum / fat.fat.septa();
   };
   constexpr Vec3d kOnDuct{-0.046, 0.1085, -0.0986}, kAlong{-0.012, 0.002, 0.001};

@@ -9,8 +9,6 @@
 namespace trocar::training {
 namespace {
 
-using interactions::Fat;
-
 /// The gallbladder before its dissection, with the fat of the triangle.
 struct InFat {
   sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/calot/scene.json"));
@@ -25,8 +23,8 @@ struct InFat {
   }
   int lobules_within(Vec3d p, double reach) const {
     int count = 0;
-    const interactions::FatBody& fat = interactions::part_of<Fat>(model.objects).list[0];
-    const tissue::FatState& s = interactions::part_of<Fat>(state.objects)[0].fat;
+    const interactions::FatBody& fat = model.fat[0];
+    const tissue::FatState& s = state.fat[0];
     for (int n = 0; n < fat.fat.lobules(); ++n) count += length(position(fat.fat, s, n) - p) < reach;
     return count;
   }

@@ -19,7 +19,6 @@ namespace trocar::training {
 namespace {
 
 using interactions::BondState;
-using interactions::Fat;
 using tissue::Lobule;
 
 const sim::Model& calot() {
@@ -31,23 +30,28 @@ struct Triangle {
   const sim::Model& model = calot();
   sim::State state = sim::initial_state(model);
 
-  const interactions::FatBody& body() const { return interactions::part_of<Fat>(model.objects).list.front(); }
-  interactions::FatBodyState& fat() { return interactions::part_of<Fat>(state.objects).front(); }
-  const interactions::FatBodyState& fat() const { return interactions::part_of<Fat>(state.objects).front(); }
-  Vec3d place(int lobule) const { return position(body().fat, fat().fat, lobule); }
+  const interactions::FatBody& body() const { return model.fat.front(); }
+  tissue::FatState& fat() { return state.fat.front(); }
+  const tissue::FatState& fat() const { return state.fat.front(); }
+  const std::vector<interactions::Bond>& roots() const { return model.bonds[std::size_t(body().roots)].bonds; }
+  std::vector<BondState>& root_states() { return state.bonds[std::size_t(body().roots)]; }
+  /// Of those by which it hangs on the gallbladder's wall.
+  void part_from_wall(BondState::Cause cause) {
+    for (std::size_t i = 0; i < roots().size(); ++i)
+      if (roots()[i].far.body.is(BodyKind::membrane)) root_states()[i] = {1, cause};
+  }
+  Vec3d place(int lobule) const { return position(body().fat, fat(), lobule); }
 
   void remove(int lobule) {
-    Lobule& l = fat().fat.lobules[std::size_t(lobule)];
+    Lobule& l = fat().lobules[std::size_t(lobule)];
     if (l.gone()) return;
     l.marks |= Lobule::kBoiledAway;
-    ++fat().fat.gone;
+    ++fat().gone;
     for (int i = 0; i < body().fat.septa(); ++i)
       if (septum_end(body().fat, i, 0) == lobule || septum_end(body().fat, i, 1) == lobule)
-        tissue::cut_spring(body().fat.network, fat().fat.network, i);
-    for (std::size_t i = 0; i < body().roots.bonds.size(); ++i)
-      if (body().roots.bonds[i].node == lobule) fat().roots[i] = {1, BondState::burnt};
-    for (std::size_t i = 0; i < body().ties.size(); ++i)
-      if (body().ties[i].lobule == lobule) fat().ties[i] = {1, BondState::burnt};
+        tissue::cut_spring(body().fat.network, fat().network, i);
+    for (std::size_t i = 0; i < roots().size(); ++i)
+      if (roots()[i].node() == lobule) root_states()[i] = {1, BondState::burnt};
   }
   /// All but those that `stays(place)` asks to keep.
   template <class F>
@@ -138,9 +142,9 @@ TEST(CriticalView, OneSectorOfACordMayBeCoveredTwoMayNot) {
   const Vec3d at = point_at(body, t.state.strands[std::size_t(duct)], middle);
   const double off = body.model.radius[std::size_t(middle.element)] + 0.001;
   const auto put = [&](int lobule, double turn) {
-    tissue::set_position(t.body().fat.network, t.fat().fat.network, lobule,
+    tissue::set_position(t.body().fat.network, t.fat().network, lobule,
                          at + off * (std::cos(turn) * frame.normal + std::sin(turn) * frame.binormal));
-    t.fat().fat.lobules[std::size_t(lobule)].marks = 0;
+    t.fat().lobules[std::size_t(lobule)].marks = 0;
   };
   const double all = t.bared("cystic_duct");
   put(0, 0.4);
@@ -154,7 +158,7 @@ TEST(CriticalView, FatThatStillLeadsSomewhereIsABridge) {
   const std::size_t all = t.bridged().size();
   EXPECT_GT(all, 0u);
   // every way from the gallbladder parts when its ties do
-  for (BondState& tie : t.fat().ties) tie = {1, BondState::cut};
+  t.part_from_wall(BondState::cut);
   const auto is_gallbladder_tied = !t.bridged().empty();
   EXPECT_FALSE(is_gallbladder_tied);
   EXPECT_GT(fat_left(t.model, t.state, BodyId(BodyKind::fat, 0)), 0.99) << "all of it is still there";
@@ -162,10 +166,9 @@ TEST(CriticalView, FatThatStillLeadsSomewhereIsABridge) {
 
 TEST(CriticalView, FatThatHangsOnNothingIsNotLeft) {
   Triangle t;
-  for (BondState& tie : t.fat().ties) tie = {1, BondState::pulled};
-  for (BondState& root : t.fat().roots) root = {1, BondState::pulled};
+  for (BondState& root : t.root_states()) root = {1, BondState::pulled};
   EXPECT_EQ(fat_left(t.model, t.state, BodyId(BodyKind::fat, 0)), 0);
-  t.fat().roots.front() = {};
+  t.root_states().front() = {};
   EXPECT_GT(fat_left(t.model, t.state, BodyId(BodyKind::fat, 0)), 0.2) << "septa lead to one root";
 }
 
@@ -198,7 +201,7 @@ TEST(CriticalView, TractionAloneOpensNothing) {
   RecordProperty("pulled_N", std::to_string(pulled));
   EXPECT_GT(pulled, 0.25) << "it was drawn";
   double holds = 0;
-  for (int i = 0; i < t.body().fat.septa(); ++i) holds += holding(t.body().fat, t.fat().fat, i) / t.body().fat.septa();
+  for (int i = 0; i < t.body().fat.septa(); ++i) holds += holding(t.body().fat, t.fat(), i) / t.body().fat.septa();
   EXPECT_GT(holds, 0.95) << "drawn out so far, some septa have begun to give";
   EXPECT_LT(t.open(), 0.1);
   EXPECT_FALSE(t.bridged().empty());

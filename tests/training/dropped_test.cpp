@@ -17,7 +17,7 @@ struct Watched {
   std::unique_ptr<EventDetector> detector = kDropped.watch(model, {{true, -1, 0.005, 0.005, {}, {}}});
   EventInstances seen;
 
-  interactions::RigidState& ring() { return interactions::part_of<interactions::Rigid>(state.objects)[2]; }
+  interactions::RigidState& ring() { return interactions::part_of<interactions::Rigid>(state)[2]; }
   int ticks(int n) {
     seen.count = 0;
     for (int i = 0; i < n; ++i) ++state.tick, detector->tick({model, state}, {}, seen);

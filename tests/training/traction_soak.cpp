@@ -62,9 +62,9 @@ Drawn draw(const std::string& towards) {
   out.pull = length(Vec3d{pull[0], pull[1], pull[2]});
   out.angle = degrees();
   out.area = mm2();
-  const interactions::FatBody& fat = interactions::part_of<interactions::Fat>(model.objects).list.front();
-  const interactions::FatBodyState& left = interactions::part_of<interactions::Fat>(s.objects).front();
-  for (int i = 0; i < fat.fat.septa(); ++i) out.septa += holding(fat.fat, left.fat, i) / fat.fat.septa();
+  const interactions::FatBody& fat = model.fat.front();
+  const tissue::FatState& left = s.fat.front();
+  for (int i = 0; i < fat.fat.septa(); ++i) out.septa += holding(fat.fat, left, i) / fat.fat.septa();
   std::printf("%s: %.2f N, %.1f to %.1f degrees, %.0f to %.0f mm2, %.3f of the septa hold\n", towards.c_str(), out.pull,
               out.before, out.angle, out.area_before, out.area, out.septa);
   return out;

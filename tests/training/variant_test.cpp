@@ -49,21 +49,20 @@ std::size_t not_cords(const sim::Model& model, const sim::State& state, const Se
 /// All fat is gone but what lies within `near` of a strand.
 sim::State dissected_to(const sim::Model& model, const char* strand, double near) {
   sim::State state = sim::initial_state(model);
-  const interactions::FatBody& body = interactions::part_of<interactions::Fat>(model.objects).list.front();
-  interactions::FatBodyState& fat = interactions::part_of<interactions::Fat>(state.objects).front();
+  const interactions::FatBody& body = model.fat.front();
+  tissue::FatState& fat = state.fat.front();
+  const std::size_t roots = std::size_t(body.roots);
   const std::vector<Vec3d>& line = state.strands[std::size_t(model.strand_index(strand))].x;
   for (int n = 0; n < body.fat.lobules(); ++n) {
     double apart = 1;
-    for (const Vec3d& p : line) apart = std::min(apart, length(position(body.fat, fat.fat, n) - p));
+    for (const Vec3d& p : line) apart = std::min(apart, length(position(body.fat, fat, n) - p));
     if (apart < near) continue;
-    fat.fat.lobules[std::size_t(n)].marks |= tissue::Lobule::kBoiledAway;
+    fat.lobules[std::size_t(n)].marks |= tissue::Lobule::kBoiledAway;
     for (int i = 0; i < body.fat.septa(); ++i)
       if (septum_end(body.fat, i, 0) == n || septum_end(body.fat, i, 1) == n)
-        tissue::cut_spring(body.fat.network, fat.fat.network, i);
-    for (std::size_t i = 0; i < body.roots.bonds.size(); ++i)
-      if (body.roots.bonds[i].node == n) fat.roots[i] = {1, interactions::BondState::burnt};
-    for (std::size_t i = 0; i < body.ties.size(); ++i)
-      if (body.ties[i].lobule == n) fat.ties[i] = {1, interactions::BondState::burnt};
+        tissue::cut_spring(body.fat.network, fat.network, i);
+    for (std::size_t i = 0; i < model.bonds[roots].bonds.size(); ++i)
+      if (model.bonds[roots].bonds[i].node() == n) state.bonds[roots][i] = {1, interactions::BondState::burnt};
   }
   return state;
 }

@@ -73,8 +73,7 @@ void blend(const sim::Model& model, const sim::State& a, const sim::State& b, do
                   out.membranes[i].network);
   interactions::ObjectKinds::for_each([&](auto kind) {
     using K = decltype(kind);
-    kind.blend(interactions::part_of<K>(a.objects), interactions::part_of<K>(b.objects), f,
-               interactions::part_of<K>(out.objects));
+    kind.blend(interactions::part_of<K>(a), interactions::part_of<K>(b), f, interactions::part_of<K>(out));
   });
   for (std::size_t t = 0; t < out.tools.size(); ++t) blend_tool(a.tools[t], b.tools[t], f, out.tools[t]);
   for (std::size_t t = 0; t < out.joints.size(); ++t)

@@ -31,7 +31,7 @@ OnRod on_rod(const StrandBody& body, const tissue::StrandState& s, const Materia
 Vec3d direction(const std::vector<Vec3d>& x, std::size_t e) noexcept { return normalised(x[e + 1] - x[e]); }
 
 /// Turns v as the smallest rotation from direction a to direction b does.
-Vec3d turned(Vec3d v, Vec3d a, Vec3d b) noexcept {
+Vec3d swung(Vec3d v, Vec3d a, Vec3d b) noexcept {
   const Vec3d axis = cross(a, b);
   const double c = dot(a, b);
   if (c < -0.999) return v;
@@ -47,7 +47,7 @@ struct RodFrame {
       : drawn(direction(body.model.rest, e)), now(direction(s.x, e)), length(trocar::length(s.x[e + 1] - s.x[e])) {}
 
   Vec3d beside(const OnRod& on, const MaterialPoint& p) const noexcept {
-    return on.along * now + turned(offset_of(p), drawn, now);
+    return on.along * now + swung(offset_of(p), drawn, now);
   }
   /// Of what turns with it: t' follows the ends' velocities, and the smallest rotation from the drawn direction twists
   /// about t as t' goes around that.
@@ -108,11 +108,11 @@ Row row_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
 }
 
 /// Edge, across and normal of a triangle of nodes.
-struct TriangleFrame {
+struct SheetFrame {
   Vec3d edge, across, normal;
   double length = 1, height = 1, foot = 0;  ///< of the edge; of the third node over it, and where on it, 0 .. 1
 
-  explicit TriangleFrame(const std::array<Vec3d, kRowNodes>& x) noexcept {
+  explicit SheetFrame(const std::array<Vec3d, kRowNodes>& x) noexcept {
     const Vec3d ab = x[1] - x[0], ac = x[2] - x[0];
     length = std::max(1e-9, trocar::length(ab));
     edge = normalised(ab);
@@ -139,7 +139,7 @@ struct TriangleFrame {
 };
 
 Vec3d beside(const Row& row, const MaterialPoint& p) noexcept {
-  return p.frame == MaterialPoint::triangle ? TriangleFrame(row.x).out(offset_of(p)) : offset_of(p);
+  return p.frame == MaterialPoint::triangle ? SheetFrame(row.x).out(offset_of(p)) : offset_of(p);
 }
 
 Vec3d along(Vec3d v, Vec3d dir) noexcept { return dir.x == 0 && dir.y == 0 && dir.z == 0 ? v : dot(v, dir) * dir; }
@@ -187,7 +187,7 @@ void put_on_nodes(const Bodies& bodies, const MaterialPoint& p, const PointLoad&
   const Vec3d off = beside(row, p), x = row.mean(row.x) + off;
   Vec3d v = row.mean(row.v), couple[3] = {};
   if (p.frame == MaterialPoint::triangle) {
-    const TriangleFrame frame(row.x);
+    const SheetFrame frame(row.x);
     v += cross(frame.spin(row.v), off);
     frame.bear(cross(off, force_of(load, x, counted_on(v))), couple);
   }
@@ -214,7 +214,7 @@ void put_on_nodes(const Bodies& bodies, const MaterialPoint& p, const PointLoad&
 }
 
 /// Nodes of a row that are not there twice, and that take loads.
-struct Corners {
+struct RowNodes {
   std::array<std::int32_t, kRowNodes> node{};
   std::array<Vec3d, kRowNodes> x;
   int count = 0;
@@ -230,7 +230,7 @@ struct Corners {
 };
 
 /// With weights of the corners; what those do not give is left as an offset.
-void fit(const Corners& corners, Vec3d place, MaterialPoint& p) noexcept {
+void fit(const RowNodes& corners, Vec3d place, MaterialPoint& p) noexcept {
   p.count = corners.count;
   std::copy(corners.node.begin(), corners.node.end(), p.node.begin());
   const std::size_t n = std::size_t(p.count);
@@ -247,7 +247,7 @@ void fit(const Corners& corners, Vec3d place, MaterialPoint& p) noexcept {
     p.frame = MaterialPoint::space;
     set_offset(p, off);
   } else {
-    set_offset(p, TriangleFrame(row.x).in(off));
+    set_offset(p, SheetFrame(row.x).in(off));
   }
 }
 
@@ -271,7 +271,7 @@ MaterialPoint in_a_cell(const Bodies& bodies, BodyId body, std::span<const std::
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const auto near = [&](std::int32_t n) { return std::find(at.begin(), at.end(), n) != at.end(); };
     if (std::none_of(cells[c].begin(), cells[c].end(), near)) continue;
-    Corners corners;
+    RowNodes corners;
     for (std::int32_t k = 0; k < 4; ++k) {
       const std::int32_t n = cells[c][std::size_t(k)];
       if (takes_loads(bodies, body, n)) corners.add(k, nodes.position(n));
@@ -317,7 +317,7 @@ MaterialPoint in_a_triangle(const Bodies& bodies, std::size_t membrane, Vec3d pl
     row.weight[k] = double(best.weight[k]);
   }
   row.count = 3;
-  set_offset(best, TriangleFrame(row.x).in(place - row.mean(row.x)));
+  set_offset(best, SheetFrame(row.x).in(place - row.mean(row.x)));
   return best;
 }
 
@@ -367,7 +367,7 @@ MaterialPoint at_node(const Bodies& bodies, BodyId body, std::int32_t node, Vec3
     p.element = std::int32_t(t);
     p.count = 3;
     p.frame = MaterialPoint::triangle;
-    set_offset(p, TriangleFrame(x).in(offset));
+    set_offset(p, SheetFrame(x).in(offset));
     return p;
   }
   return p;
@@ -381,14 +381,14 @@ MaterialPoint at_element(const Bodies& bodies, std::size_t rod, std::int32_t ele
   p.element = element;
   p.weight[0] = float(w);
   p.frame = MaterialPoint::rod;
-  set_offset(p, turned(offset, direction(bodies.strand_state(rod).x, e), direction(body.model.rest, e)));
+  set_offset(p, swung(offset, direction(bodies.strand_state(rod).x, e), direction(body.model.rest, e)));
   return p;
 }
 
 MaterialPoint at_vertex(const Bodies& bodies, std::size_t organ, std::int32_t vertex, Vec3d place) noexcept {
   const BodyId body = BodyId::organ(organ);
   const tissue::NodeView nodes = organ_nodes(bodies, organ);
-  Corners corners;
+  RowNodes corners;
   skin_of(bodies, organ).each_carrier(vertex, [&](int node, int, float) {
     if (takes_loads(bodies, body, node)) corners.add(node, nodes.position(node));
   });
@@ -406,7 +406,7 @@ MaterialPoint attach(const Bodies& bodies, BodyId body, Vec3d place) noexcept {
   const std::span<const std::int32_t> found{near.node.data(), std::size_t(near.count)};
   if (is_tetrahedral(bodies, body)) return in_a_cell(bodies, body, found, place);
   const tissue::NodeView nodes = nodes_of(bodies, body);
-  Corners corners;
+  RowNodes corners;
   for (const std::int32_t n : found) corners.add(n, nodes.position(n));
   MaterialPoint p;
   if (corners.count == 0) return p;
@@ -444,7 +444,7 @@ Vec3d velocity_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
     const Row row = row_of(bodies, p);
     Vec3d v = row.mean(row.v);
     if (p.frame == MaterialPoint::triangle) {
-      const TriangleFrame frame(row.x);
+      const SheetFrame frame(row.x);
       v += cross(frame.spin(row.v), frame.out(offset_of(p)));
     }
     return counted_on(v);
@@ -490,7 +490,7 @@ NodeForces transposed(const Bodies& bodies, const MaterialPoint& p, Vec3d force)
   if (!p.body.is(BodyKind::strand)) {
     const Row row = row_of(bodies, p);
     Vec3d couple[3] = {};
-    if (p.frame == MaterialPoint::triangle) TriangleFrame(row.x).bear(cross(beside(row, p), force), couple);
+    if (p.frame == MaterialPoint::triangle) SheetFrame(row.x).bear(cross(beside(row, p), force), couple);
     for (std::size_t i = 0; i < std::size_t(row.count); ++i)
       out.add(row.node[i], row.weight[i] * force + (p.frame == MaterialPoint::triangle && i < 3 ? couple[i] : Vec3d{}));
     return out;

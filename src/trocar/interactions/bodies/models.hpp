@@ -7,7 +7,8 @@
 #include <vector>
 
 #include <trocar/core/fields.hpp>
-#include <trocar/interactions/bodies/border.hpp>
+#include <trocar/interactions/bodies/attachment.hpp>
+#include <trocar/interactions/bodies/fat_body.hpp>
 #include <trocar/interactions/bodies/hosting.hpp>
 #include <trocar/interactions/bodies/static_organ.hpp>
 #include <trocar/interactions/bodies/strand_body.hpp>
@@ -104,7 +105,7 @@ struct MembraneBody {
   tissue::Skin skin;              ///< the sheet's own nodes and triangles, one skin vertex per node
   double pinch_reach = 0;         ///< of a pouch (SheetView) [m]
   std::vector<float> depth;       ///< (nodes) way from the strand's surface, in the drawn shape [m]
-  std::vector<BorderHold> holds;  ///< (held nodes)
+  std::vector<Attachment> holds;  ///< (held nodes)
   double failure_strain = 0;      ///< 0: it never tears
   std::int32_t duct = -1;         ///< of a pouch: the strand whose lumen opens into it; -1: none
   bool duct_at_start = false;     ///< with the strand's beginning; else with its end
@@ -127,6 +128,7 @@ struct BodyModels {
   std::vector<StrandAnatomy> strands;
   std::vector<StrandBody> strand_bodies;  ///< (strands) their mechanics
   std::vector<MembraneBody> membranes;
+  std::vector<FatBody> fat;
 
   int organs() const { return int(solids.size() + cuttables.size()); }
   const tissue::Skin& skin(int organ) const {  ///< in the drawn shape

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <trocar/interactions/bodies/static_organ.hpp>
+#include <trocar/tissue/fat/fat.hpp>
 #include <trocar/tissue/membrane/membrane.hpp>
 #include <trocar/tissue/network/network.hpp>
 #include <trocar/tissue/strand/strand.hpp>
@@ -19,6 +20,7 @@ struct BodyStates {
   std::vector<StaticOrganState> statics;  ///< (BodyModels::statics)
   std::vector<tissue::StrandState> strands;
   std::vector<tissue::MembraneState> membranes;
+  std::vector<tissue::FatState> fat;
   std::vector<std::vector<std::uint8_t>> torn;  ///< (membranes) per triangle: 1 = cut open
 };
 

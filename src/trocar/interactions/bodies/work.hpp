@@ -79,6 +79,7 @@ struct BodyWork {
   std::vector<StaticOrganWork> statics;
   std::vector<StrandBodyWork> strands;
   std::vector<MembraneBodyWork> membranes;
+  std::vector<FatBodyWork> fat;
   std::vector<Surface> surfaces;  ///< (organs, walls)
 };
 

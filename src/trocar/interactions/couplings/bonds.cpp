@@ -1,11 +1,17 @@
-#include <trocar/core/field_hash.hpp>
 #include <trocar/interactions/couplings/bonds.hpp>
-#include <trocar/interactions/couplings/border_loads.hpp>
+#include <trocar/interactions/couplings/coupled.hpp>
 
 namespace trocar::interactions {
 namespace {
 
 constexpr double kBondDamping = 2e-4;  // [s] times stiffness, ours: loose tissue swings out at once
+
+void damage_by(const BondSet& set, double opening, double dt, BondState::Cause cause, BondState& state) noexcept {
+  const double damage = tissue::damage_after(set.law, double(state.damage), opening, dt);
+  if (damage <= double(state.damage)) return;
+  state.damage = float(damage);
+  if (state.cause == BondState::whole || cause == BondState::burnt) state.cause = cause;
+}
 
 }  // namespace
 
@@ -15,38 +21,33 @@ double BondSet::area() const noexcept {
   return sum;
 }
 
-Vec3d opening_of(const Bond& bond, const BondedNodes& nodes, const Bodies& bodies) noexcept {
-  return tissue::position(nodes.model, nodes.state, bond.node) - held_place(bond.hold, bodies);
+Vec3d root_of(const Bodies& bodies, const Bond& bond) noexcept {
+  if (bond.vertex < 0) return foot_of(bodies, bond.far);
+  const std::size_t organ = bond.far.body.index();
+  return skin_point(organ_nodes(bodies, organ), skin_of(bodies, organ), bond.vertex);
 }
 
-void bond_loads(const BondSet& set, std::span<BondState> states, const BondedNodes& nodes, const Bodies& bodies,
-                double dt) noexcept {
+Vec3d opening_of(const Bodies& bodies, const Bond& bond) noexcept {
+  return place_of(bodies, bond.near) - place_of(bodies, bond.far);
+}
+
+void bond_loads(const Bodies& bodies, const BondSet& set, std::span<BondState> states, double dt) noexcept {
   for (std::size_t i = 0; i < set.bonds.size(); ++i) {
     const Bond& bond = set.bonds[i];
     BondState& state = states[i];
     if (!state.holds()) {
-      bear(bond.hold, -bond.hold.drawn_pull, 0, bodies);
+      put_load(bodies, bond.far, {.f0 = -bond.drawn_pull}, {Owner::anchor, 0, 0});
       continue;
     }
-    const Vec3d x = tissue::position(nodes.model, nodes.state, bond.node);
-    const Vec3d v = counted_on(tissue::velocity(nodes.model, nodes.state, bond.node));
-    const Vec3d at = held_place(bond.hold, bodies), moves = counted_on(held_velocity(bond.hold, bodies));
-    const double damage = tissue::damage_after(set.law, double(state.damage), length(x - at), dt);
-    if (damage > double(state.damage) && state.cause == BondState::whole) state.cause = BondState::pulled;
-    state.damage = float(damage);
-    const double whole = 1 - double(state.damage), k = whole * set.law.stiffness() * bond.area, d = kBondDamping * k;
-
-    tissue::NodeLoad load;
-    load.node = bond.node;
-    load.k = float(k);
-    load.d = float(d);
-    load.x0 = vec_cast<float>(at + 0.5 * dt * moves);  // where the holder is on the average: else they drive each other
-    load.f0 = vec_cast<float>(d * moves - whole * bond.hold.drawn_pull);
-    nodes.loads.add(load, {Owner::anchor, 0, 0});
-
-    const Vec3d pull = k * (x - at) + d * (v - moves) - (1 - whole) * bond.hold.drawn_pull;
-    bear(bond.hold, pull, k * dt + 2 * d, bodies);
+    const Coupled ends(bodies, bond.near, bond.far);
+    damage_by(set, length(ends.apart), dt, BondState::pulled, state);
+    const double whole = 1 - double(state.damage), k = whole * set.law.stiffness() * bond.area;
+    couple(bodies, ends, {k, kBondDamping * k, bond.drawn_pull, whole}, dt, {Owner::anchor, 0, 0});
   }
+}
+
+void weaken(const BondSet& set, double opening, double times, double dt, BondState& state) noexcept {
+  damage_by(set, times * opening, dt, BondState::burnt, state);
 }
 
 bool breached(const BondSet& set, const BondState& state) noexcept {
@@ -76,7 +77,5 @@ double holding_share(const BondSet& set, std::span<const BondState> states) noex
   const double all = set.area();
   return all > 0 ? left / all : 0;
 }
-
-void add_to_hash(core::Hasher& hasher, const BondSet& set) noexcept { core::add_fields(hasher, set); }
 
 }  // namespace trocar::interactions

@@ -1,15 +1,13 @@
-// Bonds: loose tissue between the wall of a pouch and what it lies on, that parts when it is pulled apart: a
-// gallbladder in its bed. Each ties a node of the wall to a place on an organ or a strand, by a cohesive law
+// Bonds: loose tissue between the wall of a pouch and what it lies on, or about lobules of fat, that parts when it is
+// pulled apart: a gallbladder in its bed. Each couples two material points, by a cohesive law
 // (tissue/failure/cohesive.hpp) in all directions alike: also pressed in and shifted along it resists, as what fills
 // the gap does.
 //
 // A bond that is tougher than what it is rooted in parts that instead: torn off, it leaves the organ breached. Cut or
 // burnt it still comes apart itself.
 //
-// The node bears its bond implicitly, whatever its stiffness; the holder the force as it is when the tick begins, and a
-// resistance to changes of its speed. A light node is each time where its holder was about to be a tick before; with
-// that, a holder of mass m that resists with r dt is stable from m + r dt >= k dt^2 + 2 d dt on, so r = k dt + 2 d
-// holds the lightest.
+// The near point bears its bond implicitly, whatever its stiffness; the far one the force as it is when the tick
+// begins, and a resistance to changes of its speed (coupled.hpp).
 #pragma once
 
 #include <span>
@@ -18,26 +16,31 @@
 
 #include <trocar/core/fields.hpp>
 #include <trocar/interactions/bodies/bodies.hpp>
+#include <trocar/interactions/bodies/material_point.hpp>
 #include <trocar/tissue/failure/cohesive.hpp>
 
 namespace trocar::interactions {
 
 /// Const after compile.
 struct Bond {
-  std::int32_t node = -1;  ///< of the wall
-  BorderHold hold;         ///< never space; drawn_pull: the wall's on the bond, in the drawn shape
-  double area = 0;         ///< that it stands for [m^2]
+  MaterialPoint near;         ///< a node of a wall, or a lobule
+  MaterialPoint far;          ///< what it is rooted in; never space
+  double area = 0;            ///< that it stands for [m^2]
+  std::int32_t vertex = -1;   ///< of an organ's skin, beside the far one; -1: that is no organ
+  Vec3d drawn_pull{0, 0, 0};  ///< of the near on the far, in the drawn shape, which bears it already [N]
+
+  std::int32_t node() const noexcept { return near.node[0]; }
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("node", s.node), v("hold", s.hold), v("area", s.area);
+    v("near", s.near), v("far", s.far), v("area", s.area), v("vertex", s.vertex), v("drawn_pull", s.drawn_pull);
   }
 };
 
 /// Bonds of one kind, with a name: "bed".
 struct BondSet {
   std::string name;
-  std::int32_t membrane = -1;  ///< whose nodes; -1: not a membrane's
+  BodyId of;  ///< whose nodes they tie: a membrane, or fat
   tissue::CohesiveLaw law;
   std::vector<Bond> bonds;
   double oozes = 0;       ///< blood from what it was torn or cut off, until that is burnt [m/s: m^3/s a m^2]
@@ -45,10 +48,12 @@ struct BondSet {
   double bleeds = 0;      ///< as `oozes`, from where that has torn
 
   double area() const noexcept;  ///< of all [m^2]
+  bool of_membrane() const noexcept { return of.is(BodyKind::membrane); }
+  std::size_t membrane() const noexcept { return of.index(); }
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("membrane", s.membrane), v("law", s.law), v("bonds", s.bonds), v("oozes", s.oozes),
+    v("of", s.of), v("law", s.law), v("bonds", s.bonds), v("oozes", s.oozes),
         v("breaches", s.breaches, core::only_if(s.breaches)), v("bleeds", s.bleeds, core::only_if(s.breaches)),
         v("name", s.name, core::kNotHashed);
   }
@@ -71,20 +76,17 @@ struct BondState {
   }
 };
 
-/// What a set of bonds ties: nodes of a wall, or lobules of fat.
-struct BondedNodes {
-  const tissue::NetworkModel& model;
-  const tissue::NetworkState& state;
-  NetworkLoads& loads;
-};
-
+/// Where it is rooted: on the organ's skin, on the rod's axis, on the sheet [m].
+Vec3d root_of(const Bodies& bodies, const Bond& bond) noexcept;
 /// How far a bond is from where it was drawn [m].
-Vec3d opening_of(const Bond& bond, const BondedNodes& nodes, const Bodies& bodies) noexcept;
+Vec3d opening_of(const Bodies& bodies, const Bond& bond) noexcept;
 
-/// What damage has come in the last tick, and the loads of the next on wall and holders.
+/// What damage has come in the last tick, and the loads of the next on both ends.
 /// @param states  (bonds)
-void bond_loads(const BondSet& set, std::span<BondState> states, const BondedNodes& nodes, const Bodies& bodies,
-                double dt) noexcept;
+void bond_loads(const Bodies& bodies, const BondSet& set, std::span<BondState> states, double dt) noexcept;
+
+/// A bond of which the opening counts this many times as much: damage comes sooner, and as burnt.
+void weaken(const BondSet& set, double opening, double times, double dt, BondState& state) noexcept;
 
 /// Has what the bond is rooted in torn in its place?
 bool breached(const BondSet& set, const BondState& state) noexcept;
@@ -98,7 +100,5 @@ double energy_spent(const BondSet& set, std::span<const BondState> states) noexc
 
 /// Share of the set's area that still holds, 0 .. 1.
 double holding_share(const BondSet& set, std::span<const BondState> states) noexcept;
-
-void add_to_hash(core::Hasher& hasher, const BondSet& set) noexcept;
 
 }  // namespace trocar::interactions

@@ -30,7 +30,7 @@ TriangleFrame frame_of(Vec3d a, Vec3d b, Vec3d c) noexcept {
 /// Bodies as they are now, and vertices that have been worked out.
 struct Carriers {
   const Bodies& bodies;
-  Corners corners;
+  VertexPlaces corners;
 };
 
 Vec3d corner(const VesselHold& hold, const Carriers& now, std::size_t k) noexcept {
@@ -106,7 +106,7 @@ Vec3d straight_on(const VesselPath& path, std::span<const Vec3d> points, std::sp
 
 }  // namespace
 
-Vec3d held_point(const VesselHold& hold, const Bodies& bodies, Corners corners) noexcept {
+Vec3d held_point(const VesselHold& hold, const Bodies& bodies, VertexPlaces corners) noexcept {
   switch (hold.kind) {
     case VesselHold::strand:
       return on_strand(hold, bodies);
@@ -132,7 +132,7 @@ void anchor_point(VesselHold& hold, Vec3d drawn, const Bodies& bodies) noexcept 
   hold.offset = {dot(away, f.edge), dot(away, f.across), dot(away, f.normal)};
 }
 
-void pose_vessel(const VesselPath& path, const Bodies& bodies, std::span<Vec3d> points, Corners corners) noexcept {
+void pose_vessel(const VesselPath& path, const Bodies& bodies, std::span<Vec3d> points, VertexPlaces corners) noexcept {
   for (std::size_t i = 0; i < path.points.size(); ++i)
     if (path.points[i].hold.kind != VesselHold::space) points[i] = held_point(path.points[i].hold, bodies, corners);
   for (std::size_t i = 0; i < path.points.size(); ++i) {

@@ -77,13 +77,14 @@ struct VesselPath {
 };
 
 /// (organs)(skin vertices) where vertices that carry vessels are now; empty: each is worked out when it is asked for.
-using Corners = std::span<const std::vector<Vec3d>>;
+using VertexPlaces = std::span<const std::vector<Vec3d>>;
 
 /// Where a point that something carries is now.
-Vec3d held_point(const VesselHold& hold, const Bodies& bodies, Corners corners = {}) noexcept;
+Vec3d held_point(const VesselHold& hold, const Bodies& bodies, VertexPlaces corners = {}) noexcept;
 
 /// @param points  out: (path.points)
-void pose_vessel(const VesselPath& path, const Bodies& bodies, std::span<Vec3d> points, Corners corners = {}) noexcept;
+void pose_vessel(const VesselPath& path, const Bodies& bodies, std::span<Vec3d> points,
+                 VertexPlaces corners = {}) noexcept;
 
 /// The same place in the drawn shape, in the frame of its host: for compile. `hold` names the host and the place on it.
 void anchor_point(VesselHold& hold, Vec3d drawn, const Bodies& bodies) noexcept;

@@ -204,6 +204,7 @@ struct BagWorks {
 /// of its own (sim/bodies/bag.hpp).
 struct Bag {
   static constexpr BodyKind kKind = BodyKind::bag;
+  static constexpr bool kIsTissue = false;
   static constexpr bool kRigidInJaws = false;
   using Models = BagModels;
   using States = std::vector<BagState>;

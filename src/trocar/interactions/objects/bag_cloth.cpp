@@ -21,11 +21,11 @@ constexpr double kTaut = 0.98, kStilled = 0.5;  // of its length, squared; share
 constexpr double kViscous = 0.05;               // of any other motion between two nodes
 constexpr double kComesOut = 0.1;               // share of what has sunk into the cloth that comes out in a tick
 constexpr int kClothSweeps = 4;
-constexpr double kThrownOut = 0.1;    // [m/s] at most
-constexpr double kThick = 0.0008;     // [m] half the cloth's thickness, with what clings to it
-constexpr double kRodClear = 0.0005;  // [m]
-constexpr double kSlides = 0.15;      // Coulomb's coefficient of cloth on tissue and of contents on cloth
-constexpr double kNearSkin = 0.012;   // [m]
+constexpr double kThrownOut = 0.1;     // [m/s] at most
+constexpr double kThick = 0.0008;      // [m] half the cloth's thickness, with what clings to it
+constexpr double kRodClear = 0.0005;   // [m]
+constexpr double kClothSlides = 0.15;  // Coulomb's coefficient of cloth on tissue and of contents on cloth
+constexpr double kNearSkin = 0.012;    // [m]
 constexpr std::uint64_t kSkinTurns = 4;
 
 double stepped_to(double from, double to, double most) noexcept { return from + std::clamp(to - from, -most, most); }
@@ -95,7 +95,7 @@ void press_out(const BagModel& m, BagState& s, BagWork& w) noexcept {
     x += by * p.normal;
     const Vec3d slid = x - w.before[size_t(p.node)], across = slid - dot(slid, p.normal) * p.normal;
     const double far = length(across);
-    if (far > 1e-9) x -= std::min(1.0, kSlides * by / far) * across;
+    if (far > 1e-9) x -= std::min(1.0, kClothSlides * by / far) * across;
   }
 }
 
@@ -169,7 +169,7 @@ void rub(const BagModel& m, double h, BagState& s, BagWork& w) noexcept {
     const Vec3d slid = (h * body.speed + body.moved) - (place_of(t, s) - was);
     const Vec3d across = slid - dot(slid, t.normal) * t.normal;
     const double far = length(across);
-    if (far > 1e-9) part(m, t, (-std::min(1.0, kSlides * t.pressed / far)) * across, s, w);
+    if (far > 1e-9) part(m, t, (-std::min(1.0, kClothSlides * t.pressed / far)) * across, s, w);
   }
 }
 

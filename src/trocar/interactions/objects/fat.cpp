@@ -12,7 +12,7 @@ constexpr double kQuickest = 0.0012;     // [m] a tick, beyond the instrument's 
 constexpr double kSlips = 0.005;         // [m/s] above it friction is Coulomb's, below it viscous
 constexpr double kFatCompressed = 0.6;   // thickness between jaws that just hold it, of its diameter
 constexpr float kStays = 10;             // [N s/m] what is gone is nowhere: its node is kept where it was
-constexpr size_t kLoadsPerLobule = 12;
+constexpr size_t kLoadsPerLobule = 13;   // one of them of its root
 
 /// A lobule that a part of an instrument presses on.
 void push(const Capsule& rod, double way, Vec3d rod_velocity, double friction, Tag tag, int lobule, Vec3d p, Vec3d v,
@@ -114,53 +114,51 @@ void keep_in(const tissue::Box& cavity, const tissue::FatModel& m, tissue::FatSt
 
 Fat::States Fat::start(const Models& models) {
   States states;
-  for (const FatBody& b : models.list)
-    states.push_back({tissue::rest_state(b.fat), std::vector<BondState>(b.roots.bonds.size()),
-                      std::vector<BondState>(b.ties.size())});
+  for (const FatBody& b : models) states.push_back(tissue::rest_state(b.fat));
   return states;
 }
 
 Fat::Work Fat::make_work(const Models& models, int) {
   Work w;
-  for (const FatBody& b : models.list) {
-    FatBodyWork& one = w.list.emplace_back();
+  for (const FatBody& b : models) {
+    FatBodyWork& one = w.emplace_back();
     one.fat = tissue::make_work(b.fat);
-    one.loads.reserve(kLoadsPerLobule * size_t(b.fat.lobules()) + b.roots.bonds.size() + b.ties.size());
+    one.loads.reserve(kLoadsPerLobule * size_t(b.fat.lobules()));
   }
   return w;
 }
 
 void Fat::clear(Work& work) noexcept {
-  for (FatBodyWork& w : work.list) w.loads.clear();
+  for (FatBodyWork& w : work) w.loads.clear();
 }
 
 void Fat::touch(const Models& models, const States& states, const ObjectHand& hand, Work& work) noexcept {
-  for (size_t i = 0; i < models.list.size(); ++i) {
-    const tissue::FatModel& m = models.list[i].fat;
-    if (!is_near(m, states[i].fat, hand.touching.shape)) continue;
+  for (size_t i = 0; i < models.size(); ++i) {
+    const tissue::FatModel& m = models[i].fat;
+    if (!is_near(m, states[i], hand.touching.shape)) continue;
     for (int part = kShaft; part < end_of(hand.touching.shape); part = next(part))
-      touch_part(m, states[i].fat, BodyId(kKind, i), hand, part, work.list[i].loads);
+      touch_part(m, states[i], BodyId(kKind, i), hand, part, work[i].loads);
   }
 }
 
 Vec3d Fat::middle(const Models& models, const States& states, size_t i) noexcept {
-  const tissue::FatModel& m = models.list[i].fat;
+  const tissue::FatModel& m = models[i].fat;
   Vec3d sum;
-  for (int n = 0; n < m.lobules(); ++n) sum += tissue::position(m, states[i].fat, n);
+  for (int n = 0; n < m.lobules(); ++n) sum += tissue::position(m, states[i], n);
   return sum / double(std::max(1, m.lobules()));
 }
 
 Vec3d Fat::point(const Models& models, const States& states, const Hold& hold) noexcept {
   const size_t i = hold.body.index();
-  return tissue::position(models.list[i].fat, states[i].fat, hold.element);
+  return tissue::position(models[i].fat, states[i], hold.element);
 }
 
 double Fat::thickness(const Models& models, const Hold& hold) noexcept {
-  return 2 * kFatCompressed * models.list[hold.body.index()].fat.radius;
+  return 2 * kFatCompressed * models[hold.body.index()].fat.radius;
 }
 
 bool Fat::is_attached(const States& states, const Hold& hold) noexcept {
-  return !states[hold.body.index()].fat.lobules[size_t(hold.element)].gone();
+  return !states[hold.body.index()].lobules[size_t(hold.element)].gone();
 }
 
 void Fat::pull(const Models&, const States& states, const Hold& hold, Vec3d target, HoldLaw law, Tag tag,
@@ -171,19 +169,19 @@ void Fat::pull(const Models&, const States& states, const Hold& hold, Vec3d targ
   load.k = float(law.stiffness);
   load.d = float(law.damping);
   load.x0 = vec_cast<float>(target);
-  work.list[hold.body.index()].loads.add(load, tag);
+  work[hold.body.index()].loads.add(load, tag);
 }
 
 tissue::StepReport Fat::advance(const Models& models, Vec3d, double, const tissue::Box& cavity, States& states,
                                 Work& work) noexcept {
   tissue::StepReport report;
-  for (size_t i = 0; i < models.list.size(); ++i) {
-    const tissue::FatModel& m = models.list[i].fat;
-    FatBodyWork& w = work.list[i];
-    stay(states[i].fat, w.loads);
+  for (size_t i = 0; i < models.size(); ++i) {
+    const tissue::FatModel& m = models[i].fat;
+    FatBodyWork& w = work[i];
+    stay(states[i], w.loads);
     w.loads.sort();
-    const tissue::StepReport r = tissue::advance(m, w.loads.sorted, w.loads.reaction, states[i].fat, w.fat);
-    keep_in(cavity, m, states[i].fat);
+    const tissue::StepReport r = tissue::advance(m, w.loads.sorted, w.loads.reaction, states[i], w.fat);
+    keep_in(cavity, m, states[i]);
     if (r.fine() || !report.fine()) continue;
     report = r;
     report.first_bad = int(i);
@@ -192,16 +190,16 @@ tissue::StepReport Fat::advance(const Models& models, Vec3d, double, const tissu
 }
 
 bool Fat::overloaded(const Work& work) noexcept {
-  return std::any_of(work.list.begin(), work.list.end(), [](const FatBodyWork& w) { return w.loads.overflowed; });
+  return std::any_of(work.begin(), work.end(), [](const FatBodyWork& w) { return w.loads.overflowed; });
 }
 
 bool Fat::hides(const Models& models, const States& states, Vec3d from, Vec3d to) noexcept {
   const collision::Capsule sight{from, to, 0};
-  for (size_t i = 0; i < models.list.size(); ++i) {
-    const tissue::FatModel& m = models.list[i].fat;
+  for (size_t i = 0; i < models.size(); ++i) {
+    const tissue::FatModel& m = models[i].fat;
     for (int n = 0; n < m.lobules(); ++n) {
-      if (states[i].fat.lobules[size_t(n)].gone()) continue;
-      const Vec3d p = tissue::position(m, states[i].fat, n), off = p - collision::nearest_on_axis(sight, p);
+      if (states[i].lobules[size_t(n)].gone()) continue;
+      const Vec3d p = tissue::position(m, states[i], n), off = p - collision::nearest_on_axis(sight, p);
       if (dot(off, off) < m.radius * m.radius) return true;
     }
   }
@@ -209,8 +207,8 @@ bool Fat::hides(const Models& models, const States& states, Vec3d from, Vec3d to
 }
 
 bool Fat::is_valid(const States& states) noexcept {
-  for (const FatBodyState& s : states)
-    for (const tissue::NodeState& n : s.fat.network.nodes)
+  for (const tissue::FatState& s : states)
+    for (const tissue::NodeState& n : s.network.nodes)
       if (!(std::fabs(n.x) < 10 && std::fabs(n.y) < 10 && std::fabs(n.z) < 10)) return false;
   return true;
 }
@@ -218,9 +216,9 @@ bool Fat::is_valid(const States& states) noexcept {
 void Fat::blend(const States& a, const States& b, double f, States& out) noexcept {
   const auto mixed = [f](float from, float to) { return from + float(f) * (to - from); };
   for (size_t i = 0; i < out.size(); ++i)
-    for (size_t n = 0; n < out[i].fat.network.nodes.size(); ++n) {
-      const tissue::NodeState &from = a[i].fat.network.nodes[n], &to = b[i].fat.network.nodes[n];
-      tissue::NodeState& at = out[i].fat.network.nodes[n];
+    for (size_t n = 0; n < out[i].network.nodes.size(); ++n) {
+      const tissue::NodeState &from = a[i].network.nodes[n], &to = b[i].network.nodes[n];
+      tissue::NodeState& at = out[i].network.nodes[n];
       at.x = mixed(from.x, to.x), at.y = mixed(from.y, to.y), at.z = mixed(from.z, to.z);
     }
 }

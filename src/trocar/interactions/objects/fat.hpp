@@ -1,116 +1,38 @@
 // Fat (tissue/fat/fat.hpp) as a body of a scene: what its lobules hold on, how instruments meet them, and how it is
 // parted.
 //
-//   roots   tie lobules to strands and organs: a set of bonds (couplings/bonds.hpp), with the fat in the wall's place
-//   ties    tie lobules to nodes of pouches' walls, by the same law
+//   roots   tie lobules to rods, organs and walls: a set of bonds (couplings/bonds.hpp)
 //   touch   a lobule is a ball; parts of instruments push it, with friction. Where jaws close on lobules they hold them
 // Lobules do not touch each other, nor the bodies that they have detached from: what is torn off falls out of sight.
 #pragma once
 
-#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
-#include <trocar/core/body_id.hpp>
 #include <trocar/core/fields.hpp>
-#include <trocar/interactions/couplings/bonds.hpp>
+#include <trocar/interactions/bodies/fat_body.hpp>
 #include <trocar/interactions/objects/object_hand.hpp>
-#include <trocar/tissue/fat/fat.hpp>
-#include <trocar/tissue/membrane/membrane.hpp>
 
 namespace trocar::interactions {
-
-/// A lobule on a node of a pouch's wall.
-struct FatTie {
-  std::int32_t lobule = -1;
-  std::int32_t membrane = -1, node = -1;
-  Vec3d offset{0, 0, 0};  ///< from the node to the lobule, in the drawn shape [m]
-  double area = 0;        ///< [m^2]
-
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("lobule", s.lobule), v("membrane", s.membrane), v("node", s.node), v("offset", s.offset), v("area", s.area);
-  }
-};
-
-/// Lobules that are drawn as one thing of another look: a lymph node. Mechanics know nothing of it.
-struct FatNodule {
-  std::string look;
-  std::vector<std::int32_t> lobules;
-
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("look", s.look, core::kNotHashed), v("lobules", s.lobules, core::kNotHashed);
-  }
-};
-
-struct FatBody {
-  std::string name, look;
-  tissue::FatModel fat;
-  BondSet roots;  ///< of its lobules; `membrane` is -1
-  std::vector<FatTie> ties;
-  std::vector<FatNodule> nodules;
-
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("fat", s.fat), v("roots", s.roots), v("ties", s.ties), v("name", s.name, core::kNotHashed),
-        v("look", s.look, core::kNotHashed), v("nodules", s.nodules, core::kNotHashed);
-  }
-};
-struct FatBodies {
-  std::vector<FatBody> list;
-
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("list", s.list);
-  }
-};
-
-struct FatBodyState {
-  tissue::FatState fat;
-  std::vector<BondState> roots, ties;
-
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("fat", s.fat), v("roots", s.roots), v("ties", s.ties);
-  }
-};
-
-struct FatBodyWork {
-  tissue::FatWork fat;
-  NetworkLoads loads;
-
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("fat", s.fat), v("loads", s.loads);
-  }
-};
-struct FatWorks {
-  std::vector<FatBodyWork> list;
-
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("list", s.list);
-  }
-};
 
 /// The kind, as object_kinds.hpp lists it.
 struct Fat {
   static constexpr BodyKind kKind = BodyKind::fat;
+  static constexpr bool kIsTissue = true;
   static constexpr bool kRigidInJaws = false;
-  using Models = FatBodies;
-  using States = std::vector<FatBodyState>;
-  using Work = FatWorks;
+  using Models = std::vector<FatBody>;
+  using States = std::vector<tissue::FatState>;
+  using Work = std::vector<FatBodyWork>;
 
   template <class All>
   static auto& part(All& all) noexcept {
     return all.fat;
   }
-  static int count(const Models& m) noexcept { return int(m.list.size()); }
-  static const std::string& name(const Models& m, size_t i) noexcept { return m.list[i].name; }
-  static const std::string& look(const Models& m, size_t i) noexcept { return m.list[i].look; }
-  static int grip_point_count(const Models& m, size_t i) noexcept { return m.list[i].fat.lobules(); }
+  static int count(const Models& m) noexcept { return int(m.size()); }
+  static const std::string& name(const Models& m, size_t i) noexcept { return m[i].name; }
+  static const std::string& look(const Models& m, size_t i) noexcept { return m[i].look; }
+  static int grip_point_count(const Models& m, size_t i) noexcept { return m[i].fat.lobules(); }
 
   static States start(const Models& models);
   static Work make_work(const Models& models, int hands);
@@ -141,19 +63,15 @@ struct Fat {
   static void blend(const States& a, const States& b, double f, States& out) noexcept;
 };
 
-/// Roots and ties pull on lobules and on what they hold on, and give way.
-void apply_fat_loads(const FatBody& body, FatBodyState& state, const Bodies& bodies, double dt,
-                     FatBodyWork& work) noexcept;
-
-/// Septa, roots and ties between whose ends the blade passes hold no more. @return how many
-int sever_fat(const FatBody& body, const geometry::Blade& blade, const Bodies& bodies, FatBodyState& state) noexcept;
+/// Septa between whose ends the blade passes hold no more. @return how many
+int sever_septa(const FatBody& body, const geometry::Blade& blade, tissue::FatState& state) noexcept;
 
 /// The lobule at an electrode: nearest to the bare wire, and touching it. -1: none
-int lobule_at(const FatBody& body, const FatBodyState& state, const Capsule& wire) noexcept;
+int lobule_at(const FatBody& body, const tissue::FatState& state, const Capsule& wire) noexcept;
 
-/// Current that enters at a lobule warms it and those beside it; what ties gone lobules is burnt.
+/// Current that enters at a lobule warms it and those beside it.
 /// @return water that has boiled off [kg]
-double warm_fat(const FatBody& body, int lobule, double joules, FatBodyState& state) noexcept;
+double warm_fat(const FatBody& body, int lobule, double joules, tissue::FatState& state) noexcept;
 
 /// Does a ball lie between the jaws? @param local  its middle, in the jaws' frame [m]
 inline bool lies_between(const ToolModel& tool, const ToolShape& shape, Vec3d local, double radius) noexcept {
@@ -165,8 +83,8 @@ inline bool lies_between(const ToolModel& tool, const ToolShape& shape, Vec3d lo
 template <class Add>
 void Fat::between(const Models& models, const States& states, size_t i, const ToolModel& tool, const ToolShape& shape,
                   Add&& add) noexcept {
-  const tissue::FatModel& m = models.list[i].fat;
-  const tissue::FatState& s = states[i].fat;
+  const tissue::FatModel& m = models[i].fat;
+  const tissue::FatState& s = states[i];
   for (int n = 0; n < m.lobules(); ++n) {
     if (s.lobules[size_t(n)].gone()) continue;
     const Vec3d local = to_jaw(shape, tissue::position(m, s, n));
@@ -177,7 +95,7 @@ void Fat::between(const Models& models, const States& states, size_t i, const To
 
 template <class Account>
 void Fat::account(const Work& work, double /*tick*/, Account&& account) noexcept {
-  for (const FatBodyWork& w : work.list)
+  for (const FatBodyWork& w : work)
     for (size_t i = 0; i < w.loads.sorted.size(); ++i) account(w.loads.owner[i], vec_cast<double>(w.loads.reaction[i]));
 }
 
@@ -186,8 +104,8 @@ void Fat::serialize_display(const Models& models, States_& states, F&& f) {
   constexpr bool kWrites = std::is_const_v<States_>;
   constexpr double kStep = 1e-5, kMost = 32000;  // [m], steps
   for (size_t i = 0; i < states.size(); ++i) {
-    const tissue::FatModel& m = models.list[i].fat;
-    auto& s = states[i].fat;
+    const tissue::FatModel& m = models[i].fat;
+    auto& s = states[i];
     std::vector<std::int16_t> at(3 * size_t(m.lobules()));
     std::vector<std::uint8_t> marks(size_t(m.lobules())), septa(size_t(m.septa()));
     if constexpr (kWrites) {

@@ -143,6 +143,7 @@ struct RigidWork {
 /// The kind, as object_kinds.hpp lists it.
 struct Rigid {
   static constexpr BodyKind kKind = BodyKind::rigid;
+  static constexpr bool kIsTissue = false;
   static constexpr bool kRigidInJaws = true;  ///< it keeps its shape between jaws, and lies where it is put down
   using Models = RigidModels;
   using States = std::vector<RigidState>;

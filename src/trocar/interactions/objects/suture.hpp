@@ -258,6 +258,7 @@ void hold_from_start(const SutureModel& m, const SutureState& s, BodyId id, cons
 /// The kind, as object_kinds.hpp lists it.
 struct Suture {
   static constexpr BodyKind kKind = BodyKind::suture;
+  static constexpr bool kIsTissue = false;
   static constexpr bool kRigidInJaws = true;
   using Models = SutureModels;
   using States = std::vector<SutureState>;

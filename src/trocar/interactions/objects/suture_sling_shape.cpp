@@ -30,10 +30,10 @@ Pear pear() noexcept {
 }
 
 /// The material's frame at a node.
-struct Frame {
+struct SlingFrame {
   Vec3d along, director;
 };
-Frame frame_at(const suture::ThreadState& t, size_t i) noexcept {
+SlingFrame frame_at(const suture::ThreadState& t, size_t i) noexcept {
   const Vec3d along = normalised(t.x[i + 1] - t.x[i - 1]), d = t.director[i - 1] + t.director[i];
   return {along, normalised(d - dot(d, along) * along, any_perpendicular(along))};
 }
@@ -86,7 +86,7 @@ void keep_shape(const SutureModel& m, double thread, SutureState& s) noexcept {
     angle += turn;
     const double at = angle - 0.5 * turn;
     const Vec3d inside = portable::cos(at) * mouth.up - portable::sin(at) * mouth.axis;
-    const Frame f = frame_at(t, size_t(n));
+    const SlingFrame f = frame_at(t, size_t(n));
     const Vec3d q = turn * (inside - dot(inside, f.along) * f.along);
     Vec3d& bend = t.bend[size_t(n)];
     bend.x = dot(q, f.director), bend.y = dot(q, cross(f.along, f.director));

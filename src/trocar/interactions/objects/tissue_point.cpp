@@ -34,11 +34,11 @@ NearNodes nearest_nodes(const tissue::NodeView& nodes, Vec3d p) noexcept {
 }
 
 /// What a weighted fit of an affine function to the nodes about a place is made of.
-struct Fit {
+struct PointFit {
   double a[4][4] = {}, g[kPointNodes] = {};
   Vec3d d[kPointNodes];
 
-  Fit(const tissue::NodeView& nodes, const NearNodes& near, Vec3d p) noexcept {
+  PointFit(const tissue::NodeView& nodes, const NearNodes& near, Vec3d p) noexcept {
     const double scale = std::max(1e-4, std::sqrt(near.square[std::size_t(near.count - 1)]));
     double total = 0;
     for (int i = 0; i < near.count; ++i) {
@@ -83,7 +83,7 @@ struct Fit {
 /// hundredfold: it counts the less, then, the more that is.
 void affine_weights(const tissue::NodeView& nodes, const NearNodes& near, Vec3d p, TissuePoint& out) noexcept {
   constexpr double kMostWeights = 8;  // sum |w|. Our choice: 1 inside of the nodes, up to 6 seen beside them
-  const Fit fit(nodes, near, p);
+  const PointFit fit(nodes, near, p);
   out.count = near.count;
   double ridge = 1e-6;
   while (!(fit.weights(ridge, near.count, out.weight) <= kMostWeights) && ridge < 1) ridge *= 10;

@@ -113,10 +113,10 @@ Candidate sheet_between(const ToolModel& model, const ToolShape& shape, const Bo
 Candidate object_between(const ToolModel& model, const ToolShape& shape, const Bodies& bodies) noexcept {
   Candidate best;
   if (!bodies.objects.models) return best;
-  visit_objects(*bodies.objects.models, [&](auto kind, BodyId body) {
+  visit_objects(bodies, [&](auto kind, BodyId body) {
     using K = decltype(kind);
     Candidate c;
-    K::between(part_of<K>(*bodies.objects.models), part_of<K>(*bodies.objects.states), body.index(), model, shape,
+    K::between(models_of<K>(bodies), states_of<K>(bodies), body.index(), model, shape,
                [&](std::int32_t place, Vec3d local) { add_held(c, body, place, 0, local); });
     if (c.count < 2) return;
     c.thickness = held_thickness(bodies, c.hold[0]);

@@ -43,7 +43,7 @@ Result on_body(const Bodies& bodies, BodyId body, Result otherwise, F&& f) noexc
   Result result = otherwise;
   visit_object(body, [&](auto kind) {
     using K = decltype(kind);
-    result = f(OnObject<K>{part_of<K>(*bodies.objects.models), part_of<K>(*bodies.objects.states)});
+    result = f(OnObject<K>{models_of<K>(bodies), states_of<K>(bodies)});
   });
   return result;
 }
@@ -132,7 +132,7 @@ void pull(const OnMembrane& on, const Hold& hold, Vec3d target, HoldLaw law, Tag
 }
 template <class K>
 void pull(const OnObject<K>& on, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, const Bodies& bodies) noexcept {
-  K::pull(on.models, on.states, hold, target, law, tag, part_of<K>(*bodies.objects.work));
+  K::pull(on.models, on.states, hold, target, law, tag, work_of<K>(bodies));
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ constexpr float kSafe = 1e-5f;          // [m] more than boxes of floats lose by
 constexpr int kPiece = 4;               // elements of a strand that share a bounding box
 
 /// A point beside a body: how far outside (negative: inside), and the plane there.
-struct Beside {
+struct WetSide {
   double off = 1;
   Vec3d point, normal, velocity;
   std::int32_t film = -1;
@@ -36,7 +36,7 @@ std::int32_t heaviest(const SkinPoint& p) noexcept {
 }
 
 /// Turns a fold's plane towards the side that `from` is on, and moves it to the fold's face there.
-void take_side(const SheetView& sheet, Vec3d from, Beside& b) noexcept {
+void take_side(const SheetView& sheet, Vec3d from, WetSide& b) noexcept {
   const double sign = dot(from - b.point, b.normal) < 0 ? -1 : 1;
   b.point += (sign * sheet.half_thickness) * b.normal;
   b.off = sign * b.off - sheet.half_thickness;
@@ -44,7 +44,7 @@ void take_side(const SheetView& sheet, Vec3d from, Beside& b) noexcept {
   b.film = 2 * b.film + (sign < 0 ? 1 : 0);
 }
 
-Beside beside_element(const StrandBody& body, const tissue::StrandState& s, int e, double share, Vec3d p) noexcept {
+WetSide beside_element(const StrandBody& body, const tissue::StrandState& s, int e, double share, Vec3d p) noexcept {
   const std::size_t n = std::size_t(e);
   const Vec3d axis = s.x[n] + share * (s.x[n + 1] - s.x[n]), from = p - axis;
   const double far = length(from), radius = body.model.radius[n];
@@ -55,13 +55,13 @@ Beside beside_element(const StrandBody& body, const tissue::StrandState& s, int 
 
 /// The nearest of the elements from `first` on, before `last`.
 void beside_elements(const StrandBody& body, const tissue::StrandState& s, int first, int last, Vec3d p,
-                     Beside& best) noexcept {
+                     WetSide& best) noexcept {
   for (int e = first; e < last; ++e) {
     const std::size_t n = std::size_t(e);
     if (s.alive[n] == 0) continue;
     const Vec3d along = s.x[n + 1] - s.x[n];
     const double share = std::clamp(dot(p - s.x[n], along) / dot(along, along), 0.0, 1.0);
-    const Beside b = beside_element(body, s, e, share, p);
+    const WetSide b = beside_element(body, s, e, share, p);
     if (b.there() && b.off < best.off) best = b;
   }
 }
@@ -103,12 +103,12 @@ class Scene {
     return {m_work->near.data(), bodies};
   }
 
-  Beside beside(int body, Vec3d from, Vec3d p) const noexcept { return beside({body, 0, 0}, from, p, kWetReach); }
+  WetSide beside(int body, Vec3d from, Vec3d p) const noexcept { return beside({body, 0, 0}, from, p, kWetReach); }
   /// @param flies  to or from p: looks further
-  Beside beside(const Candidate& c, Vec3d from, Vec3d p, bool flies) const noexcept {
+  WetSide beside(const Candidate& c, Vec3d from, Vec3d p, bool flies) const noexcept {
     return beside(c, from, p, !m_crowd ? kWetReach : flies ? kCrowdFlies : kCrowdRuns);
   }
-  Beside beside_vertex(int body, int vertex, Vec3d p) const noexcept {
+  WetSide beside_vertex(int body, int vertex, Vec3d p) const noexcept {
     const Surface& on = surface(body);
     if (m_crowd && order.is_surface(body)) {
       const Vec3d n = normal(body, vertex);
@@ -125,7 +125,7 @@ class Scene {
     return order.is_surface(body) ? ground.bodies.work->surfaces[order.index(body)]
                                   : ground.bodies.membrane(order.index(body)).surface;
   }
-  fluids::Contact contact(int body, const Beside& at) const noexcept {
+  fluids::Contact contact(int body, const WetSide& at) const noexcept {
     return {vec_cast<float>(at.point), vec_cast<float>(at.normal), vec_cast<float>(at.velocity), body,
             ground.first[std::size_t(body)] + at.film};
   }
@@ -193,7 +193,7 @@ class Scene {
   }
   bool is_still(int body) const noexcept { return body >= m_walls && order.is_surface(body); }
   /// Of which blocks: those of the candidate, or all if it has none.
-  Beside beside(const Candidate& c, Vec3d from, Vec3d p, double reach) const noexcept {
+  WetSide beside(const Candidate& c, Vec3d from, Vec3d p, double reach) const noexcept {
     if (order.is_surface(c.body)) return beside_surface(c, p, reach);
     return order.is_sheet(c.body) ? beside_sheet(c, from, p, reach) : beside_strand(order.index(c.body), p);
   }
@@ -202,25 +202,25 @@ class Scene {
     if (c.first == c.last) return nearest_vertex_near(on, p, reach);
     return nearest_vertex_near(on, p, reach, {m_work->hits.data() + c.first, std::size_t(c.last - c.first)});
   }
-  Beside beside_surface(const Candidate& c, Vec3d p, double reach) const noexcept {
+  WetSide beside_surface(const Candidate& c, Vec3d p, double reach) const noexcept {
     const Surface& on = surface(c.body);
     if (!on.pose->bounds.reaches(p, reach)) return {};
     const int v = nearest_vertex(c, on, p, reach);
-    return v < 0 ? Beside{} : beside_vertex(c.body, v, p);
+    return v < 0 ? WetSide{} : beside_vertex(c.body, v, p);
   }
   /// @param from  where it came from: gives the side
-  Beside beside_sheet(const Candidate& c, Vec3d from, Vec3d p, double reach) const noexcept {
+  WetSide beside_sheet(const Candidate& c, Vec3d from, Vec3d p, double reach) const noexcept {
     const int body = c.body;
-    Beside found = beside_surface(c, p, reach);
+    WetSide found = beside_surface(c, p, reach);
     if (!found.there()) return found;
     const Vec3d flat = (p - found.point) - dot(p - found.point, found.normal) * found.normal;
     if (dot(flat, flat) > 1e-6) return {};  // past its border
     take_side(ground.bodies.membrane(order.index(body)), from, found);
     return found;
   }
-  Beside beside_strand(std::size_t k, Vec3d p) const noexcept {
+  WetSide beside_strand(std::size_t k, Vec3d p) const noexcept {
     const int elements = ground.bodies.strand(k).nodes() - 1;
-    Beside best;
+    WetSide best;
     if (!m_work) {
       beside_elements(ground.bodies.strand(k), ground.bodies.strand_state(k), 0, elements, p, best);
       return best;
@@ -263,9 +263,9 @@ fluids::Contact meet(const Scene& scene, Vec3d from, Vec3d to, Vec3d velocity, d
   for (int k = 1; k <= looks; ++k) {
     const Vec3d p = from + (double(k) / looks) * way;
     int found = -1;
-    Beside most;
+    WetSide most;
     for (const WetWork::Candidate& c : near) {
-      const Beside b = scene.beside(c, from, p, true);
+      const WetSide b = scene.beside(c, from, p, true);
       if (!b.there() || b.off > 0.5 * radius || b.off < -kDeepestDrop || b.off > most.off) continue;
       if (dot(velocity - b.velocity, b.normal) > kParts) continue;
       most = b;
@@ -277,12 +277,12 @@ fluids::Contact meet(const Scene& scene, Vec3d from, Vec3d to, Vec3d velocity, d
 }
 
 /// Where the surface is that a drop runs on, looked for from where it was.
-Beside follow(const Scene& scene, int body, std::int32_t film, Vec3d p) noexcept {
+WetSide follow(const Scene& scene, int body, std::int32_t film, Vec3d p) noexcept {
   if (scene.order.is_strand(body)) return scene.beside(body, p, p);
   const Surface& surface = scene.surface(body);
   const bool sheet = scene.order.is_sheet(body);
   const int start = sheet ? film / 2 : film;
-  Beside b = scene.beside_vertex(body, walk_to_nearest(surface, start, p), p);
+  WetSide b = scene.beside_vertex(body, walk_to_nearest(surface, start, p), p);
   if (sheet) take_side(scene.ground.bodies.membrane(scene.order.index(body)), p, b);
   return b;
 }
@@ -294,12 +294,12 @@ fluids::Contact stay(const Scene& scene, const fluids::DropletState& s, int drop
   if (body >= scene.ground.count() || film < 0) return {};
   const double radius = double(s.radius[std::size_t(drop)]);
   int found = -1;
-  Beside best;
-  const Beside own = follow(scene, body, film - scene.ground.first[std::size_t(body)], p);
+  WetSide best;
+  const WetSide own = follow(scene, body, film - scene.ground.first[std::size_t(body)], p);
   if (own.there() && length(p - own.point) < kLeaves + radius) best = own, found = body;
   for (const WetWork::Candidate& other : scene.near(p, p)) {
     if (other.body == body) continue;
-    const Beside b = scene.beside(other, p, p, false);
+    const WetSide b = scene.beside(other, p, p, false);
     if (!b.there() || b.off > 0.25 * radius || b.off < -kDeepestDrop || b.off > best.off) continue;
     best = b;
     found = other.body;
@@ -348,7 +348,7 @@ WetPlace wet_place(const WetGround& ground, Vec3d down, std::int32_t place) noex
 bool covered(const WetGround& ground, Vec3d p, double reach) noexcept {
   const Scene scene(ground);
   for (int body = 0; body < ground.count(); ++body) {
-    const Beside b = scene.beside(body, p, p);
+    const WetSide b = scene.beside(body, p, p);
     if (!b.there() || b.off > reach || b.off < -kDeepestDrop) continue;
     const Vec3d off = p - b.point, flat = off - dot(off, b.normal) * b.normal;
     if (dot(flat, flat) < reach * reach) return true;  // not past its border

@@ -19,8 +19,7 @@ class Counting {
     for (std::size_t i = 0; i < m_state.statics.size(); ++i)
       add(m_model.organ_name(m_model.statics[i].organ), m_state.statics[i]);
     for (const sim::WallModel& wall : m_model.walls) add(wall.name, wall);
-    const auto& fat = m_model.objects.fat.list;
-    for (std::size_t i = 0; i < fat.size(); ++i) add(fat[i].name, fat[i], m_state.objects.fat[i]);
+    for (std::size_t i = 0; i < m_model.fat.size(); ++i) add(m_model.fat[i].name, m_model.fat[i], m_state.fat[i]);
     return m_bytes;
   }
 

@@ -205,7 +205,7 @@ sim::DrawnFold compile_sheet(const Sheet& sheet, const sim::Model& model) {
 }
 
 void report_fat(const sim::Model& model, CompileReport& report) {
-  for (const interactions::FatBody& body : interactions::part_of<interactions::Fat>(model.objects).list) {
+  for (const interactions::FatBody& body : model.fat) {
     BodyReport r;
     r.name = body.name;
     r.kind = "fat";

@@ -128,8 +128,8 @@ void pair_cuttable(sim::Model& model, const Drawn& drawn, int organ, int wall) {
 
 /// What a membrane hangs on, it touches there.
 bool carries(const sim::MembraneBody& membrane, int organ) {
-  for (const interactions::BorderHold& hold : membrane.holds)
-    if (hold.kind == interactions::BorderHold::organ && hold.index == organ) return true;
+  for (const interactions::Attachment& hold : membrane.holds)
+    if (hold.point.body == BodyId::organ(size_t(organ))) return true;
   return false;
 }
 

@@ -7,7 +7,7 @@
 #include <trocar/geometry/curves/polyline.hpp>
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/scene/compile/compile_membrane.hpp>
-#include <trocar/sim/model/hold_near.hpp>
+#include <trocar/sim/model/attach_near.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -148,17 +148,15 @@ void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d grav
         {membrane.at, "membrane '" + membrane.name + "': expected a fold that can be built, got: " + e.what()});
     return;
   }
+  const sim::DrawnBodies drawn(model);
   for (int node : out.sheet.held_nodes) {
     const int c = node % g.columns;
     if (node >= g.columns) {
-      out.holds.push_back(hold_near(membrane.base_on, membrane.base_reach, d.positions[size_t(node)], model));
+      out.holds.push_back({attach_near(drawn, membrane.base_on, membrane.base_reach, d.positions[size_t(node)]).point});
       continue;
     }
-    interactions::BorderHold hold;
-    hold.kind = interactions::BorderHold::strand;
-    hold.index = out.strand;
-    hold.place = interactions::place_at(body, g.arc[size_t(c)]);
-    out.holds.push_back(hold);
+    const interactions::StrandPlace at = interactions::place_at(body, g.arc[size_t(c)]);
+    out.holds.push_back({at_element(drawn.all(), size_t(out.strand), at.element, at.w, {})});
   }
   note_drawn_pulls(out);
   out.skin = skin_of(out.sheet);

@@ -9,7 +9,7 @@
 #include <trocar/scene/compile/body_surface.hpp>
 #include <trocar/scene/compile/compile_membrane.hpp>
 #include <trocar/scene/compile/compile_parts.hpp>
-#include <trocar/sim/model/hold_near.hpp>
+#include <trocar/sim/model/attach_near.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -56,8 +56,9 @@ std::vector<double> areas_of_nodes(const std::vector<Vec3d>& positions,
 
 /// What is held in space within reach of a hand that begins with this pouch between its jaws is left to that hand.
 /// @return per node: 1 = so left
-std::vector<std::uint8_t> leave_to_hands(const Pouch& pouch, const Description& scene, sim::Model& model,
-                                         tissue::MembraneDescription& d, std::vector<core::Fault>& faults) {
+std::vector<std::uint8_t> leave_to_hands(const Pouch& pouch, const Description& scene, const sim::DrawnBodies& drawn,
+                                         sim::Model& model, tissue::MembraneDescription& d,
+                                         std::vector<core::Fault>& faults) {
   constexpr double kJaws = 0.025;  // [m] of a tip: a jaw's length and some
   std::vector<std::uint8_t> left(d.positions.size(), 0);
   for (size_t h = 0; h < model.hands.size(); ++h) {
@@ -67,8 +68,7 @@ std::vector<std::uint8_t> leave_to_hands(const Pouch& pouch, const Description& 
     hand.membrane = std::int32_t(model.membranes.size());
     for (size_t i = 0; i < left.size(); ++i) {
       if (!d.held[i] || length(d.positions[i] - placed.tip) > kJaws) continue;
-      if (hold_near(pouch.held_on, pouch.held_reach, d.positions[i], model).kind != interactions::BorderHold::space)
-        continue;
+      if (!attach_near(drawn, pouch.held_on, pouch.held_reach, d.positions[i]).point.in_space()) continue;
       d.held[i] = 0, left[i] = 1;
       hand.held.push_back(std::int32_t(i));
     }
@@ -96,15 +96,16 @@ double fracture_of(const std::vector<std::string>& on, const Description& scene)
 /// The sets of bonds of a pouch that is yet to be built: which nodes they tie, and to what. A node that is held, or
 /// tied already, stays so.
 std::vector<interactions::BondSet> bonds_of(const Pouch& pouch, const tissue::MembraneDescription& d,
-                                            const Description& scene, const sim::Model& model,
+                                            const Description& scene, const sim::DrawnBodies& drawn,
                                             std::vector<core::Fault>& faults) {
+  const sim::Model& model = drawn.model();
   std::vector<interactions::BondSet> sets;
   std::vector<std::uint8_t> taken = d.held;
   const std::vector<double> area = areas_of_nodes(d.positions, d.triangles);
   for (const BondSetting& setting : pouch.bonds) {
     interactions::BondSet set;
     set.name = setting.name;
-    set.membrane = std::int32_t(model.membranes.size());
+    set.of = BodyId::membrane(model.membranes.size());
     const double base = fracture_of(setting.on, scene);
     set.breaches = base < setting.toughness;
     set.law = tissue::CohesiveLaw::of(std::min(base, setting.toughness), setting.opens);
@@ -113,10 +114,10 @@ std::vector<interactions::BondSet> bonds_of(const Pouch& pouch, const tissue::Me
     const std::vector<std::uint8_t> within = nodes_within(setting.places, pouch.name, d.positions, faults);
     for (size_t i = 0; i < within.size(); ++i) {
       if (!within[i] || taken[i]) continue;
-      const interactions::BorderHold hold = hold_near(setting.on, setting.reach, d.positions[i], model);
-      if (hold.kind == interactions::BorderHold::space) continue;
+      const sim::Attached on = attach_near(drawn, setting.on, setting.reach, d.positions[i]);
+      if (on.point.in_space()) continue;
       taken[i] = 1;
-      set.bonds.push_back({std::int32_t(i), hold, area[i]});
+      set.bonds.push_back({interactions::at_node(drawn.all(), set.of, std::int32_t(i)), on.point, area[i], on.vertex});
     }
     if (set.bonds.empty())
       faults.push_back({setting.at, tr("expected a node of '{}' in the places of \"{}\" that is free and at "
@@ -134,14 +135,14 @@ std::vector<interactions::BondSet> bonds_of(const Pouch& pouch, const tissue::Me
 tissue::MembraneModel build_wall(const tissue::MembraneDescription& d, std::vector<std::uint8_t> tied,
                                  std::vector<interactions::BondSet>& sets) {
   for (const interactions::BondSet& set : sets)
-    for (const interactions::Bond& bond : set.bonds) tied[size_t(bond.node)] = 1;
+    for (const interactions::Bond& bond : set.bonds) tied[size_t(bond.node())] = 1;
   if (std::count(tied.begin(), tied.end(), 1) == 0) return tissue::build(d, sim::kTick);
   tissue::TiedMembrane wall = tissue::build_tied(d, tied, sim::kTick);
   std::vector<Vec3d> pull(d.positions.size());
   for (size_t i = 0, k = 0; i < tied.size(); ++i)
     if (tied[i]) pull[i] = wall.pull[k++];
   for (interactions::BondSet& set : sets)
-    for (interactions::Bond& bond : set.bonds) bond.hold.drawn_pull = pull[size_t(bond.node)];
+    for (interactions::Bond& bond : set.bonds) bond.drawn_pull = pull[size_t(bond.node())];
   return std::move(wall.model);
 }
 
@@ -184,8 +185,9 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, const Description& 
   d.global_damping = kFoldDrag;
   d.gravity = scene.gravity;
   d.enclosure = enclosure_of(pouch.contents);
-  const std::vector<std::uint8_t> in_hands = leave_to_hands(pouch, scene, model, d, faults);
-  std::vector<interactions::BondSet> bonds = bonds_of(pouch, d, scene, model, faults);
+  const sim::DrawnBodies drawn(model);
+  const std::vector<std::uint8_t> in_hands = leave_to_hands(pouch, scene, drawn, model, d, faults);
+  std::vector<interactions::BondSet> bonds = bonds_of(pouch, d, scene, drawn, faults);
   sim::MembraneBody out;
   out.name = pouch.name;
   out.look = pouch.look;
@@ -194,7 +196,7 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, const Description& 
   out.failure_strain = tissue.failure_strain;
   out.sheet = build_wall(d, in_hands, bonds);
   for (int node : out.sheet.held_nodes)
-    out.holds.push_back(hold_near(pouch.held_on, pouch.held_reach, d.positions[size_t(node)], model));
+    out.holds.push_back({attach_near(drawn, pouch.held_on, pouch.held_reach, d.positions[size_t(node)]).point});
   note_drawn_pulls(out);
   out.skin = skin_of(out.sheet);
   out.pinch_reach = kPinchReach * pouch.spacing;

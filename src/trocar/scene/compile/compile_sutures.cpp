@@ -91,7 +91,7 @@ bool has_slings(const std::vector<SutureSetting>& settings) {
 
 void compile_sutures(const Description& d, sim::Model& model, std::vector<core::Fault>& faults) {
   const std::vector<SutureSetting>& settings = settings_of(SutureScene{}, d.objects);
-  SutureModels& all = interactions::part_of<interactions::Suture>(model.objects);
+  SutureModels& all = interactions::part_of<interactions::Suture>(model);
   if (settings.empty() || all.list.size() != settings.size()) return;
   for (std::size_t i = 0; i < settings.size(); ++i) {
     const SutureSetting& s = settings[i];

@@ -29,7 +29,7 @@ const Shape& bag_shape() {
 
 /// Every rigid object, and every pouch: anything may be put into it.
 void note_points(const sim::Model& model, interactions::BagModel& m) {
-  m.rigids = std::int32_t(interactions::part_of<interactions::Rigid>(model.objects).list.size());
+  m.rigids = std::int32_t(interactions::part_of<interactions::Rigid>(model).list.size());
   m.points = m.rigids;
   for (std::size_t i = 0; i < model.membranes.size(); ++i) {
     if (!model.membranes[i].sheet.closed()) continue;
@@ -77,7 +77,7 @@ void BagScene::compile(const std::vector<Setting>& settings, sim::Model& model, 
     m.name = s.name;
     m.look = s.look;
     note_points(model, m);
-    interactions::part_of<interactions::Bag>(model.objects).list.push_back(std::move(m));
+    interactions::part_of<interactions::Bag>(model).list.push_back(std::move(m));
   }
 }
 

@@ -9,7 +9,7 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/objects/fat_filling.hpp>
 #include <trocar/scene/objects/fat_scene.hpp>
-#include <trocar/sim/model/hold_near.hpp>
+#include <trocar/sim/model/attach_near.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -70,49 +70,23 @@ tissue::FatDescription described(const FatSetting& s, const FatFilling& filling,
   return d;
 }
 
+/// What lobules hang on: a rod or an organ that is near, else a wall.
 interactions::BondSet roots_of(const FatSetting& s, const FatFilling& filling, const sim::Model& model) {
   interactions::BondSet set;
   set.name = s.name;
+  set.of = BodyId(BodyKind::fat, model.fat.size());
   set.law = tissue::CohesiveLaw::of(s.toughness, s.opens);
   const double area = s.spacing * s.spacing / std::sqrt(2.0);
+  std::vector<std::string> first, walls;
+  for (const std::string& name : s.on) (model.membrane_index(name) >= 0 ? walls : first).push_back(name);
+  const sim::DrawnBodies drawn(model);
   for (std::size_t i = 0; i < filling.lobules.size(); ++i) {
-    const interactions::BorderHold hold = hold_near(s.on, s.reach, filling.lobules[i], model);
-    if (hold.kind != interactions::BorderHold::space) set.bonds.push_back({std::int32_t(i), hold, area});
+    sim::Attached on = attach_near(drawn, first, s.reach, filling.lobules[i]);
+    if (on.point.in_space()) on = attach_near(drawn, walls, s.reach, filling.lobules[i]);
+    if (on.point.in_space()) continue;
+    set.bonds.push_back({interactions::at_node(drawn.all(), set.of, std::int32_t(i)), on.point, area, on.vertex});
   }
   return set;
-}
-
-/// What is on no strand and no organ, and near a wall.
-std::vector<interactions::FatTie> ties_of(const FatSetting& s, const FatFilling& filling,
-                                          const interactions::BondSet& roots, const sim::Model& model) {
-  std::vector<std::uint8_t> rooted(filling.lobules.size(), 0);
-  for (const interactions::Bond& b : roots.bonds) rooted[std::size_t(b.node)] = 1;
-  std::vector<interactions::FatTie> ties;
-  for (std::size_t m = 0; m < model.membranes.size(); ++m) {
-    const sim::MembraneBody& wall = model.membranes[m];
-    if (std::find(s.on.begin(), s.on.end(), wall.name) == s.on.end()) continue;
-    const std::vector<Vec3d>& rest = wall.sheet.network.rest;
-    for (std::size_t i = 0; i < filling.lobules.size(); ++i) {
-      if (rooted[i]) continue;
-      double nearest = s.reach;
-      int node = -1;
-      for (const auto& t : wall.sheet.triangles) {
-        const Vec3d a = rest[std::size_t(t[0])], b = rest[std::size_t(t[1])], c = rest[std::size_t(t[2])];
-        const auto on = geometry::closest_on_triangle(filling.lobules[i], a, b, c);
-        const double apart = length(filling.lobules[i] - on.point);
-        if (apart >= nearest) continue;
-        nearest = apart;
-        node = t[0];
-        for (int k : t)
-          if (length(rest[std::size_t(k)] - on.point) < length(rest[std::size_t(node)] - on.point)) node = k;
-      }
-      if (node < 0) continue;
-      ties.push_back({std::int32_t(i), std::int32_t(m), node, filling.lobules[i] - rest[std::size_t(node)],
-                      s.spacing * s.spacing / std::sqrt(2.0)});
-      rooted[i] = 1;
-    }
-  }
-  return ties;
 }
 
 FatSetting::Fill read_fill(const JsonObject& o) {
@@ -147,14 +121,15 @@ void compile_one(const FatSetting& s, sim::Model& model, std::vector<core::Fault
   body.name = s.name;
   body.look = s.look;
   body.nodules = nodules_of(s, filling);
-  body.roots = roots_of(s, filling, model);
-  body.ties = ties_of(s, filling, body.roots, model);
-  if (body.roots.bonds.empty() && body.ties.empty()) {
+  interactions::BondSet roots = roots_of(s, filling, model);
+  if (roots.bonds.empty()) {
     faults.push_back({s.at, tr("expected a body of \"on\" within {} mm of \"{}\", got none", 1000 * s.reach, s.name)});
     return;
   }
   body.fat = tissue::build(described(s, filling, model), sim::kTick);
-  interactions::part_of<interactions::Fat>(model.objects).list.push_back(std::move(body));
+  body.roots = std::int32_t(model.bonds.size());
+  model.bonds.push_back(std::move(roots));
+  model.fat.push_back(std::move(body));
 } catch (const std::invalid_argument& e) {
   faults.push_back({s.at, "fat \"" + s.name + "\": expected a body that can be built, got: " + e.what()});
 }

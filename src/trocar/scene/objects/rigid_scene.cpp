@@ -172,7 +172,7 @@ void RigidScene::bend(std::vector<Setting>& settings, const std::function<Vec3d(
 
 void RigidScene::compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>& faults) {
   if (settings.empty()) return;
-  interactions::RigidModels& out = interactions::part_of<interactions::Rigid>(model.objects);
+  interactions::RigidModels& out = interactions::part_of<interactions::Rigid>(model);
   double thickest = 0;
   for (const RigidSetting& s : settings) {
     out.list.push_back(compiled(s));

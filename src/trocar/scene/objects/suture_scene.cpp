@@ -109,7 +109,7 @@ void SutureScene::compile(const std::vector<Setting>& settings, sim::Model& mode
     m.place = s.place;
     m.turn = needle_turn(s.axis, s.points);
     m.grips = interactions::grips_of(m.needle);
-    interactions::part_of<interactions::Suture>(model.objects).list.push_back(std::move(m));
+    interactions::part_of<interactions::Suture>(model).list.push_back(std::move(m));
   }
 }
 

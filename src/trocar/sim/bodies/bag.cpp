@@ -23,9 +23,9 @@ constexpr double kWallOfPouch = 0.0005;  // [m] beyond half its thickness, as it
 /// f(model, state, work) of every bag that has come out of its sleeve, or may.
 template <class F>
 void for_bags(StepContext& c, F&& f) noexcept {
-  const auto& models = interactions::part_of<Bag>(c.model.objects).list;
-  auto& states = interactions::part_of<Bag>(c.state.objects);
-  auto& works = interactions::part_of<Bag>(c.work.objects).list;
+  const auto& models = interactions::part_of<Bag>(c.model).list;
+  auto& states = interactions::part_of<Bag>(c.state);
+  auto& works = interactions::part_of<Bag>(c.work).list;
   for (size_t i = 0; i < models.size(); ++i) f(models[i], states[i], works[i]);
 }
 
@@ -50,8 +50,8 @@ bool is_held(const StepContext& c, BodyId body) noexcept {
 
 /// As thick as it is in the mean: to the cloth a stone is a ball.
 void look_at_rigids(const StepContext& c, const BagModel& m, BagWork& w) noexcept {
-  const auto& models = interactions::part_of<Rigid>(c.model.objects).list;
-  const auto& states = interactions::part_of<Rigid>(c.state.objects);
+  const auto& models = interactions::part_of<Rigid>(c.model).list;
+  const auto& states = interactions::part_of<Rigid>(c.state);
   for (size_t i = 0; i < size_t(m.rigids); ++i) {
     BagBody& b = w.bodies[i];
     b = {states[i].x,
@@ -100,7 +100,7 @@ void push_pouches(StepContext& c, const BagModel& m, const BagState& s, const Ba
 
 /// A stone in it does not sleep.
 void move_stones(StepContext& c, const BagModel& m, const BagState& s, const BagWork& w) noexcept {
-  auto& states = interactions::part_of<Rigid>(c.state.objects);
+  auto& states = interactions::part_of<Rigid>(c.state);
   for (size_t i = 0; i < size_t(m.rigids); ++i) {
     const Vec3d moved = w.bodies[i].moved;
     const bool touched = !(moved == Vec3d{}) && !states[i].inside();

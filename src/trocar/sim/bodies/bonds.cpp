@@ -1,9 +1,10 @@
 #include <algorithm>
 
 #include <trocar/geometry/surfaces/nearest.hpp>
-#include <trocar/interactions/couplings/border_loads.hpp>
+#include <trocar/interactions/couplings/bonds.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
+#include <trocar/sim/bodies/fat.hpp>
 #include <trocar/sim/bodies/views.hpp>
 
 namespace trocar::sim {
@@ -15,17 +16,13 @@ constexpr double kLoosens = 5e-6;   // [m^3] that loosens a bond where it comes 
 constexpr float kLoosest = 0.85f;   // of a bond: threads remain.                    Our choice
 constexpr double kBurnTime = 0.15;  // [s] until such a bond has parted.         Our choice
 
-interactions::BondedNodes nodes_of(StepContext& c, const interactions::BondSet& set) noexcept {
-  const size_t m = size_t(set.membrane);
-  return {c.model.membranes[m].sheet.network, c.state.membranes[m].network, c.work.membranes[m].loads};
-}
-
 }  // namespace
 
 void apply_bond_loads(StepContext& c) noexcept {
+  weaken_coagulated(c);
   const interactions::Bodies bodies = bodies_of(c);
   for (size_t i = 0; i < c.model.bonds.size(); ++i)
-    interactions::bond_loads(c.model.bonds[i], c.state.bonds[i], nodes_of(c, c.model.bonds[i]), bodies, kTick);
+    interactions::bond_loads(bodies, c.model.bonds[i], c.state.bonds[i], kTick);
 }
 
 namespace {
@@ -36,10 +33,9 @@ void for_bonds(StepContext& c, F&& f) noexcept {
   const interactions::Bodies bodies = bodies_of(c);
   for (size_t i = 0; i < c.model.bonds.size(); ++i) {
     const interactions::BondSet& set = c.model.bonds[i];
-    const interactions::BondedNodes nodes = nodes_of(c, set);
     for (size_t b = 0; b < set.bonds.size(); ++b) {
       const interactions::Bond& bond = set.bonds[b];
-      f(set, c.state.bonds[i][b], foot_of(bond.hold, bodies), tissue::position(nodes.model, nodes.state, bond.node));
+      f(set, c.state.bonds[i][b], root_of(bodies, bond), place_of(bodies, bond.near));
     }
   }
 }
@@ -60,7 +56,8 @@ int sever_bonds(StepContext& c, const geometry::Blade& blade) noexcept {
 
 void burn_bonds(StepContext& c, Vec3d electrode, double dt) noexcept {
   for_bonds(c, [&](const interactions::BondSet& set, interactions::BondState& state, Vec3d foot, Vec3d node) {
-    if (!state.holds()) {  // what is left of it on the holder
+    if (!set.of_membrane()) return;  // fat has a warmth of its own
+    if (!state.holds()) {            // what is left of it on the holder
       if (length(electrode - foot) <= kBurns) staunch(set, state);
       return;
     }
@@ -74,8 +71,8 @@ void burn_bonds(StepContext& c, Vec3d electrode, double dt) noexcept {
 void loosen_bonds(StepContext& c, Vec3d at, double volume, double spread) noexcept {
   if (c.model.bonds.empty()) return;
   const double most2 = 9 * spread * spread, per = 1 / (2 * spread * spread);
-  for_bonds(c, [&](const interactions::BondSet&, interactions::BondState& state, Vec3d foot, Vec3d node) {
-    if (!state.holds()) return;
+  for_bonds(c, [&](const interactions::BondSet& set, interactions::BondState& state, Vec3d foot, Vec3d node) {
+    if (!state.holds() || !set.of_membrane()) return;
     const double w = geometry::closest_on_segment(at, foot, node);
     const double far2 = geometry::distance2(at, foot + w * (node - foot));
     if (far2 > most2) return;
@@ -89,10 +86,10 @@ Ooze ooze_from_bonds(StepContext& c, size_t i) noexcept {
   const std::size_t turn = std::size_t(c.state.tick % set.bonds.size());
   const interactions::Bond& bond = set.bonds[turn];
   const interactions::BondState& state = c.state.bonds[i][turn];
-  if (!state.raw() || bond.hold.kind != interactions::BorderHold::organ) return {};
+  if (!state.raw() || bond.vertex < 0) return {};
   const double flow =
       (breached(set, state) ? set.bleeds : set.oozes) * bond.area * kTick * double(set.bonds.size());  // [m^3]
-  return {foot_of(bond.hold, bodies_of(c)), c.model.wet.film[size_t(bond.hold.index)] + bond.hold.vertex,
+  return {root_of(bodies_of(c), bond), c.model.wet.film[bond.far.body.index()] + bond.vertex,
           std::int64_t(flow / fluids::kM3PerPicolitre)};
 }
 

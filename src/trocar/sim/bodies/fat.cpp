@@ -5,51 +5,50 @@
 namespace trocar::sim {
 namespace {
 
-using interactions::Fat;
-
 constexpr double kFatConducts = 0.3;  // beside wet tissue: fat is a poor conductor.                Our choice
 constexpr double kDryConducts = 0.3;  // of that: what has dried is crossed by sparks.              Our choice
 
-/// f(body, state, work) of every body of fat.
+/// f(bond, its state, the lobule) of what lobules hang on.
 template <class F>
-void for_fat(StepContext& c, F&& f) noexcept {
-  const auto& bodies = interactions::part_of<Fat>(c.model.objects).list;
-  if (bodies.empty()) return;
-  auto& states = interactions::part_of<Fat>(c.state.objects);
-  auto& works = interactions::part_of<Fat>(c.work.objects).list;
-  for (std::size_t i = 0; i < bodies.size(); ++i) f(bodies[i], states[i], works[i]);
+void for_roots(StepContext& c, size_t body, F&& f) noexcept {
+  const size_t set = size_t(c.model.fat[body].roots);
+  for (size_t i = 0; i < c.model.bonds[set].bonds.size(); ++i) {
+    const interactions::Bond& bond = c.model.bonds[set].bonds[i];
+    f(bond, c.state.bonds[set][i], c.state.fat[body].lobules[size_t(bond.node())]);
+  }
 }
 
 }  // namespace
 
-bool has_fat(const Model& model) noexcept { return !interactions::part_of<Fat>(model.objects).list.empty(); }
-
-void apply_fat_loads(StepContext& c) noexcept {
-  if (!has_fat(c.model)) return;
+// What holds a coagulated lobule parts at a fifth of its opening.
+void weaken_coagulated(StepContext& c) noexcept {
   const interactions::Bodies bodies = bodies_of(c);
-  for_fat(c, [&](const interactions::FatBody& body, interactions::FatBodyState& state,
-                 interactions::FatBodyWork& work) { interactions::apply_fat_loads(body, state, bodies, kTick, work); });
+  for (size_t i = 0; i < c.model.fat.size(); ++i) {
+    const interactions::BondSet& set = c.model.bonds[size_t(c.model.fat[i].roots)];
+    for_roots(c, i, [&](const interactions::Bond& bond, interactions::BondState& state, const tissue::Lobule& lobule) {
+      if (lobule.coagulated() && state.holds())
+        weaken(set, length(opening_of(bodies, bond)), 1 / tissue::kCoagulatedStrength, kTick, state);
+    });
+  }
 }
 
-int sever_fat(StepContext& c, const geometry::Blade& blade) noexcept {
-  const interactions::Bodies bodies = bodies_of(c);
+int sever_septa(StepContext& c, const geometry::Blade& blade) noexcept {
   int severed = 0;
-  for_fat(c, [&](const interactions::FatBody& body, interactions::FatBodyState& state, interactions::FatBodyWork&) {
-    severed += interactions::sever_fat(body, blade, bodies, state);
-  });
+  for (size_t i = 0; i < c.model.fat.size(); ++i)
+    severed += interactions::sever_septa(c.model.fat[i], blade, c.state.fat[i]);
   return severed;
 }
 
 FatTouch fat_at(const StepContext& c, std::size_t hand) noexcept {
   FatTouch best;
-  const auto& bodies = interactions::part_of<Fat>(c.model.objects).list;
-  const auto& states = interactions::part_of<Fat>(c.state.objects);
+  const std::vector<interactions::FatBody>& bodies = c.model.fat;
+  const std::vector<tissue::FatState>& states = c.state.fat;
   const interactions::ToolShape& shape = c.work.shapes[hand];
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto look = [&](interactions::Capsule wire) {
       const int lobule = interactions::lobule_at(bodies[i], states[i], wire);
       if (lobule < 0) return;
-      const Vec3d place = tissue::position(bodies[i].fat, states[i].fat, lobule);
+      const Vec3d place = tissue::position(bodies[i].fat, states[i], lobule);
       const double apart = length(place - collision::nearest_on_axis(wire, place)) - wire.radius - bodies[i].fat.radius;
       if (!best.there() || apart < best.apart) best = {int(i), lobule, place, apart};
     };
@@ -62,21 +61,24 @@ FatTouch fat_at(const StepContext& c, std::size_t hand) noexcept {
 }
 
 tissue::HeatContact fat_contact(const StepContext& c, const FatTouch& touch) noexcept {
-  const tissue::FatModel& m = interactions::part_of<Fat>(c.model.objects).list[std::size_t(touch.body)].fat;
-  const tissue::FatState& s = interactions::part_of<Fat>(c.state.objects)[std::size_t(touch.body)].fat;
+  const tissue::FatModel& m = c.model.fat[std::size_t(touch.body)].fat;
+  const tissue::FatState& s = c.state.fat[std::size_t(touch.body)];
   const double wet = 1 - s.lobules[std::size_t(touch.lobule)].boiled / (m.material.water * m.mass);
   const double celsius = tissue::temperature(m, s, touch.lobule);
   return {m.volume, kFatConducts * (kDryConducts + (1 - kDryConducts) * wet), celsius, celsius};
 }
 
 double warm_fat(StepContext& c, const FatTouch& touch, double joules) noexcept {
-  const auto& bodies = interactions::part_of<Fat>(c.model.objects).list;
-  auto& states = interactions::part_of<Fat>(c.state.objects);
-  return interactions::warm_fat(bodies[std::size_t(touch.body)], touch.lobule, joules, states[std::size_t(touch.body)]);
+  const size_t body = size_t(touch.body);
+  const double boiled = interactions::warm_fat(c.model.fat[body], touch.lobule, joules, c.state.fat[body]);
+  for_roots(c, body, [](const interactions::Bond&, interactions::BondState& state, const tissue::Lobule& lobule) {
+    if (lobule.gone()) state = {1, interactions::BondState::burnt};
+  });
+  return boiled;
 }
 
 bool behind_fat(const Model& model, const State& state, Vec3d from, Vec3d to) noexcept {
-  return Fat::hides(interactions::part_of<Fat>(model.objects), interactions::part_of<Fat>(state.objects), from, to);
+  return interactions::Fat::hides(model.fat, state.fat, from, to);
 }
 
 }  // namespace trocar::sim

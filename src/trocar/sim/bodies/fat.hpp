@@ -6,13 +6,11 @@
 
 namespace trocar::sim {
 
-bool has_fat(const Model& model) noexcept;
+/// Before the loads of bonds: what holds coagulated lobules gives way sooner.
+void weaken_coagulated(StepContext& context) noexcept;
 
-/// Stage: roots and ties of fat pull, and give way where they are opened too far.
-void apply_fat_loads(StepContext& context) noexcept;
-
-/// Septa, roots and ties that the blade passes hold no more. @return how many
-int sever_fat(StepContext& context, const geometry::Blade& blade) noexcept;
+/// Septa that the blade passes hold no more. @return how many
+int sever_septa(StepContext& context, const geometry::Blade& blade) noexcept;
 
 /// A lobule that a bare wire touches.
 struct FatTouch {

@@ -1,4 +1,4 @@
-#include <trocar/interactions/couplings/border_loads.hpp>
+#include <trocar/interactions/couplings/border.hpp>
 #include <trocar/interactions/verbs/cut.hpp>
 #include <trocar/sim/bodies/breathing.hpp>
 #include <trocar/sim/bodies/carrying.hpp>
@@ -44,9 +44,7 @@ void find_pulls(StepContext& c, MembraneRef r) noexcept {
 }
 
 void pull_on_holders(StepContext& c, MembraneRef r) noexcept {
-  const MembraneBody& m = model_of(c.model, r);
-  interactions::border_loads(m.holds, c.work.membranes[r.index].pulls, m.sheet, c.state.membranes[r.index],
-                             bodies_of(c), kTick);
+  interactions::border_loads(bodies_of(c), r.index, c.work.membranes[r.index].pulls, kTick);
 }
 
 void advance(StepContext& c, MembraneRef r) noexcept {
@@ -55,9 +53,8 @@ void advance(StepContext& c, MembraneRef r) noexcept {
   const interactions::Bodies bodies = bodies_of(c);
   const Carried by_breath = carried(c, r);
   for (size_t h = 0; h < m.holds.size(); ++h) {
-    c.work.membranes[i].targets[h] = held_place(m.holds[h], bodies);
-    if (by_breath.moves && m.holds[h].kind == interactions::BorderHold::space)
-      c.work.membranes[i].targets[h] += by_breath.x;
+    c.work.membranes[i].targets[h] = place_of(bodies, m.holds[h].point);
+    if (by_breath.moves && m.holds[h].point.in_space()) c.work.membranes[i].targets[h] += by_breath.x;
   }
   interactions::NetworkLoads& loads = c.work.membranes[i].loads;
   loads.sort();

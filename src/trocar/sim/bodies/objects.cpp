@@ -9,8 +9,7 @@ template <class F>
 void for_kinds(StepContext& c, F&& f) noexcept {
   interactions::ObjectKinds::for_each([&](auto kind) {
     using K = decltype(kind);
-    f(kind, interactions::part_of<K>(c.model.objects), interactions::part_of<K>(c.state.objects),
-      interactions::part_of<K>(c.work.objects));
+    f(kind, interactions::part_of<K>(c.model), interactions::part_of<K>(c.state), interactions::part_of<K>(c.work));
   });
 }
 
@@ -28,10 +27,10 @@ void touch_objects(StepContext& c, const HandContact& hand) noexcept {
 
 void rest_objects(StepContext& c) noexcept {
   using interactions::Rigid;
-  const interactions::RigidModels& models = interactions::part_of<Rigid>(c.model.objects);
+  const interactions::RigidModels& models = interactions::part_of<Rigid>(c.model);
   if (models.list.empty()) return;
-  const Rigid::States& states = interactions::part_of<Rigid>(c.state.objects);
-  interactions::RigidWork& work = interactions::part_of<Rigid>(c.work.objects);
+  const Rigid::States& states = interactions::part_of<Rigid>(c.state);
+  interactions::RigidWork& work = interactions::part_of<Rigid>(c.work);
   for (size_t i = 0; i < size_t(c.model.organs()); ++i)
     rest_on_skin(models, states, c.work.surfaces[i], c.work.organs[i].loads, work);
   for (size_t i = 0; i < c.model.membranes.size(); ++i)

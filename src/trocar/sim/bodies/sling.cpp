@@ -22,16 +22,16 @@ constexpr double kLoopCloses = double(vessels::LumenGraph{}.closing_cover);
 enum Was : std::int32_t { kWasClosed = 1, kWasTight = 2 };
 
 const interactions::SutureModels& models_of(const StepContext& c) noexcept {
-  return interactions::part_of<Suture>(c.model.objects);
+  return interactions::part_of<Suture>(c.model);
 }
-Suture::States& states_of(StepContext& c) noexcept { return interactions::part_of<Suture>(c.state.objects); }
-interactions::SutureWorks& works_of(StepContext& c) noexcept { return interactions::part_of<Suture>(c.work.objects); }
+Suture::States& states_of(StepContext& c) noexcept { return interactions::part_of<Suture>(c.state); }
+interactions::SutureWorks& works_of(StepContext& c) noexcept { return interactions::part_of<Suture>(c.work); }
 
 bool brings_slings(const StepContext& c, std::size_t hand) noexcept { return c.model.tool(c.state, hand).can().sling; }
 
 /// The sling that the hand has, -1: none.
 int sling_of(const StepContext& c, std::size_t hand) noexcept {
-  const auto& states = interactions::part_of<Suture>(c.state.objects);
+  const auto& states = interactions::part_of<Suture>(c.state);
   for (std::size_t i = 0; i < states.size(); ++i) {
     const SlingState& g = states[i].sling;
     if (g.hand == std::int32_t(hand) && g.stage > SlingState::packed && g.stage < SlingState::left) return int(i);
@@ -39,7 +39,7 @@ int sling_of(const StepContext& c, std::size_t hand) noexcept {
   return -1;
 }
 bool has_left_one(const StepContext& c, std::size_t hand) noexcept {
-  const auto& states = interactions::part_of<Suture>(c.state.objects);
+  const auto& states = interactions::part_of<Suture>(c.state);
   return std::any_of(states.begin(), states.end(), [&](const interactions::SutureState& s) {
     return s.sling.stage == SlingState::left && s.sling.hand == std::int32_t(hand);
   });
@@ -113,7 +113,7 @@ void notice_parted(StepContext& c, std::size_t i) noexcept {
 }  // namespace
 
 bool has_slings(const Model& model) noexcept {
-  const auto& list = interactions::part_of<Suture>(model.objects).list;
+  const auto& list = interactions::part_of<Suture>(model).list;
   return std::any_of(list.begin(), list.end(), [](const interactions::SutureModel& m) { return m.sling.there(); });
 }
 
@@ -147,7 +147,7 @@ void watch_slings(StepContext& c) noexcept {
 bool bound_by_sling(const StepContext& c, std::size_t hand) noexcept {
   const int i = sling_of(c, hand);
   if (i < 0) return false;
-  const SlingState& g = interactions::part_of<Suture>(c.state.objects)[std::size_t(i)].sling;
+  const SlingState& g = interactions::part_of<Suture>(c.state)[std::size_t(i)].sling;
   return g.stage == SlingState::off || g.around_count > 0;
 }
 

@@ -24,7 +24,7 @@ struct LoopClosure {
 /// f(LoopClosure) of every loop around every strand.
 template <class F>
 void visit_loops(const Model& model, const State& state, F&& f) {
-  const auto& states = interactions::part_of<interactions::Suture>(state.objects);
+  const auto& states = interactions::part_of<interactions::Suture>(state);
   for (std::size_t i = 0; i < states.size(); ++i) {
     const interactions::SlingState& sling = states[i].sling;
     for (std::int32_t k = 0; k < sling.around_count; ++k) {

@@ -97,8 +97,8 @@ tissue::Leak leak_by_duct(const StepContext& c, MembraneRef r) noexcept {
 }
 
 void update_spilled_stones(StepContext& c) noexcept {
-  const interactions::RigidModels& models = interactions::part_of<Rigid>(c.model.objects);
-  Rigid::States& states = interactions::part_of<Rigid>(c.state.objects);
+  const interactions::RigidModels& models = interactions::part_of<Rigid>(c.model);
+  Rigid::States& states = interactions::part_of<Rigid>(c.state);
   for (size_t i = 0; i < states.size(); ++i) {
     if (!states[i].inside()) continue;
     const interactions::RigidModel& stone = models.list[i];

@@ -22,7 +22,7 @@ void see_again(StepContext& c) noexcept {
 
 /// Whose pull it was: of a loop at the end of its tube that of the hand that has it.
 int breaker(const StepContext& c, BodyId broken) noexcept {
-  const std::int32_t leads = interactions::part_of<Suture>(c.state.objects)[broken.index()].sling.hand;
+  const std::int32_t leads = interactions::part_of<Suture>(c.state)[broken.index()].sling.hand;
   return leads >= 0 ? leads : culprit(c.model, c.state, {broken});
 }
 
@@ -30,9 +30,8 @@ int breaker(const StepContext& c, BodyId broken) noexcept {
 
 void rest_sutures(StepContext& c) noexcept {
   if (!has_sutures(c)) return;
-  interactions::rest_on_tissue(interactions::part_of<Suture>(c.model.objects), bodies_of(c), c.model.cavity,
-                               c.state.tick, kTick, interactions::part_of<Suture>(c.state.objects),
-                               interactions::part_of<Suture>(c.work.objects));
+  interactions::rest_on_tissue(interactions::part_of<Suture>(c.model), bodies_of(c), c.model.cavity, c.state.tick,
+                               kTick, interactions::part_of<Suture>(c.state), interactions::part_of<Suture>(c.work));
   rest_slings(c);
 }
 
@@ -40,9 +39,9 @@ void step_sutures(StepContext& c) noexcept {
   if (!has_sutures(c)) return;
   see_again(c);
   lead_slings(c);
-  const interactions::SewnReport r = interactions::sew(
-      interactions::part_of<Suture>(c.model.objects), bodies_of(c), c.model.gravity, kTick, c.model.cavity,
-      interactions::part_of<Suture>(c.state.objects), interactions::part_of<Suture>(c.work.objects));
+  const interactions::SewnReport r =
+      interactions::sew(interactions::part_of<Suture>(c.model), bodies_of(c), c.model.gravity, kTick, c.model.cavity,
+                        interactions::part_of<Suture>(c.state), interactions::part_of<Suture>(c.work));
   if (r.overflowed) c.report.flags |= StepReport::kTooManyLoads;
   if (r.torn.exists()) emit_torn(c, culprit(c.model, c.state, {r.torn_by, r.torn}), r.torn);
   if (r.broken.exists()) emit_event(c, Event::thread_broken, breaker(c, r.broken), r.broken);
@@ -54,8 +53,8 @@ void step_sutures(StepContext& c) noexcept {
 }
 
 void cut_threads(StepContext& c, std::size_t hand) noexcept {
-  const auto& list = interactions::part_of<Suture>(c.model.objects).list;
-  Suture::States& states = interactions::part_of<Suture>(c.state.objects);
+  const auto& list = interactions::part_of<Suture>(c.model).list;
+  Suture::States& states = interactions::part_of<Suture>(c.state);
   for (std::size_t i = 0; i < states.size(); ++i)
     if (interactions::cut_thread(list[i], c.model.tool(c.state, hand), c.work.shapes[hand], states[i]))
       emit_event(c, Event::thread_cut, int(hand), BodyId(BodyKind::suture, i));
@@ -63,16 +62,14 @@ void cut_threads(StepContext& c, std::size_t hand) noexcept {
 
 void clip_threads(StepContext& c, std::size_t hand, int clip) noexcept {
   if (!has_sutures(c)) return;
-  interactions::clip_thread(interactions::part_of<Suture>(c.model.objects), c.model.tool(c.state, hand),
-                            c.work.shapes[hand], clip, interactions::part_of<Suture>(c.state.objects),
-                            c.state.clips[std::size_t(clip)]);
+  interactions::clip_thread(interactions::part_of<Suture>(c.model), c.model.tool(c.state, hand), c.work.shapes[hand],
+                            clip, interactions::part_of<Suture>(c.state), c.state.clips[std::size_t(clip)]);
 }
 
 void slip_in_jaws(StepContext& c, std::size_t hand) noexcept {
   if (!has_sutures(c)) return;
-  interactions::slip_in_jaws(interactions::part_of<Suture>(c.model.objects),
-                             interactions::part_of<Suture>(c.state.objects),
-                             interactions::part_of<Suture>(c.work.objects), int(hand), c.model.tool(c.state, hand),
+  interactions::slip_in_jaws(interactions::part_of<Suture>(c.model), interactions::part_of<Suture>(c.state),
+                             interactions::part_of<Suture>(c.work), int(hand), c.model.tool(c.state, hand),
                              c.work.shapes[hand], c.state.tools[hand]);
 }
 

@@ -13,7 +13,7 @@ int places(const Model& m, MembraneRef r) { return m.membranes[r.index].sheet.no
 bool has(const Model& model, BodyId body) noexcept {
   bool found = false;
   visit_bodies(model, [&](auto ref) { found = found || ref.id() == body; });
-  interactions::visit_objects(model.objects, [&](auto, BodyId id) { found = found || id == body; });
+  interactions::visit_objects(model, [&](auto, BodyId id) { found = found || id == body; });
   return found;
 }
 
@@ -22,7 +22,7 @@ const std::string& name_of(const Model& model, BodyId body) {
   const std::string* name = body.is(BodyKind::wall) ? &wall : &nothing;
   visit(model, body, [&](auto ref) { name = &model_of(model, ref).name; });
   interactions::visit_object(
-      body, [&](auto kind) { name = &kind.name(interactions::part_of<decltype(kind)>(model.objects), body.index()); });
+      body, [&](auto kind) { name = &kind.name(interactions::part_of<decltype(kind)>(model), body.index()); });
   return *name;
 }
 
@@ -31,9 +31,8 @@ BodyId body_of(const Model& model, const std::string& name) {
   visit_bodies(model, [&](auto ref) {
     if (!found.exists() && model_of(model, ref).name == name) found = ref.id();
   });
-  interactions::visit_objects(model.objects, [&](auto kind, BodyId id) {
-    if (!found.exists() && kind.name(interactions::part_of<decltype(kind)>(model.objects), id.index()) == name)
-      found = id;
+  interactions::visit_objects(model, [&](auto kind, BodyId id) {
+    if (!found.exists() && kind.name(interactions::part_of<decltype(kind)>(model), id.index()) == name) found = id;
   });
   return found;
 }
@@ -54,7 +53,7 @@ int places_on(const Model& model, BodyId body) {
   if (!has(model, body)) return 0;
   int count = visit(model, body, 0, [&](auto ref) { return places(model, ref); });
   interactions::visit_object(body, [&](auto kind) {
-    count = kind.grip_point_count(interactions::part_of<decltype(kind)>(model.objects), body.index());
+    count = kind.grip_point_count(interactions::part_of<decltype(kind)>(model), body.index());
   });
   return count;
 }

@@ -34,7 +34,7 @@ void take_hold(const Model& model, const HandModel& hand, interactions::ToolStat
 }
 
 void take_needles(const Model& model, size_t hand, State& s) {
-  const auto& sutures = interactions::part_of<interactions::Suture>(model.objects).list;
+  const auto& sutures = interactions::part_of<interactions::Suture>(model).list;
   for (size_t i = 0; i < sutures.size(); ++i)
     if (sutures[i].hand == std::int32_t(hand))
       interactions::hold_from_start(sutures[i], s.objects.sutures[i], BodyId(BodyKind::suture, i), model.placed(hand),
@@ -58,7 +58,7 @@ State drawn_bodies(const Model& model) {
   }
   for (const StaticOrgan& o : model.statics) s.statics.push_back({tissue::rest_state(o.solver), 0});
   for (const interactions::BondSet& set : model.bonds) s.bonds.emplace_back(set.bonds.size());
-  s.objects = interactions::start_of(model.objects);
+  interactions::start_objects(model, s);
   return s;
 }
 

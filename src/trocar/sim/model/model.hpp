@@ -292,9 +292,10 @@ struct Model : interactions::BodyModels {
   template <class S, class V>
   static void fields(S& s, V&& v) {
     v("gravity", s.gravity), v("solids", s.solids), v("cuttables", s.cuttables), v("strand_bodies", s.strand_bodies),
-        v("strands", s.strands), v("walls", s.walls), v("membranes", s.membranes), v("hands", s.hands),
-        v("scope", s.scope), v("start", s.start), v("cavity", s.cavity), v("surface_pairs", s.surface_pairs),
-        v("strand_pairs", s.strand_pairs), v("self_pairs", s.self_pairs), v("samples", s.samples), v("marks", s.marks),
+        v("strands", s.strands), v("walls", s.walls), v("membranes", s.membranes),
+        v("fat", s.fat, core::only_if(!s.fat.empty())), v("hands", s.hands), v("scope", s.scope), v("start", s.start),
+        v("cavity", s.cavity), v("surface_pairs", s.surface_pairs), v("strand_pairs", s.strand_pairs),
+        v("self_pairs", s.self_pairs), v("samples", s.samples), v("marks", s.marks),
         v("vessels", s.vessels, core::only_if(s.vessels.there())), v("wet", s.wet, core::only_if(s.wet.there)),
         v("energy", s.energy, core::only_if(s.energy.there)),
         v("injection", s.injection, core::only_if(s.injection.there())),

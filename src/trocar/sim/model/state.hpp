@@ -58,7 +58,7 @@ struct Scar {
 inline constexpr std::int32_t kMaxScarred = 1024;
 
 struct State : interactions::BodyStates {
-  std::uint64_t tick = 0;  ///< ticks made
+  std::uint64_t tick = 0;                                   ///< ticks made
   std::vector<std::vector<interactions::BondState>> bonds;  ///< (sets of bonds)(bonds)
   interactions::ObjectStates objects;
   std::array<interactions::ToolState, kMaxTools> tools;
@@ -111,11 +111,11 @@ struct State : interactions::BodyStates {
         v("magazine", s.magazine), v("scope", s.scope), v("clips", s.clips), v("cuts", s.cuts),
         v("clip_count", s.clip_count), v("cut_count", s.cut_count), v("nearest", s.nearest),
         v("strand_side", s.strand_side), v("tool_side", s.tool_side), v("touches", s.touches), v("seen", s.seen),
-        v("membranes", s.membranes), v("sheet_side", s.sheet_side), v("sheet_bond", s.sheet_bond),
-        v("overstretched_organs", s.overstretched_organs), v("overstretched_membranes", s.overstretched_membranes),
-        v("overstretched_strands", s.overstretched_strands), v("torn", s.torn), v("parted", s.parted),
-        v("flow", s.flow, core::only_if(bleeds)), v("openings", s.openings, core::only_if(bleeds)),
-        v("vessel_clips", s.vessel_clips, core::only_if(bleeds)),
+        v("membranes", s.membranes), v("fat", s.fat, core::only_if(!s.fat.empty())), v("sheet_side", s.sheet_side),
+        v("sheet_bond", s.sheet_bond), v("overstretched_organs", s.overstretched_organs),
+        v("overstretched_membranes", s.overstretched_membranes), v("overstretched_strands", s.overstretched_strands),
+        v("torn", s.torn), v("parted", s.parted), v("flow", s.flow, core::only_if(bleeds)),
+        v("openings", s.openings, core::only_if(bleeds)), v("vessel_clips", s.vessel_clips, core::only_if(bleeds)),
         v("opening_count", s.opening_count, core::only_if(bleeds)),
         v("vessel_clip_count", s.vessel_clip_count, core::only_if(bleeds)), v("heat", s.heat, core::only_if(heats)),
         v("panel", s.panel, core::only_if(heats)), v("electrodes", s.electrodes, core::only_if(heats)),

@@ -54,7 +54,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     loads.reserve(loads.gathered.capacity() + p.wave.nodes.size());
   }
   w.touches.resize(model.hands.size());
-  w.objects = interactions::make_work(model.objects, int(model.hands.size()));
+  interactions::make_object_work(model, int(model.hands.size()), w);
   if (model.vessels.there()) {
     w.ridden = make_ridden_corners(model);
     for (const Vessel& v : model.vessels.list) w.vessel_points.emplace_back(v.path.points.size());

@@ -81,10 +81,10 @@ struct Work : interactions::BodyWork {
   template <class S, class V>
   static void fields(S& s, V&& v) {
     v("pool", s.pool, core::kMadeOnce), v("organs", s.organs), v("solids", s.solids), v("cuttables", s.cuttables),
-        v("strands", s.strands), v("membranes", s.membranes), v("surfaces", s.surfaces), v("shapes", s.shapes),
-        v("shapes_before", s.shapes_before), v("touches", s.touches), v("wall_stops", s.wall_stops),
-        v("statics", s.statics), v("parts", s.parts), v("beyond", s.beyond), v("sheet_gaps", s.sheet_gaps),
-        v("objects", s.objects), v("wave_force", s.wave_force), v("ridden", s.ridden),
+        v("strands", s.strands), v("membranes", s.membranes), v("fat", s.fat), v("surfaces", s.surfaces),
+        v("shapes", s.shapes), v("shapes_before", s.shapes_before), v("touches", s.touches),
+        v("wall_stops", s.wall_stops), v("statics", s.statics), v("parts", s.parts), v("beyond", s.beyond),
+        v("sheet_gaps", s.sheet_gaps), v("objects", s.objects), v("wave_force", s.wave_force), v("ridden", s.ridden),
         v("vessel_points", s.vessel_points), v("vessel_posed", s.vessel_posed), v("flow", s.flow), v("open", s.open),
         v("closed", s.closed), v("flows", s.flows), v("walls", s.walls), v("busy", s.busy), v("impact_at", s.impact_at),
         v("bleeds", s.bleeds), v("bleed_count", s.bleed_count), v("heat", s.heat), v("heat_sources", s.heat_sources),

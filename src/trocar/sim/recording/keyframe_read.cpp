@@ -150,8 +150,8 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   if (model.energy.there) take_heat(in, model, s);
   if (model.wet.there) take_fluids(in, model, s.fluids);
   interactions::ObjectKinds::for_each([&](auto kind) {
-    auto& states = interactions::part_of<decltype(kind)>(s.objects);
-    kind.serialize_display(interactions::part_of<decltype(kind)>(model.objects), states,
+    auto& states = interactions::part_of<decltype(kind)>(s);
+    kind.serialize_display(interactions::part_of<decltype(kind)>(model), states,
                            [&in](auto* values, size_t n) { in.take(values, n); });
     in.good = in.good && kind.is_valid(states);
   });

@@ -97,8 +97,7 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
   }
   if (model.wet.there) fluids::put_shown(model.wet.model, s.fluids, out);
   interactions::ObjectKinds::for_each([&](auto kind) {
-    kind.serialize_display(interactions::part_of<decltype(kind)>(model.objects),
-                           interactions::part_of<decltype(kind)>(s.objects),
+    kind.serialize_display(interactions::part_of<decltype(kind)>(model), interactions::part_of<decltype(kind)>(s),
                            [&out](const auto* values, size_t n) { put(out, values, n); });
   });
   for (const auto& bonds : s.bonds) put(out, bonds.data(), bonds.size());

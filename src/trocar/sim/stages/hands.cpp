@@ -62,7 +62,7 @@ void stop_at_walls(StepContext& c, size_t t, const kinematics::FulcrumPose& want
 
 bool holds_open_bag(const StepContext& c, size_t t) noexcept {
   if (!c.model.tool(c.state, t).can().bag) return false;
-  for (const interactions::BagState& bag : interactions::part_of<interactions::Bag>(c.state.objects))
+  for (const interactions::BagState& bag : interactions::part_of<interactions::Bag>(c.state))
     if (bag.hand == std::int32_t(t) && bag.hoop > interactions::BagState::kShut) return true;
   return false;
 }

@@ -42,7 +42,7 @@ void collect_reaction_forces(StepContext& c) noexcept {
   for (const interactions::OrganWork& w : c.work.organs) account(c, w.loads);
   for (const interactions::MembraneBodyWork& w : c.work.membranes) account(c, w.loads);
   interactions::ObjectKinds::for_each([&c](auto kind) {
-    kind.account(interactions::part_of<decltype(kind)>(c.work.objects), kTick,
+    kind.account(interactions::part_of<decltype(kind)>(c.work), kTick,
                  [&c](interactions::Tag tag, Vec3d force) { account(c, tag, force); });
   });
   feel_instruments(c);

@@ -1,7 +1,6 @@
 #include <trocar/sim/bodies/bag.hpp>
 #include <trocar/sim/bodies/bodies.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
-#include <trocar/sim/bodies/fat.hpp>
 #include <trocar/sim/bodies/spilling.hpp>
 #include <trocar/sim/bodies/suture.hpp>
 #include <trocar/sim/stages/advancing.hpp>
@@ -60,7 +59,6 @@ constexpr Stage kStages[] = {
     {"apply drop impacts", apply_drop_impacts},
     {"apply border loads", apply_border_loads},
     {"apply bond loads", apply_bond_loads},
-    {"apply fat loads", apply_fat_loads},
     {"advance strands", advance_strands},
     {"swell tissue", swell_tissue},
     {"advance organs", advance_organs},

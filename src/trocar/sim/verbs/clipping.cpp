@@ -26,7 +26,7 @@ std::optional<ClipLegs> legs_now(StepContext& c, int number) noexcept {
   if (clip.vessel > 0)
     return legs_on(clip, seat_on_vessel(clip, c.model, c.state, points_of(c, size_t(clip.vessel - 1))));
   const suture::ThreadClip* sits =
-      interactions::thread_clip(interactions::part_of<interactions::Suture>(c.state.objects), clip, number);
+      interactions::thread_clip(interactions::part_of<interactions::Suture>(c.state), clip, number);
   if (!sits) return {};
   return legs_on_thread(clip, *sits);
 }

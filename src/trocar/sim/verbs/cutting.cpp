@@ -104,14 +104,13 @@ void open_with_strands(StepContext& c, size_t t, int first_cut) noexcept {
 void cut_flesh(StepContext& c, size_t t) noexcept {
   const auto closed = [](const MembraneBody& m) { return m.sheet.closed(); };
   const bool walls = std::any_of(c.model.membranes.begin(), c.model.membranes.end(), closed);
-  const bool fat = has_fat(c.model);
-  if (c.model.cuttables.empty() && c.model.bonds.empty() && !walls && !fat) return;
+  if (c.model.cuttables.empty() && c.model.bonds.empty() && !walls && c.model.fat.empty()) return;
   const std::optional<geometry::Blade> blade =
       interactions::sweep_of_blades(c.model.tool(c.state, t), c.work.shapes[t], c.state.tools[t]);
   if (!blade) return;
   cut_cuttables(c, t, *blade);
   sever_bonds(c, *blade);
-  if (fat) sever_fat(c, *blade);
+  sever_septa(c, *blade);
   if (walls) cut_folds(c, t, *blade, true);
 }
 

@@ -53,7 +53,7 @@ ElectrodeTouch touch_of(const StepContext& c, size_t t, tissue::EnergyMode mode)
 /// Fat that the wire of a monopolar electrode is in, unless it is deeper in something else.
 FatTouch fat_of(const StepContext& c, size_t t, const ElectrodeTouch& touch, tissue::EnergyMode mode) noexcept {
   const interactions::ElectrodeModel& electrode = c.model.tool(c.state, t).electrode;
-  if (!has_fat(c.model) || electrode.current.bipolar || !at_work(c.state.electrodes[t], mode)) return {};
+  if (c.model.fat.empty() || electrode.current.bipolar || !at_work(c.state.electrodes[t], mode)) return {};
   const FatTouch fat = fat_at(c, t);
   if (!touch.contact.body.exists() || touch.contact.gap > 0) return fat;
   return interactions::off_wire(c.work.shapes[t], touch.place) < fat.apart ? FatTouch{} : fat;

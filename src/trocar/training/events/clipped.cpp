@@ -26,7 +26,7 @@ EventInstance instance(const Snapshot& snapshot, const interactions::Clip& clip,
   h.where = h.tip;
   if (clip.strand < 0) {
     if (clip.on_thread())
-      h.name = &interactions::part_of<interactions::Suture>(snapshot.model.objects).list[h.body.index()].name;
+      h.name = &interactions::part_of<interactions::Suture>(snapshot.model).list[h.body.index()].name;
     if (clip.vessel > 0) h.name = &snapshot.model.vessels.list[size_t(clip.vessel - 1)].name;
     return h;
   }

@@ -20,7 +20,7 @@ struct Fall {
 class Dropped final : public EventDetector {
  public:
   Dropped(const sim::Model& model, const Arguments& a) : m_least(a[0].number()) {
-    interactions::visit_objects(model.objects, [this](auto kind, BodyId id) {
+    interactions::visit_objects(model, [this](auto kind, BodyId id) {
       if (kind.kRigidInJaws) m_falls.emplace_back().body = id;
     });
   }
@@ -46,8 +46,8 @@ class Dropped final : public EventDetector {
   static Vec3d place_of(const Snapshot& snapshot, BodyId body) {
     Vec3d at;
     interactions::visit_object(body, [&](auto kind) {
-      at = kind.middle(interactions::part_of<decltype(kind)>(snapshot.model.objects),
-                       interactions::part_of<decltype(kind)>(snapshot.state.objects), body.index());
+      at = kind.middle(interactions::part_of<decltype(kind)>(snapshot.model),
+                       interactions::part_of<decltype(kind)>(snapshot.state), body.index());
     });
     return at;
   }
@@ -76,7 +76,7 @@ Value in_view(const Snapshot& snapshot, const EventInstance& h) {
 
 std::string_view needs_objects(const sim::Model& model) {
   bool any = false;
-  interactions::visit_objects(model.objects, [&any](auto kind, BodyId) { any = any || kind.kRigidInJaws; });
+  interactions::visit_objects(model, [&any](auto kind, BodyId) { any = any || kind.kRigidInJaws; });
   return any ? "" : "objects";
 }
 

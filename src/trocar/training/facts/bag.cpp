@@ -8,11 +8,11 @@ namespace {
 using interactions::Bag;
 
 const interactions::BagState& the_bag(const Snapshot& snapshot) {
-  return interactions::part_of<Bag>(snapshot.state.objects).front();
+  return interactions::part_of<Bag>(snapshot.state).front();
 }
 
 Value held(const Snapshot& snapshot, const Arguments& a) {
-  const interactions::BagModel& model = interactions::part_of<Bag>(snapshot.model.objects).list.front();
+  const interactions::BagModel& model = interactions::part_of<Bag>(snapshot.model).list.front();
   const interactions::BagShare share = share_in(model, the_bag(snapshot), a[0].body());
   return share.all > 0 ? Value(double(share.inside) / share.all) : kUnknown;
 }
@@ -21,7 +21,7 @@ Value shut(const Snapshot& snapshot, const Arguments&) { return the_bag(snapshot
 Value out(const Snapshot& snapshot, const Arguments&) { return the_bag(snapshot).out != 0; }
 
 std::string_view needs_bag(const sim::Model& model) {
-  return interactions::part_of<Bag>(model.objects).list.empty() ? "a bag" : "";
+  return interactions::part_of<Bag>(model).list.empty() ? "a bag" : "";
 }
 
 /// A body that can be in a bag at all.

@@ -13,9 +13,7 @@ namespace {
 
 constexpr double kAcross = 0.012;  // [m] how far sights go to both sides of a window's plane
 
-std::string_view needs_fat(const sim::Model& model) {
-  return interactions::part_of<interactions::Fat>(model.objects).list.empty() ? "fat" : "";
-}
+std::string_view needs_fat(const sim::Model& model) { return model.fat.empty() ? "fat" : ""; }
 
 constexpr int kTurns = 5;  // looked at ten times a second: what is asked there costs more than a tick should
 
@@ -81,12 +79,16 @@ Value bonds_breached(const Snapshot& snapshot, const Arguments& a) {
   return interactions::breached_area(snapshot.model.bonds[size_t(set)], snapshot.state.bonds[size_t(set)]);
 }
 
-std::string_view needs_bonds(const sim::Model& model) { return model.bonds.empty() ? "bonds of a pouch" : ""; }
+std::string_view needs_bonds(const sim::Model& model) {
+  const auto of_membrane = [](const interactions::BondSet& set) { return set.of_membrane(); };
+  return std::any_of(model.bonds.begin(), model.bonds.end(), of_membrane) ? "" : "bonds of a pouch";
+}
 
 std::string unknown_bonds(const sim::Model& model, const Arguments& a) {
   if (model.bonds_index(a[0].word) >= 0) return {};
   std::string known;
-  for (const interactions::BondSet& set : model.bonds) known += (known.empty() ? "" : ", ") + set.name;
+  for (const interactions::BondSet& set : model.bonds)
+    if (set.of_membrane()) known += (known.empty() ? "" : ", ") + set.name;
   return tr("expected bonds of the scene ({}), got \"{}\"", known, a[0].word);
 }
 

@@ -7,8 +7,6 @@
 namespace trocar::training {
 namespace {
 
-using interactions::Fat;
-
 /// Out of the wall at its nodes, as long as they like; zero where all about a node is torn.
 std::vector<Vec3d> out_of_wall(const tissue::MembraneModel& sheet, const std::vector<std::uint8_t>& torn,
                                const std::vector<Vec3d>& x) {
@@ -27,9 +25,9 @@ int crowd_about(const sim::Model& model, const sim::State& state, Vec3d a, Vec3d
   constexpr double kRoom = 0.004;  // [m] between open jaws, to each side
   const auto beside = [&](Vec3d p) { return length(p - a - geometry::closest_on_segment(p, a, b) * (b - a)) < kRoom; };
   int crowd = 0;
-  const auto& fats = interactions::part_of<Fat>(model.objects).list;
+  const std::vector<interactions::FatBody>& fats = model.fat;
   for (std::size_t i = 0; i < fats.size(); ++i) {
-    const tissue::FatState& fat = interactions::part_of<Fat>(state.objects)[i].fat;
+    const tissue::FatState& fat = state.fat[i];
     for (int n = 0; n < fats[i].fat.lobules(); ++n)
       crowd += !fat.lobules[std::size_t(n)].gone() && beside(position(fats[i].fat, fat, n));
   }

@@ -9,23 +9,11 @@
 namespace trocar::training {
 namespace {
 
-using interactions::BorderHold;
-using interactions::Fat;
-using interactions::FatBody;
-using interactions::FatBodyState;
-
 constexpr double kStride = 0.001;  // [m] between places of a strand that are looked at
 constexpr double kOnIt = 0.9;      // spacings from a strand's surface: a lobule whose middle is so near lies on it
 constexpr double kWasIn = 1.2;     // the same in the drawn shape: so wide that gaps between lobules count as fat
 constexpr int kInFat = 3;          // sectors with fat in the drawn shape from which on a place counts
 constexpr int kRows = 8;           // of sights: 64 in a triangle
-
-/// f(body, state) of all fat.
-template <class F>
-void for_fat(const sim::Model& model, const sim::State& state, F&& f) {
-  const auto& bodies = interactions::part_of<Fat>(model.objects).list;
-  for (std::size_t i = 0; i < bodies.size(); ++i) f(bodies[i], interactions::part_of<Fat>(state.objects)[i]);
-}
 
 using Sectors = std::uint32_t;  // bits
 
@@ -84,35 +72,42 @@ class Together {
   std::vector<std::size_t> m_parent;
 };
 
-BodyId holder(const BorderHold& hold) {
-  return hold.kind == BorderHold::strand ? BodyId::strand(std::size_t(hold.index))
-                                         : BodyId::organ(std::size_t(hold.index));
-}
+/// A body of fat as it is now.
+struct FatNow {
+  const interactions::FatBody& body;
+  const tissue::FatState& fat;
+  const std::vector<interactions::Bond>& roots;
+  const std::vector<interactions::BondState>& root_states;
+
+  FatNow(const sim::Model& model, const sim::State& state, std::size_t i)
+      : body(model.fat[i]),
+        fat(state.fat[i]),
+        roots(model.bonds[std::size_t(body.roots)].bonds),
+        root_states(state.bonds[std::size_t(body.roots)]) {}
+};
 
 /// f(lobule, body) of all that a body of fat still holds on.
 template <class F>
-void for_holds(const FatBody& body, const FatBodyState& s, F&& f) {
-  for (std::size_t i = 0; i < body.roots.bonds.size(); ++i)
-    if (s.roots[i].holds()) f(std::size_t(body.roots.bonds[i].node), holder(body.roots.bonds[i].hold));
-  for (std::size_t i = 0; i < body.ties.size(); ++i)
-    if (s.ties[i].holds()) f(std::size_t(body.ties[i].lobule), BodyId::membrane(std::size_t(body.ties[i].membrane)));
+void for_holds(const FatNow& now, F&& f) {
+  for (std::size_t i = 0; i < now.roots.size(); ++i)
+    if (now.root_states[i].holds()) f(std::size_t(now.roots[i].node()), now.roots[i].far.body);
 }
 
-Together joined_by_septa(const FatBody& body, const FatBodyState& s) {
-  Together lobules(s.fat.lobules.size());
-  for (int i = 0; i < body.fat.septa(); ++i)
-    if (holding(body.fat, s.fat, i) > 0)
-      lobules.join(std::size_t(septum_end(body.fat, i, 0)), std::size_t(septum_end(body.fat, i, 1)));
+Together joined_by_septa(const FatNow& now) {
+  Together lobules(now.fat.lobules.size());
+  for (int i = 0; i < now.body.fat.septa(); ++i)
+    if (holding(now.body.fat, now.fat, i) > 0)
+      lobules.join(std::size_t(septum_end(now.body.fat, i, 0)), std::size_t(septum_end(now.body.fat, i, 1)));
   return lobules;
 }
 
-void add_bridged(const FatBody& body, const FatBodyState& s, BodyId from, std::vector<BodyId>& out) {
-  Together lobules = joined_by_septa(body, s);
-  std::vector<std::uint8_t> reached(s.fat.lobules.size(), 0);
-  for_holds(body, s, [&](std::size_t lobule, BodyId on) {
+void add_bridged(const FatNow& now, BodyId from, std::vector<BodyId>& out) {
+  Together lobules = joined_by_septa(now);
+  std::vector<std::uint8_t> reached(now.fat.lobules.size(), 0);
+  for_holds(now, [&](std::size_t lobule, BodyId on) {
     if (on == from) reached[lobules.root(lobule)] = 1;
   });
-  for_holds(body, s, [&](std::size_t lobule, BodyId on) {
+  for_holds(now, [&](std::size_t lobule, BodyId on) {
     if (on != from && reached[lobules.root(lobule)] && std::find(out.begin(), out.end(), on) == out.end())
       out.push_back(on);
   });
@@ -125,7 +120,7 @@ BaredStretch::BaredStretch(const sim::Model& model, int strand) : m_model(&model
   for (std::size_t i = 0; i < spots_along(body); ++i) {
     const Spot spot = spot_as_drawn(body, i);
     Sectors covered = 0;
-    for (const FatBody& fat : interactions::part_of<Fat>(model.objects).list)
+    for (const interactions::FatBody& fat : model.fat)
       for (const Vec3d p : fat.fat.network.rest) covered |= sector_of(spot, p, kWasIn * fat.fat.spacing);
     m_lay_in_fat.push_back(how_many(covered) >= kInFat);
   }
@@ -138,11 +133,12 @@ double BaredStretch::longest(const sim::State& state) const {
     Sectors covered = 0;
     const Spot spot = spot_now(body, state.strands[std::size_t(m_strand)], i);
     if (m_lay_in_fat[i])
-      for_fat(*m_model, state, [&](const FatBody& fat, const FatBodyState& s) {
-        for (int n = 0; n < fat.fat.lobules(); ++n)
-          if (!s.fat.lobules[std::size_t(n)].gone())
-            covered |= sector_of(spot, position(fat.fat, s.fat, n), kOnIt * fat.fat.spacing);
-      });
+      for (std::size_t k = 0; k < m_model->fat.size(); ++k) {
+        const tissue::FatModel& fat = m_model->fat[k].fat;
+        for (int n = 0; n < fat.lobules(); ++n)
+          if (!state.fat[k].lobules[std::size_t(n)].gone())
+            covered |= sector_of(spot, position(fat, state.fat[k], n), kOnIt * fat.spacing);
+      }
     run = m_lay_in_fat[i] && how_many(covered) <= kSectors - kBareSectors ? run + 1 : 0;
     most = std::max(most, run);
   }
@@ -158,15 +154,14 @@ double open_share(const sim::Model& model, const sim::State& state, const std::a
       double u = (i + 0.5) / kRows, v = (j + 0.5) / kRows;
       if (u + v > 1) u = 1 - u, v = 1 - v;
       const Vec3d p = corners[0] + u * along + v * up;
-      open += !Fat::hides(interactions::part_of<Fat>(model.objects), interactions::part_of<Fat>(state.objects),
-                          p - reach * normal, p + reach * normal);
+      open += !interactions::Fat::hides(model.fat, state.fat, p - reach * normal, p + reach * normal);
     }
   return double(open) / (kRows * kRows);
 }
 
 std::vector<BodyId> bridged_from(const sim::Model& model, const sim::State& state, BodyId body) {
   std::vector<BodyId> out;
-  for_fat(model, state, [&](const FatBody& fat, const FatBodyState& s) { add_bridged(fat, s, body, out); });
+  for (std::size_t i = 0; i < model.fat.size(); ++i) add_bridged({model, state, i}, body, out);
   return out;
 }
 
@@ -187,14 +182,13 @@ NearStrand nearest_strand(const sim::Model& model, const sim::State& state, Vec3
 }
 
 double fat_left(const sim::Model& model, const sim::State& state, BodyId fat) {
-  const FatBody& body = interactions::part_of<Fat>(model.objects).list[fat.index()];
-  const FatBodyState& s = interactions::part_of<Fat>(state.objects)[fat.index()];
-  Together lobules = joined_by_septa(body, s);
-  std::vector<std::uint8_t> hangs(s.fat.lobules.size(), 0);
-  for_holds(body, s, [&](std::size_t lobule, BodyId) { hangs[lobules.root(lobule)] = 1; });
+  const FatNow now(model, state, fat.index());
+  Together lobules = joined_by_septa(now);
+  std::vector<std::uint8_t> hangs(now.fat.lobules.size(), 0);
+  for_holds(now, [&](std::size_t lobule, BodyId) { hangs[lobules.root(lobule)] = 1; });
   int left = 0;
-  for (std::size_t n = 0; n < hangs.size(); ++n) left += !s.fat.lobules[n].gone() && hangs[lobules.root(n)];
-  return double(left) / double(body.fat.lobules());
+  for (std::size_t n = 0; n < hangs.size(); ++n) left += !now.fat.lobules[n].gone() && hangs[lobules.root(n)];
+  return double(left) / double(now.body.fat.lobules());
 }
 
 }  // namespace trocar::training

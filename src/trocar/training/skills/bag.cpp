@@ -13,8 +13,8 @@ using interactions::Bag;
 using interactions::BagModel;
 using interactions::BagState;
 
-const BagModel& bag_model(const Surgeon& op) { return interactions::part_of<Bag>(op.model().objects).list.front(); }
-const BagState& bag_state(const Surgeon& op) { return interactions::part_of<Bag>(op.state().objects).front(); }
+const BagModel& bag_model(const Surgeon& op) { return interactions::part_of<Bag>(op.model()).list.front(); }
+const BagState& bag_state(const Surgeon& op) { return interactions::part_of<Bag>(op.state()).front(); }
 Vec3d mouth_of(const Surgeon& op) { return bag_state(op).middle(bag_model(op)); }
 
 double share_inside(const Surgeon& op, BodyId body) {
@@ -25,7 +25,7 @@ double share_inside(const Surgeon& op, BodyId body) {
 Vec3d upwards(const Surgeon& op) { return -normalised(op.model().gravity, {0, 0, -1}); }
 
 std::string lacks_bag(const sim::Model& model, const SkillArgs&) {
-  return interactions::part_of<Bag>(model.objects).list.empty() ? "there is no bag" : "";
+  return interactions::part_of<Bag>(model).list.empty() ? "there is no bag" : "";
 }
 std::string lacks_bag_in_hand(const sim::Model& model, const SkillArgs& args) {
   if (std::string lack = lacks_bag(model, args); !lack.empty()) return lack;

@@ -9,8 +9,8 @@ namespace {
 Vec3d middle_of_object(const Surgeon& op, BodyId body) {
   Vec3d at;
   interactions::visit_object(body, [&](auto kind) {
-    at = kind.middle(interactions::part_of<decltype(kind)>(op.model().objects),
-                     interactions::part_of<decltype(kind)>(op.state().objects), body.index());
+    at = kind.middle(interactions::part_of<decltype(kind)>(op.model()),
+                     interactions::part_of<decltype(kind)>(op.state()), body.index());
   });
   return at;
 }

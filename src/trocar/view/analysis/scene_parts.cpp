@@ -35,7 +35,7 @@ SceneParts::SceneParts(const sim::Model& model, const std::vector<std::string>& 
     first.smoke = add("smoke", PartGroup::fluids);
   }
   first.object = begins();
-  interactions::visit_objects(model.objects,
+  interactions::visit_objects(model,
                               [&](auto, BodyId object) { add(sim::name_of(model, object), PartGroup::objects); });
 }
 

@@ -41,8 +41,8 @@ Vec3d warp(Vec3d p) {
 /// Is this a bond of a wall with that organ?
 bool ties(const sim::Model& model, const interactions::BondSet& set, const interactions::Bond& bond,
           std::size_t solid) {
-  return set.membrane >= 0 && bond.hold.kind == interactions::BorderHold::organ &&
-         sim::lattice_of(model, bond.hold.index) == std::int32_t(solid);
+  return set.of_membrane() && bond.vertex >= 0 &&
+         sim::lattice_of(model, int(bond.far.body.index())) == std::int32_t(solid);
 }
 
 }  // namespace
@@ -70,10 +70,10 @@ void RawBed::find_feet(const sim::Model& model) {
     for (std::size_t b = 0; b < model.bonds[s].bonds.size(); ++b) {
       const interactions::Bond& bond = model.bonds[s].bonds[b];
       if (!ties(model, model.bonds[s], bond, m_solid)) continue;
-      const tissue::Skin& skin = model.skin(bond.hold.index);
+      const tissue::Skin& skin = model.skin(int(bond.far.body.index()));
       const int number = 40 * int(m_feet.size());
-      Foot foot{s, b, skin.rest[std::size_t(bond.hold.vertex)], float(varied(number, 9)), {}};
-      const auto normal = vec_cast<double>(skin.rest_normal[std::size_t(bond.hold.vertex)]);
+      Foot foot{s, b, skin.rest[std::size_t(bond.vertex)], float(varied(number, 9)), {}};
+      const auto normal = vec_cast<double>(skin.rest_normal[std::size_t(bond.vertex)]);
       const Vec3d u = any_perpendicular(normal), v = cross(normal, u);
       for (int k = 0; k < kOozingSpots; ++k) {
         const auto any = [&](int what) { return varied(number + k, what); };

@@ -18,8 +18,9 @@ Peeled::Peeled(const sim::Model& model, int membrane, std::span<const Vec3d> pla
   for (const Vec3d& p : places) m_places.push_back(vec_cast<float>(p));
   const std::vector<Vec3d>& rest = model.membranes[std::size_t(membrane)].sheet.network.rest;
   for (std::size_t s = 0; s < model.bonds.size(); ++s)
-    for (std::size_t b = 0; b < model.bonds[s].bonds.size() && model.bonds[s].membrane == membrane; ++b)
-      m_roots.push_back({s, b, vec_cast<float>(rest[std::size_t(model.bonds[s].bonds[b].node)])});
+    for (std::size_t b = 0;
+         b < model.bonds[s].bonds.size() && model.bonds[s].of == BodyId::maybe(BodyKind::membrane, membrane); ++b)
+      m_roots.push_back({s, b, vec_cast<float>(rest[std::size_t(model.bonds[s].bonds[b].node())])});
   m_seen.assign(m_roots.size(), -1);
   for (const Vec3f& p : m_places) {
     m_near.emplace_back();

@@ -71,14 +71,15 @@ void BreachDrawing::place(const sim::State& state) {
   for (std::size_t i = 0; i < m_set->bonds.size(); ++i) {
     const interactions::Bond& bond = m_set->bonds[i];
     const interactions::BondState& s = state.bonds[m_index][i];
-    const bool torn = bond.hold.kind == interactions::BorderHold::organ && interactions::breached(*m_set, s);
+    const bool torn = bond.vertex >= 0 && interactions::breached(*m_set, s);
     m_any = m_any || torn;
     Vec3d middle, out{0, 0, 1};
-    if (bond.hold.kind == interactions::BorderHold::organ) {
-      const tissue::NodeView nodes = sim::nodes_of(*m_model, state, bond.hold.index);
-      const tissue::Skin& skin = m_model->skin(bond.hold.index);
-      middle = tissue::skin_point(nodes, skin, bond.hold.vertex);
-      if (torn) out = out_of(nodes, skin, bond.hold.vertex);
+    if (bond.vertex >= 0) {
+      const int organ = int(bond.far.body.index());
+      const tissue::NodeView nodes = sim::nodes_of(*m_model, state, organ);
+      const tissue::Skin& skin = m_model->skin(organ);
+      middle = tissue::skin_point(nodes, skin, bond.vertex);
+      if (torn) out = out_of(nodes, skin, bond.vertex);
     }
     lay_patch(i, middle, out, torn ? kWider * std::sqrt(bond.area / portable::pi) : 0);
     const Paint paint{255, s.raw() ? kBleeding : std::uint8_t(0), s.raw() ? std::uint8_t(0) : kCrust, 0};

@@ -14,8 +14,8 @@ class BreachDrawing {
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
-  bool any() const { return m_any; }                             ///< is there anything to be seen?
-  int organ() const { return m_set->bonds.front().hold.index; }  ///< that is torn; of several the first
+  bool any() const { return m_any; }                                        ///< is there anything to be seen?
+  int organ() const { return int(m_set->bonds.front().far.body.index()); }  ///< that is torn; of several the first
 
  private:
   void place(const sim::State& state);

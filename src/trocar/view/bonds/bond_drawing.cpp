@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include <trocar/interactions/couplings/border_loads.hpp>
+#include <trocar/interactions/couplings/bonds.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/sim/model/bodies.hpp>
@@ -65,11 +65,10 @@ void BondDrawing::lay_thread(std::uint32_t first, Vec3d from, Vec3d to, Vec3d as
 
 void BondDrawing::place(const sim::State& state) {
   const interactions::Bodies bodies = sim::bodies_of(*m_model, state);
-  const tissue::NetworkModel& wall = m_model->membranes[membrane()].sheet.network;
   for (std::size_t i = 0; i < m_set->bonds.size(); ++i) {
     const interactions::Bond& bond = m_set->bonds[i];
-    const Vec3d foot = foot_of(bond.hold, bodies);
-    const Vec3d node = tissue::position(wall, state.membranes[membrane()].network, bond.node);
+    const Vec3d foot = root_of(bodies, bond);
+    const Vec3d node = place_of(bodies, bond.near);
     const Vec3d along = normalised(node - foot, Vec3d{0, 0, 1});
     for (int k = 0; k < kThreads; ++k) {
       const int number = int(i) * kThreads + k;

@@ -16,7 +16,7 @@ class BondDrawing {
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
-  std::size_t membrane() const { return std::size_t(m_set->membrane); }  ///< the wall that they tie
+  std::size_t membrane() const { return m_set->membrane(); }  ///< the wall that they tie
 
  private:
   void place(const sim::State& state);

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/interactions/couplings/border_loads.hpp>
+#include <trocar/interactions/couplings/bonds.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/sim/model/bodies.hpp>
@@ -85,15 +85,14 @@ BondVeils::BondVeils(const sim::Model& model, std::size_t set, render::Backend& 
 /// @return has any of it changed since it was drawn?
 bool BondVeils::gather(const sim::State& state) {
   const interactions::Bodies bodies = sim::bodies_of(*m_model, state);
-  const tissue::NetworkModel& wall = m_model->membranes[membrane()].sheet.network;
   m_ties.resize(m_set->bonds.size());
   m_ends.clear();
   bool harmed = false;
   for (std::size_t i = 0; i < m_ties.size(); ++i) {
     const interactions::Bond& bond = m_set->bonds[i];
     VeilTie& tie = m_ties[i];
-    tie.foot = foot_of(bond.hold, bodies);
-    tie.node = tissue::position(wall, state.membranes[membrane()].network, bond.node);
+    tie.foot = root_of(bodies, bond);
+    tie.node = place_of(bodies, bond.near);
     const double whole = 1 - std::clamp(double(state.bonds[m_index][i].damage), 0.0, 1.0);
     harmed = harmed || whole != tie.whole;
     tie.whole = whole;

@@ -30,7 +30,7 @@ class BondVeils {
   void update(const sim::State& state);
   bool any() const { return !m_pairs.empty(); }  ///< false: no bond has a neighbour
   render::MeshHandle mesh() const { return m_mesh.handle(); }
-  std::size_t membrane() const { return std::size_t(m_set->membrane); }  ///< the wall that they tie
+  std::size_t membrane() const { return m_set->membrane(); }  ///< the wall that they tie
 
   /// For tests: bonds that a film hangs between, how many vertices each has, and all of them as last made.
   const std::vector<std::pair<int, int>>& pairs() const { return m_pairs; }

@@ -58,7 +58,7 @@ void find_smooth_normals(MeshBuffer& b) {
 }  // namespace
 
 BagDrawing::BagDrawing(const sim::Model& model, render::Backend& backend) {
-  for (const BagModel& m : interactions::part_of<Bag>(model.objects).list) {
+  for (const BagModel& m : interactions::part_of<Bag>(model).list) {
     BagState open;
     open.x = m.drawn;
     open.hoop = 1;
@@ -102,7 +102,7 @@ void BagDrawing::draw_band(const BagModel& m, const BagState& s) {
 }
 
 void BagDrawing::update(const sim::State& state) {
-  const Bag::States& now = interactions::part_of<Bag>(state.objects);
+  const Bag::States& now = interactions::part_of<Bag>(state);
   for (std::size_t i = 0; i < m_bags.size(); ++i) {
     Drawn& d = m_bags[i];
     d.there = now[i].there();

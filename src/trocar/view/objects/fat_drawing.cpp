@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/interactions/couplings/border_loads.hpp>
+#include <trocar/interactions/couplings/bonds.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/sim/model/bodies.hpp>
@@ -9,8 +9,6 @@
 
 namespace trocar::view {
 namespace {
-
-using interactions::Fat;
 
 constexpr float kCell = 0.0008f;                    // [m] of the grid that the surface is taken from
 constexpr double kReach = 1.15;                     // of a lobule's bell, in spacings
@@ -79,13 +77,13 @@ FatDrawing::FatDrawing(const sim::Model& model, render::Backend& backend)
     : m_model(&model), m_areolar(nullptr), m_surface(kCell) {
   const sim::State drawn = sim::initial_state(model);
   std::size_t i = 0;
-  for (const interactions::FatBody& body : interactions::part_of<Fat>(model.objects).list) {
+  for (const interactions::FatBody& body : model.fat) {
     m_areolar = &look(model, "areolar");  // only here: not every set of looks has fat
     Drawn& d = m_bodies.emplace_back();
     d.body = &body;
     d.look = &look(model, body.look);
     for (const interactions::FatNodule& n : body.nodules) d.nodules.push_back({&look(model, n.look), {}, {}});
-    draw(d, drawn, interactions::part_of<Fat>(drawn.objects)[i++]);
+    draw(d, drawn, drawn.fat[i++]);
     d.mesh = OwnedMesh(backend, m_buffer.data());
     d.veils = OwnedMesh(backend, d.veil_buffer.data());
     for (Drawn::Nodule& n : d.nodules) n.mesh = OwnedMesh(backend, n.buffer.data());
@@ -138,21 +136,22 @@ void FatDrawing::draw_nodules(Drawn& d) {
 }
 
 /// By what rags hang on ducts and organs.
-void FatDrawing::add_roots(const Drawn& d, const sim::State& state, const interactions::FatBodyState& fat) {
+void FatDrawing::add_roots(const Drawn& d, const sim::State& state, const tissue::FatState& fat) {
   const tissue::FatModel& m = d.body->fat;
   const interactions::Bodies bodies = sim::bodies_of(*m_model, state);
-  for (std::size_t i = 0; i < d.body->roots.bonds.size(); ++i) {
-    const interactions::Bond& root = d.body->roots.bonds[i];
-    if (!fat.roots[i].holds() || m_held[std::size_t(root.node)] >= kRag) continue;
-    const Vec3d foot = foot_of(root.hold, bodies), lobule = position(m, fat.fat, root.node);
-    if (length(lobule - foot) > kThreadTo * m.spacing) continue;  // keyframes of a recording do not know what parted
-    add_thread(foot, lobule, m.network.rest[std::size_t(root.node)],
-               burn_of(m, fat.fat.lobules[std::size_t(root.node)]), m_buffer);
+  const std::size_t set = std::size_t(d.body->roots);
+  for (std::size_t i = 0; i < m_model->bonds[set].bonds.size(); ++i) {
+    const interactions::Bond& root = m_model->bonds[set].bonds[i];
+    if (!state.bonds[set][i].holds() || m_held[std::size_t(root.node())] >= kRag) continue;
+    const Vec3d foot = root_of(bodies, root), lobule = position(m, fat, root.node());
+    if (length(lobule - foot) > kThreadTo * m.spacing) continue;
+    add_thread(foot, lobule, m.network.rest[std::size_t(root.node())],
+               burn_of(m, fat.lobules[std::size_t(root.node())]), m_buffer);
   }
 }
 
 /// In the gaps between lobules, and to what they are rooted on, as long as that holds.
-void FatDrawing::add_veils(Drawn& d, const sim::State& state, const interactions::FatBodyState& fat) const {
+void FatDrawing::add_veils(Drawn& d, const sim::State& state, const tissue::FatState& fat) const {
   const tissue::FatModel& m = d.body->fat;
   const interactions::Bodies bodies = sim::bodies_of(*m_model, state);
   VeilFrame frame;
@@ -166,12 +165,13 @@ void FatDrawing::add_veils(Drawn& d, const sim::State& state, const interactions
     if (a >= 0 && b >= 0) frame.links.push_back({a, b});
   };
   for (int i = 0; i < m.septa(); ++i)
-    if (holding(m, fat.fat, i) > 0) link(at[std::size_t(septum_end(m, i, 0))], at[std::size_t(septum_end(m, i, 1))]);
-  for (std::size_t i = 0; i < d.body->roots.bonds.size(); ++i) {
-    const interactions::Bond& root = d.body->roots.bonds[i];
-    const int lobule = at[std::size_t(root.node)];
-    const Vec3f foot = vec_cast<float>(foot_of(root.hold, bodies));
-    if (!fat.roots[i].holds() || lobule < 0) continue;
+    if (holding(m, fat, i) > 0) link(at[std::size_t(septum_end(m, i, 0))], at[std::size_t(septum_end(m, i, 1))]);
+  const std::size_t set = std::size_t(d.body->roots);
+  for (std::size_t i = 0; i < m_model->bonds[set].bonds.size(); ++i) {
+    const interactions::Bond& root = m_model->bonds[set].bonds[i];
+    const int lobule = at[std::size_t(root.node())];
+    const Vec3f foot = vec_cast<float>(root_of(bodies, root));
+    if (!state.bonds[set][i].holds() || lobule < 0) continue;
     if (length(foot - frame.places[std::size_t(lobule)]) > kRootAtMost * float(m.spacing)) continue;
     link(lobule, int(frame.places.size()));
     frame.places.push_back(foot);
@@ -184,11 +184,11 @@ void FatDrawing::add_veils(Drawn& d, const sim::State& state, const interactions
   render::vertex_normals(d.veil_buffer.positions, d.veil_buffer.indices, d.veil_buffer.normals);
 }
 
-void FatDrawing::draw(Drawn& d, const sim::State& state, const interactions::FatBodyState& fat) {
+void FatDrawing::draw(Drawn& d, const sim::State& state, const tissue::FatState& fat) {
   m_buffer = {};
-  add_lobules(d, fat.fat);
+  add_lobules(d, fat);
   m_surface.draw(m_lobules, m_buffer);
-  add_threads(d.body->fat, fat.fat, m_buffer);
+  add_threads(d.body->fat, fat, m_buffer);
   add_roots(d, state, fat);
   d.any = !m_buffer.indices.empty();
   if (!d.any) add_nothing(m_buffer);
@@ -197,9 +197,9 @@ void FatDrawing::draw(Drawn& d, const sim::State& state, const interactions::Fat
 }
 
 void FatDrawing::update(const sim::State& state) {
-  const Fat::States& now = interactions::part_of<Fat>(state.objects);
+  const std::vector<tissue::FatState>& now = state.fat;
   for (std::size_t i = 0; i < m_bodies.size(); ++i) {
-    if (!moved(m_bodies[i], now[i].fat)) continue;
+    if (!moved(m_bodies[i], now[i])) continue;
     draw(m_bodies[i], state, now[i]);
     m_bodies[i].mesh.replace(m_buffer.data());
     m_bodies[i].veils.replace(m_bodies[i].veil_buffer.data());

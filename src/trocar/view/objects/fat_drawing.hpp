@@ -41,11 +41,11 @@ class FatDrawing {
     bool any = false;                 ///< is there anything to see?
   };
   static bool moved(const Drawn& drawn, const tissue::FatState& state);
-  void draw(Drawn& drawn, const sim::State& state, const interactions::FatBodyState& fat);
+  void draw(Drawn& drawn, const sim::State& state, const tissue::FatState& fat);
   void add_lobules(Drawn& drawn, const tissue::FatState& state);
   void draw_nodules(Drawn& drawn);
-  void add_veils(Drawn& drawn, const sim::State& state, const interactions::FatBodyState& fat) const;
-  void add_roots(const Drawn& drawn, const sim::State& state, const interactions::FatBodyState& fat);
+  void add_veils(Drawn& drawn, const sim::State& state, const tissue::FatState& fat) const;
+  void add_roots(const Drawn& drawn, const sim::State& state, const tissue::FatState& fat);
 
   const sim::Model* m_model;
   const Look* m_areolar;

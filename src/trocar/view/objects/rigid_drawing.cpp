@@ -100,14 +100,14 @@ render::Mat4 placed(const interactions::RigidState& s) {
 }  // namespace
 
 RigidDrawing::RigidDrawing(const sim::Model& model, render::Backend& backend) {
-  for (const RigidModel& m : interactions::part_of<Rigid>(model.objects).list) {
+  for (const RigidModel& m : interactions::part_of<Rigid>(model).list) {
     const Detail detail(levels_of(model, m.name));
     m_bodies.push_back({rigid(shape_of(m), detail, backend), detail, &look(model, m.look), {}});
   }
 }
 
 void RigidDrawing::update(const sim::State& state) {
-  const Rigid::States& now = interactions::part_of<Rigid>(state.objects);
+  const Rigid::States& now = interactions::part_of<Rigid>(state);
   for (std::size_t i = 0; i < m_bodies.size(); ++i) m_bodies[i].transform = placed(now[i]);
 }
 

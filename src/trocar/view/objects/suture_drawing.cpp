@@ -62,8 +62,8 @@ Vec3d spline(Vec3d a, Vec3d b, Vec3d c, Vec3d d, double t) {
 }  // namespace
 
 SutureDrawing::SutureDrawing(const sim::Model& model, render::Backend& backend) {
-  const auto& list = interactions::part_of<Suture>(model.objects).list;
-  const Suture::States start = Suture::start(interactions::part_of<Suture>(model.objects));
+  const auto& list = interactions::part_of<Suture>(model).list;
+  const Suture::States start = Suture::start(interactions::part_of<Suture>(model));
   for (std::size_t i = 0; i < list.size(); ++i) {
     const SutureModel& m = list[i];
     Drawn d{&m, &look(model, m.needle_look), &look(model, m.look), {}, {}, placed(start[i].needle)};
@@ -115,7 +115,7 @@ void SutureDrawing::draw_tube(const SutureModel& m, const suture::ThreadState& s
 }
 
 void SutureDrawing::update(const sim::State& state) {
-  const Suture::States& now = interactions::part_of<Suture>(state.objects);
+  const Suture::States& now = interactions::part_of<Suture>(state);
   for (std::size_t i = 0; i < m_sutures.size(); ++i) {
     Drawn& d = m_sutures[i];
     d.transform = placed(now[i].needle);

@@ -319,6 +319,7 @@ void BodyDrawing::make_membranes(render::Backend& backend) {
     }
   }
   for (std::size_t i = 0; i < m_model->bonds.size(); ++i) {
+    if (!m_model->bonds[i].of_membrane()) continue;  // fat draws its own
     m_bonds.emplace_back(*m_model, i, backend);
     m_veils.emplace_back(*m_model, i, backend);
   }

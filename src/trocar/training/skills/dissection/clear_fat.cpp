@@ -15,8 +15,6 @@
 namespace trocar::training {
 namespace {
 
-using interactions::Fat;
-
 /// An electrode from lobule to lobule, from the trocar's side inwards, each until it is gone; then back.
 class ClearFat final : public Skill {
  public:
@@ -33,14 +31,10 @@ class ClearFat final : public Skill {
   // Of the metal from tubes [m]: further than sparks jump when the pedal is down; a hot tip touches none.
   static constexpr double kSpark = 0.0017, kHot = 0.0005;
 
-  const interactions::FatBody& body(const Surgeon& op) const {
-    return interactions::part_of<Fat>(op.model().objects).list[m_fat.index()];
-  }
-  const interactions::FatBodyState& state(const Surgeon& op) const {
-    return interactions::part_of<Fat>(op.state().objects)[m_fat.index()];
-  }
-  Vec3d place(const Surgeon& op, int lobule) const { return position(body(op).fat, state(op).fat, lobule); }
-  bool gone(const Surgeon& op, int lobule) const { return state(op).fat.lobules[size_t(lobule)].gone(); }
+  const interactions::FatBody& body(const Surgeon& op) const { return op.model().fat[m_fat.index()]; }
+  const tissue::FatState& state(const Surgeon& op) const { return op.state().fat[m_fat.index()]; }
+  Vec3d place(const Surgeon& op, int lobule) const { return position(body(op).fat, state(op), lobule); }
+  bool gone(const Surgeon& op, int lobule) const { return state(op).lobules[size_t(lobule)].gone(); }
 
   void start(Surgeon& op, int) override {
     m_tried.assign(size_t(body(op).fat.lobules()), 0);

@@ -41,18 +41,11 @@ class PartBonds final : public Skill {
     Vec3d up;  ///< off what it is rooted in
   };
   Spot spot(const Surgeon& op, const interactions::Bond& bond) const {
-    const sim::Model& m = op.model();
-    const sim::MembraneBody& wall = m.membranes[size_t(m.bonds[size_t(m_set)].membrane)];
-    const Vec3d node = tissue::position(
-        wall.sheet.network, op.state().membranes[size_t(m.bonds[size_t(m_set)].membrane)].network, bond.node);
-    if (bond.hold.kind == interactions::BorderHold::strand) {
-      const Vec3d foot = point_at(m.strand_bodies[size_t(bond.hold.index)], op.state().strands[size_t(bond.hold.index)],
-                                  bond.hold.place);
-      return {foot, node, node - foot};
-    }
-    const tissue::NodeView nodes = nodes_of(m, op.state(), bond.hold.index);
-    const tissue::Skin& skin = m.skin(bond.hold.index);
-    return {tissue::skin_point(nodes, skin, bond.hold.vertex), node, out_of_skin(nodes, skin, bond.hold.vertex)};
+    const interactions::Bodies bodies = bodies_of(op.model(), op.state());
+    const Vec3d foot = root_of(bodies, bond), node = place_of(bodies, bond.near);
+    if (bond.vertex < 0) return {foot, node, node - foot};
+    const size_t organ = bond.far.body.index();
+    return {foot, node, out_of_skin(organ_nodes(bodies, organ), op.model().skin(int(organ)), bond.vertex)};
   }
   /// Is there work for the electrode?
   bool wanted(const interactions::BondState& s) const { return s.holds() || (m_raw && s.raw()); }
@@ -64,8 +57,7 @@ class PartBonds final : public Skill {
     double most = -1;
     for (size_t i = 0; i < bonds.size(); ++i) {
       if (m_tried[i] || !wanted(op.state().bonds[size_t(m_set)][i])) continue;
-      const Spot at = spot(op, bonds[i]);
-      const double open = length(at.node - at.foot - bonds[i].hold.offset);
+      const double open = length(opening_of(bodies_of(op.model(), op.state()), bonds[i]));
       if (open > most) most = open, best = int(i);
     }
     if (best < 0)

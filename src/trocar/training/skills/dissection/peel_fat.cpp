@@ -8,8 +8,6 @@
 namespace trocar::training {
 namespace {
 
-using interactions::Fat;
-
 /// Jaws take fat beside where it still holds on a body, draw it off, and let it go.
 class PeelFat final : public Skill {
  public:
@@ -21,7 +19,7 @@ class PeelFat final : public Skill {
         m_far(args.number("by_mm", 0.02)),
         m_speed(args.number("speed_mm_s", 0.005)),
         m_most(args.number("pull_N", 2)),
-        m_tied(std::size_t(interactions::part_of<Fat>(model.objects).list[m_fat].fat.lobules())) {}
+        m_tied(std::size_t(model.fat[m_fat].fat.lobules())) {}
 
  private:
   enum Phase { kReach, kEnter, kClose, kDraw, kOpen };
@@ -32,27 +30,17 @@ class PeelFat final : public Skill {
     int lobule = -1;  ///< to be taken
     double near = 0;  ///< of the place where it holds to the trocar [m]
   };
-  const interactions::FatBody& body(const Surgeon& op) const {
-    return interactions::part_of<Fat>(op.model().objects).list[m_fat];
-  }
-  const interactions::FatBodyState& state(const Surgeon& op) const {
-    return interactions::part_of<Fat>(op.state().objects)[m_fat];
-  }
-  Vec3d place(const Surgeon& op, int lobule) const { return position(body(op).fat, state(op).fat, lobule); }
+  const interactions::FatBody& body(const Surgeon& op) const { return op.model().fat[m_fat]; }
+  const tissue::FatState& state(const Surgeon& op) const { return op.state().fat[m_fat]; }
+  Vec3d place(const Surgeon& op, int lobule) const { return position(body(op).fat, state(op), lobule); }
 
   /// Which lobules hold on the body itself.
   void note_tied(const Surgeon& op) {
     std::fill(m_tied.begin(), m_tied.end(), std::uint8_t(0));
-    const interactions::FatBody& b = body(op);
-    for (std::size_t i = 0; i < b.ties.size(); ++i)
-      if (state(op).ties[i].holds() && BodyId::membrane(std::size_t(b.ties[i].membrane)) == m_off)
-        m_tied[std::size_t(b.ties[i].lobule)] = 1;
-    for (std::size_t i = 0; i < b.roots.bonds.size(); ++i) {
-      const interactions::BorderHold& hold = b.roots.bonds[i].hold;
-      const BodyId on = hold.kind == interactions::BorderHold::strand ? BodyId::strand(std::size_t(hold.index))
-                                                                      : BodyId::organ(std::size_t(hold.index));
-      if (state(op).roots[i].holds() && on == m_off) m_tied[std::size_t(b.roots.bonds[i].node)] = 1;
-    }
+    const std::size_t set = std::size_t(body(op).roots);
+    const std::vector<interactions::Bond>& bonds = op.model().bonds[set].bonds;
+    for (std::size_t i = 0; i < bonds.size(); ++i)
+      if (op.state().bonds[set][i].holds() && bonds[i].far.body == m_off) m_tied[std::size_t(bonds[i].node())] = 1;
   }
   /// Of each such lobule the neighbour that does not: what is drawn to draw that off. Nearest to the trocar first.
   std::vector<Hold> holds(const Surgeon& op, Vec3d port) {
@@ -60,7 +48,7 @@ class PeelFat final : public Skill {
     std::vector<Hold> found;
     const interactions::FatBody& b = body(op);
     for (int k = 0; k < b.fat.septa(); ++k) {
-      if (!(holding(b.fat, state(op).fat, k) > 0)) continue;
+      if (!(holding(b.fat, state(op), k) > 0)) continue;
       int in = septum_end(b.fat, k, 0), out = septum_end(b.fat, k, 1);
       if (m_tied[std::size_t(out)]) std::swap(in, out);
       if (m_tied[std::size_t(in)] && !m_tied[std::size_t(out)]) found.push_back({out, length(place(op, in) - port)});

@@ -9,8 +9,6 @@
 namespace trocar::training {
 namespace {
 
-using interactions::Fat;
-
 /// Jaws take fat off strands, bite by bite: they open along the tube, close on what lies on it, and draw it off.
 class StripFat final : public Skill {
  public:
@@ -26,12 +24,8 @@ class StripFat final : public Skill {
  private:
   enum Phase { kChoose, kAbove, kReach, kClose, kDraw, kOpen, kAway };
 
-  const interactions::FatBody& body(const Surgeon& op) const {
-    return interactions::part_of<Fat>(op.model().objects).list[m_fat.index()];
-  }
-  const tissue::FatState& state(const Surgeon& op) const {
-    return interactions::part_of<Fat>(op.state().objects)[m_fat.index()].fat;
-  }
+  const interactions::FatBody& body(const Surgeon& op) const { return op.model().fat[m_fat.index()]; }
+  const tissue::FatState& state(const Surgeon& op) const { return op.state().fat[m_fat.index()]; }
 
   /// What the jaws did not get hold of is not tried again for the same goal.
   void start(Surgeon& op, int tries) override {

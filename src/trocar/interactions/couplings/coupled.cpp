@@ -1,0 +1,26 @@
+#include <trocar/interactions/couplings/coupled.hpp>
+
+namespace trocar::interactions {
+
+Coupled::Coupled(const Bodies& bodies, const MaterialPoint& n, const MaterialPoint& f) noexcept
+    : near(n),
+      far(f),
+      x(place_of(bodies, n)),
+      v(velocity_of(bodies, n)),
+      at(place_of(bodies, f)),
+      moves(velocity_of(bodies, f)),
+      apart(x - at) {}
+
+void couple(const Bodies& bodies, const Coupled& ends, const SpringDamper& law, double dt, Tag tag) noexcept {
+  const PointLoad near{law.d * ends.moves - law.whole * law.drawn, law.k, ends.at + 0.5 * dt * ends.moves, law.d};
+  put_load(bodies, ends.near, near, tag);
+  const Vec3d pull = law.k * ends.apart + law.d * (ends.v - ends.moves) - (1 - law.whole) * law.drawn;
+  bear(bodies, ends.far, pull, resistance_of(law.k, law.d, dt), tag);
+}
+
+void bear(const Bodies& bodies, const MaterialPoint& far, Vec3d pull, double resists, Tag tag) noexcept {
+  if (far.in_space()) return;
+  put_load(bodies, far, {.f0 = pull + resists * velocity_of(bodies, far), .d = resists}, tag);
+}
+
+}  // namespace trocar::interactions
