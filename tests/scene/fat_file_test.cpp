@@ -9,6 +9,7 @@
 #include <trocar/scene/description/vary.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/objects/fat_filling.hpp>
+#include <trocar/sim/model/bodies.hpp>
 
 using namespace trocar;
 using namespace trocar::scene;

@@ -108,8 +108,8 @@ void expect_told(const Value& v, double expected, double tolerance = 1e-9) {
 }
 
 /// A node of the pad as a place that a needle went through.
-interactions::TissuePoint node(int n) {
-  interactions::TissuePoint p;
+interactions::MaterialPoint node(int n) {
+  interactions::MaterialPoint p;
   p.body = BodyId::organ(0);
   p.count = 1;
   p.node[0] = n;

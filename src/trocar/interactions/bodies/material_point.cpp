@@ -8,8 +8,10 @@
 namespace trocar::interactions {
 namespace {
 
-Vec3d offset_of(const MaterialPoint& p) noexcept { return {p.offset[0], p.offset[1], p.offset[2]}; }
-void set_offset(MaterialPoint& p, Vec3d off) noexcept { p.offset = {off.x, off.y, off.z}; }
+Vec3d offset_of(const MaterialPoint& p) noexcept {
+  return {double(p.offset[0]), double(p.offset[1]), double(p.offset[2])};
+}
+void set_offset(MaterialPoint& p, Vec3d off) noexcept { p.offset = {float(off.x), float(off.y), float(off.z)}; }
 
 // --- rods ---
 
@@ -262,21 +264,37 @@ NearNodes nodes_near(const Bodies& bodies, BodyId body, Vec3d place) noexcept {
   return near;
 }
 
+/// f(cell) of all cells at some nodes. In a tick it is known which those are.
+template <class F>
+void each_cell_at(const Bodies& bodies, BodyId body, std::span<const std::int32_t> nodes, F&& f) noexcept {
+  const std::size_t i = body.index() - bodies.models.solids.size();
+  const bool stepping = bodies.work && i < bodies.work->cuttables.size();
+  const tissue::CuttableWork* const work = stepping ? &bodies.work->cuttables[i].body : nullptr;
+  if (work && work->made_for == bodies.states.cuttables[i].version) {
+    for (const std::int32_t n : nodes)
+      for (int k = work->begin[std::size_t(n)]; k < work->begin[std::size_t(n) + 1]; ++k)
+        f(std::size_t(work->around[std::size_t(k)]));
+    return;
+  }
+  const std::vector<geometry::Tet>& cells = tets_of(bodies, body).cells;
+  const auto among = [&](std::int32_t n) { return std::find(nodes.begin(), nodes.end(), n) != nodes.end(); };
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    if (std::any_of(cells[c].begin(), cells[c].end(), among)) f(c);
+}
+
 /// In the cell that it is in or least outside of, of those at some nodes.
 MaterialPoint in_a_cell(const Bodies& bodies, BodyId body, std::span<const std::int32_t> at, Vec3d place) noexcept {
   const tissue::NodeView nodes = nodes_of(bodies, body);
   const std::vector<geometry::Tet>& cells = tets_of(bodies, body).cells;
   MaterialPoint best;
   double least = 1e30;
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const auto near = [&](std::int32_t n) { return std::find(at.begin(), at.end(), n) != at.end(); };
-    if (std::none_of(cells[c].begin(), cells[c].end(), near)) continue;
+  each_cell_at(bodies, body, at, [&](std::size_t c) {
     RowNodes corners;
     for (std::int32_t k = 0; k < 4; ++k) {
       const std::int32_t n = cells[c][std::size_t(k)];
       if (takes_loads(bodies, body, n)) corners.add(k, nodes.position(n));
     }
-    if (corners.count < 3) continue;
+    if (corners.count < 3) return;
     MaterialPoint p;
     p.body = body;
     p.element = std::int32_t(c);
@@ -285,7 +303,7 @@ MaterialPoint in_a_cell(const Bodies& bodies, BodyId body, std::span<const std::
     double magnitude = length(offset_of(p)) / 0.001;
     for (std::size_t i = 0; i < std::size_t(p.count); ++i) magnitude += std::fabs(double(p.weight[i]));
     if (magnitude < least) least = magnitude, best = p;
-  }
+  });
   return best;
 }
 

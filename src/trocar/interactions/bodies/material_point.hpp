@@ -42,7 +42,7 @@ struct MaterialPoint {
   std::int32_t frame = space;
   std::array<std::int32_t, kRowNodes> node{};
   std::array<float, kRowNodes> weight{};  ///< sum 1; of a rod the first: place in the element, 0 .. 1
-  std::array<double, 3> offset{};         ///< [m] in the frame; of a rod in the drawn shape's axes
+  std::array<float, 3> offset{};          ///< [m] in the frame; of a rod in the drawn shape's axes
 
   bool in_space() const noexcept { return !body.exists(); }
 
@@ -53,7 +53,7 @@ struct MaterialPoint {
         v("weight", s.weight), v("offset", s.offset);
   }
 };
-static_assert(sizeof(MaterialPoint) == 4 * (4 + 2 * kRowNodes) + 3 * 8, "no padding");
+static_assert(sizeof(MaterialPoint) == 4 * (4 + 2 * kRowNodes + 3), "no padding");
 
 /// A point of space.
 MaterialPoint in_space(Vec3d place) noexcept;

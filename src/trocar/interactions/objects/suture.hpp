@@ -25,7 +25,8 @@
 #include <trocar/core/fields.hpp>
 #include <trocar/interactions/objects/object_hand.hpp>
 #include <trocar/interactions/objects/suture_sling.hpp>
-#include <trocar/interactions/objects/tissue_point.hpp>
+#include <trocar/interactions/bodies/bodies.hpp>
+#include <trocar/interactions/bodies/material_point.hpp>
 #include <trocar/interactions/objects/wall_grid.hpp>
 #include <trocar/suture/needle/needle_step.hpp>
 #include <trocar/suture/thread/thread.hpp>
@@ -90,7 +91,7 @@ struct SutureModels {
 /// Skin that the tip presses on and has not pierced. No padding.
 struct SutureTouch {
   enum Kind : std::int32_t { none, outside, inside };  ///< from which side
-  TissuePoint at;
+  MaterialPoint at;
   std::int32_t kind = none;
   std::array<float, 3> normal{}, slid{}, force{};  ///< out of the body; [m]; on the needle [N]
 
@@ -103,7 +104,7 @@ struct SutureTouch {
 /// A point of tissue that needle or thread goes through. No padding.
 struct SutureHole {
   enum Kind : std::int32_t { entry, track, exit };
-  TissuePoint at;
+  MaterialPoint at;
   std::int32_t kind = entry;
   std::int32_t bite = 0;         ///< State::bites
   std::int32_t slot = -1;        ///< the thread's passage; -1: the needle is in it
@@ -126,7 +127,7 @@ struct SutureBite {
   std::int32_t stage = open;
   std::int32_t harmed = 0;  ///< 1: pulled at with more than the tissue bears unharmed
   float peak = 0;           ///< the most that it was pulled at with [N]
-  TissuePoint entry, exit;  ///< where it went in, and came out
+  MaterialPoint entry, exit;  ///< where it went in, and came out
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>

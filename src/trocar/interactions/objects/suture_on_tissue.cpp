@@ -143,13 +143,17 @@ class Resting {
     for (int i = 0; i < m_state.hole_count; ++i) {
       const SutureHole& h = m_state.holes[size_t(i)];
       const double resists = (h.slot < 0 ? kAcrossWire : kThreadHole) * m_dt;
-      press_on(m_bodies, h.at, vector_of(h.force), resists, h.slot < 0 ? kCalms * resists : 0.0,
-               speed_at(double(h.arc)));
+      press(h.at, vector_of(h.force), resists, h.slot < 0 ? kCalms * resists : 0.0, speed_at(double(h.arc)));
     }
     const SutureTouch& t = m_state.touch;
     const double resists = kTipStiffness * m_dt;
-    if (t.kind != SutureTouch::none)
-      press_on(m_bodies, t.at, -vector_of(t.force), resists, kCalms * resists, speed_at(0));
+    if (t.kind != SutureTouch::none) press(t.at, -vector_of(t.force), resists, kCalms * resists, speed_at(0));
+  }
+  /// @param resists  to changes of its velocity: stiffness of what presses times the tick [N s/m]
+  /// @param damps    to moving beside what presses, which goes with `velocity` [N s/m]
+  void press(const MaterialPoint& at, Vec3d force, double resists, double damps, Vec3d velocity) noexcept {
+    const Vec3d f0 = force + resists * velocity_of(m_bodies, at) + damps * velocity;
+    put_load(m_bodies, at, {.f0 = f0, .d = resists + damps}, {Owner::anchor, 0, 0});
   }
   /// Of the needle [m/s].
   Vec3d speed_at(double arc) const noexcept {
@@ -268,7 +272,7 @@ class Resting {
     const double side = inside ? -1 : 1, off = side * on.distance, ahead = -side * dot(drives(), faces);
     if (t.kind == kind && on.there() && on.body == t.at.body && dot(on.normal, vector_of(t.normal)) < kSameSide) {
       // it has been drawn so far that another part of the skin is nearer
-      if (-side * dot(tip() - point_of(m_bodies, t.at), vector_of(t.normal)) < -kTipLeaves) t = {};
+      if (-side * dot(tip() - place_of(m_bodies, t.at), vector_of(t.normal)) < -kTipLeaves) t = {};
       return;
     }
     if (t.kind != SutureTouch::none &&
@@ -278,7 +282,7 @@ class Resting {
       if (!on.there() || off > kTipAhead || ahead < kPricks || off < -kDeepestRest) return;
       t = {};
       t.kind = kind;
-      t.at = stick_to(m_bodies, on.body, on.point);
+      t.at = attach(m_bodies, on.body, on.point);
       t.normal = array_of(on.normal);
       return;
     }

@@ -114,7 +114,7 @@ class Sewing {
   Vec3d tip() const noexcept { return suture::needle_point(m_model.needle, m_state.needle, 0); }
   Vec3d drives() const noexcept { return suture::needle_direction(m_model.needle, m_state.needle, 0); }
   double arc_of(const SutureHole& h) const noexcept {
-    return m_model.needle.nearest(suture::own_of(m_state.needle, point_of(m_bodies, h.at)));
+    return m_model.needle.nearest(suture::own_of(m_state.needle, place_of(m_bodies, h.at)));
   }
   SutureHole* newest() noexcept {
     for (int i = m_state.hole_count; i-- > 0;)
@@ -131,7 +131,7 @@ class Sewing {
       h.arc = float(arc_of(h));
       if (h.arc < 0 || double(h.arc) > m_model.needle.length) continue;
       suture::NeedlePin p;
-      p.point = point_of(m_bodies, h.at);
+      p.point = place_of(m_bodies, h.at);
       p.velocity = {};  // where it is when the tick ends is known
       p.across = kAcrossWire;
       p.drag = drag(h);
@@ -147,7 +147,7 @@ class Sewing {
       suture::NeedleTip& meets = m_work.needle.tip;
       meets.there = true;
       meets.dir = t.kind == SutureTouch::outside ? vector_of(t.normal) : -vector_of(t.normal);
-      const Vec3d off = tip() - point_of(m_bodies, t.at);
+      const Vec3d off = tip() - place_of(m_bodies, t.at);
       meets.gap = -dot(off, meets.dir);
       meets.stiffness = kTipStiffness;
       meets.friction = kTipRubs;
@@ -207,13 +207,13 @@ class Sewing {
       return;
     }
     // what friction does not hold of its way
-    const Vec3d at = point_of(m_bodies, t.at), slipped = across_of(p - at, normal) + vector_of(t.slid);
+    const Vec3d at = place_of(m_bodies, t.at), slipped = across_of(p - at, normal) + vector_of(t.slid);
     if (length(slipped) < kLeastSlip) return;
     const NearSkin on = nearest_skin(m_bodies, t.at.body, at + slipped, kSkinNear);
-    if (on.there()) t.at = stick_to(m_bodies, t.at.body, on.point);
+    if (on.there()) t.at = attach(m_bodies, t.at.body, on.point);
   }
 
-  bool add_hole(SutureHole::Kind kind, const TissuePoint& at) noexcept {
+  bool add_hole(SutureHole::Kind kind, const MaterialPoint& at) noexcept {
     if (m_state.hole_count == kMostHoles) {
       m_report.overflowed = true;
       return false;
@@ -246,7 +246,7 @@ class Sewing {
     }
     t = {};
   }
-  void come_out(const TissuePoint& at) noexcept {
+  void come_out(const MaterialPoint& at) noexcept {
     SutureBite& bite = m_state.bites[size_t(m_state.bite_count - 1)];
     bite.stage = SutureBite::through;
     bite.exit = at;
@@ -263,7 +263,7 @@ class Sewing {
     }
     const double arc = arc_of(*front);
     const double off =
-        length(suture::needle_point(m_model.needle, m_state.needle, arc) - point_of(m_bodies, front->at));
+        length(suture::needle_point(m_model.needle, m_state.needle, arc) - place_of(m_bodies, front->at));
     if (front->kind == SutureHole::entry && arc < -kDrawnBack) {
       drop_newest();
       m_state.inside = {};
@@ -271,10 +271,10 @@ class Sewing {
       SutureBite& bite = m_state.bites[size_t(m_state.bite_count - 1)];
       bite.stage = SutureBite::gone;
     } else if (front->kind == SutureHole::track && arc < 0) {
-      const Vec3d way = point_of(m_bodies, front->at) - tip();
+      const Vec3d way = place_of(m_bodies, front->at) - tip();
       if (arc < -kOffPath || off > kOffPath || length(way) > 2 * kOffPath) drop_newest();
     } else if (arc >= kTrackApart && m_state.hole_count < kMostHoles) {
-      add_hole(SutureHole::track, stick_to(m_bodies, m_state.inside, tip()));
+      add_hole(SutureHole::track, attach(m_bodies, m_state.inside, tip()));
     }
   }
   void drop_newest() noexcept {
@@ -314,7 +314,7 @@ class Sewing {
       const SutureHole& other = m_state.holes[size_t(k)];
       if (k == i || other.bite != h.bite) continue;
       if (other.slot < 0 && other.kind != SutureHole::exit) continue;
-      if (length(point_of(m_bodies, other.at) - point_of(m_bodies, h.at)) < kKept) return true;
+      if (length(place_of(m_bodies, other.at) - place_of(m_bodies, h.at)) < kKept) return true;
     }
     return false;
   }
@@ -354,7 +354,7 @@ class Sewing {
       const SutureHole& h = m_state.holes[size_t(i)];
       if (h.slot < 0) continue;
       suture::Passage& p = m_work.passages[size_t(h.slot)];
-      p.x = point_of(m_bodies, h.at);
+      p.x = place_of(m_bodies, h.at);
       // as soft as about the wire at first: else the force would leap when the swage has passed
       p.stiffness = kAcrossWire + (kThreadHole - kAcrossWire) * std::min(1.0, double(h.arc) / kFirm);
       p.drag = kThreadDrag;
@@ -420,18 +420,18 @@ class Sewing {
   }
   /// The thread cuts its way on, in a fold along it, until it is out.
   void cut_on(SutureHole& h, Vec3d towards, double way) noexcept {
-    const Vec3d at = point_of(m_bodies, h.at);
+    const Vec3d at = place_of(m_bodies, h.at);
     const bool in_fold = h.at.body.is(BodyKind::membrane);
     if (in_fold) towards = across_of(towards, nearest_skin(m_bodies, h.at.body, at, kSkinNear).normal);
     const Vec3d to = at + way * towards;
     const NearSkin skin = nearest_skin(m_bodies, h.at.body, to, kSkinNear);
-    h.at = stick_to(m_bodies, h.at.body, in_fold && skin.there() ? skin.point : to);
+    h.at = attach(m_bodies, h.at.body, in_fold && skin.there() ? skin.point : to);
     h.way += float(way);
     if (in_fold ? !skin.there() || skin.distance > kOffEdge : is_out(h)) tear_out(h.bite);
   }
   /// Of a body: by a place on the bite's way in it. Between entry and exit, where it is too short to have one.
   bool is_out(const SutureHole& h) const noexcept {
-    Vec3d way = point_of(m_bodies, h.at);
+    Vec3d way = place_of(m_bodies, h.at);
     if (h.kind != SutureHole::track) {
       Vec3d middle;
       int ends = 0;
@@ -439,7 +439,7 @@ class Sewing {
         const SutureHole& other = m_state.holes[size_t(i)];
         if (other.bite != h.bite) continue;
         if (other.kind == SutureHole::track) return false;
-        middle += point_of(m_bodies, other.at), ++ends;
+        middle += place_of(m_bodies, other.at), ++ends;
       }
       if (ends < 2) return false;
       way = (1.0 / ends) * middle;

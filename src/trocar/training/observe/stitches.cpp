@@ -23,11 +23,6 @@ Vec3d drawn_mark(const sim::Model& model, const sim::MarkModel& m) {
   return at;
 }
 
-std::span<const Vec3d> drawn_nodes_of(const sim::Model& model, BodyId body) {
-  if (body.is(BodyKind::organ)) return sim::drawn_nodes(model, int(body.index()));
-  return model.membranes[body.index()].sheet.network.rest;
-}
-
 }  // namespace
 
 std::string_view needs_suture(const sim::Model& model) { return has_suture(model) ? "" : "a suture"; }
@@ -51,7 +46,7 @@ double bite_to_mark(const sim::Model& model, const sim::State& state, int target
     const SutureBite& bite = s.bites[std::size_t(i)];
     if (bite.body != on || bite.stage == SutureBite::gone) continue;
     if (!entry && bite.stage == SutureBite::open) continue;
-    const Vec3d at = interactions::drawn_place(drawn_nodes_of(model, on), entry ? bite.entry : bite.exit);
+    const Vec3d at = drawn_place(sim::bodies_of(model, state), entry ? bite.entry : bite.exit);
     const double off = length(at - drawn_mark(model, mark));
     if (least < 0 || off < least) least = off;
   }

@@ -1,7 +1,7 @@
-// Places of tissue by weights of the nodes about them.
+// Weights of nodes about a place: exact for affine motions, bounded where tissue is crushed.
 #include <gtest/gtest.h>
 
-#include <trocar/interactions/objects/tissue_point.hpp>
+#include <trocar/interactions/bodies/material_point.hpp>
 
 #include "few_bodies.hpp"
 
@@ -28,16 +28,16 @@ struct Cell {
   }
   Bodies bodies() { return few.all(); }
 };
-double weights(const TissuePoint& p) {
+double weights(const MaterialPoint& p) {
   double sum = 0;
   for (int i = 0; i < p.count; ++i) sum += std::fabs(double(p.weight[std::size_t(i)]));
   return sum;
 }
 
-TEST(TissuePoint, GoesWithEveryAffineMotionOfItsNodes) {
+TEST(AffineFit, GoesWithEveryAffineMotionOfItsNodes) {
   Cell cell(1);
   const Vec3d at{0.0009, 0.0014, 0.0017};
-  const TissuePoint point = stick_to(cell.bodies(), BodyId::organ(0), at);
+  const MaterialPoint point = attach(cell.bodies(), BodyId::organ(0), at);
   EXPECT_LT(weights(point), 1.5);
   const auto moved = [](Vec3d p) {
     return Vec3d{0.001 + 1.2 * p.x + 0.3 * p.z, 0.9 * p.y - 0.2 * p.x, p.z + 0.1 * p.y};
@@ -46,18 +46,18 @@ TEST(TissuePoint, GoesWithEveryAffineMotionOfItsNodes) {
     const Vec3d to = moved({double(n.x), double(n.y), double(n.z)});
     n.x = float(to.x), n.y = float(to.y), n.z = float(to.z);
   }
-  EXPECT_LT(length(point_of(cell.bodies(), point) - moved(at)), 1e-6);
+  EXPECT_LT(length(place_of(cell.bodies(), point) - moved(at)), 1e-6);
 }
 
-TEST(TissuePoint, InACrushedCellFollowsItsNodesAndIsNotFlungAbout) {
+TEST(AffineFit, InACrushedCellFollowsItsNodesAndIsNotFlungAbout) {
   for (const double share : {0.1, 0.02, 0.004, 0.0}) {
     Cell cell(share);
     const Vec3d at{0.0009, 0.0014, 0.0015};  // above all of them
-    const TissuePoint point = stick_to(cell.bodies(), BodyId::organ(0), at);
+    const MaterialPoint point = attach(cell.bodies(), BodyId::organ(0), at);
     EXPECT_LE(weights(point), 8) << share;
-    EXPECT_LT(length(point_of(cell.bodies(), point) - at), 1e-8);
+    EXPECT_LT(length(place_of(cell.bodies(), point) - at), 1e-8);
     cell.rows[3].z += 0.0005f;
-    EXPECT_LT(length(point_of(cell.bodies(), point) - at), 0.002) << share;
+    EXPECT_LT(length(place_of(cell.bodies(), point) - at), 0.002) << share;
   }
 }
 
