@@ -318,7 +318,7 @@ TEST(Injection, AKeyframeShowsWhatIsBlanched) {
   EXPECT_GT(most, 0.5);
   // What names no place of the skin is refused.
   State bad = w.state;
-  bad.injection.hands[kNeedle].entry.vertex[0] = 1'000'000;
+  bad.injection.hands[kNeedle].entry.node[0] = 1'000'000;
   EXPECT_FALSE(restore_display(w.model, display_bytes(w.model, bad), shown));
 }
 

@@ -68,6 +68,8 @@ tissue::NodeView membrane_nodes(const Bodies& bodies, std::size_t membrane) noex
 }
 
 tissue::NodeView nodes_of(const Bodies& bodies, BodyId body) noexcept {
+  if (body.is(BodyKind::fat))
+    return view_of(bodies.models.fat[body.index()].fat.network, bodies.states.fat[body.index()].network);
   return body.is(BodyKind::organ) ? organ_nodes(bodies, body.index()) : membrane_nodes(bodies, body.index());
 }
 
@@ -79,6 +81,7 @@ std::size_t node_count(const Bodies& bodies, BodyId body) noexcept {
 std::span<const Vec3d> drawn_nodes(const BodyModels& models, BodyId body) noexcept {
   const std::size_t i = body.index(), lattices = models.solids.size();
   if (body.is(BodyKind::membrane)) return models.membranes[i].sheet.network.rest;
+  if (body.is(BodyKind::fat)) return models.fat[i].fat.network.rest;
   if (i < lattices) return models.solids[i].network.rest;
   const tissue::CuttableModel& tets = models.cuttables[i - lattices].body;
   return {tets.drawn.rest.data(), std::size_t(tets.own_nodes)};
@@ -109,6 +112,7 @@ const tissue::Skin& skin_of(const Bodies& bodies, std::size_t organ) noexcept {
 }
 
 NetworkLoads& loads_on(const Bodies& bodies, BodyId body) noexcept {
+  if (body.is(BodyKind::fat)) return bodies.work->fat[body.index()].loads;
   return body.is(BodyKind::organ) ? bodies.work->organs[body.index()].loads
                                   : bodies.work->membranes[body.index()].loads;
 }

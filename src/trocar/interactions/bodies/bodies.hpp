@@ -38,7 +38,7 @@ struct Bodies {
   const tissue::StrandState& strand_state(std::size_t i) const noexcept { return states.strands[i]; }
 };
 
-/// Nodes of an organ or a membrane.
+/// Nodes of an organ, a membrane or fat.
 tissue::NodeView nodes_of(const Bodies& bodies, BodyId body) noexcept;
 tissue::NodeView organ_nodes(const Bodies& bodies, std::size_t organ) noexcept;
 tissue::NodeView membrane_nodes(const Bodies& bodies, std::size_t membrane) noexcept;
@@ -54,7 +54,7 @@ const geometry::CuttableTets& tets_of(const Bodies& bodies, BodyId body) noexcep
 const geometry::Tet* cell_of(const Bodies& bodies, BodyId body, std::int32_t cell) noexcept;
 /// Of an organ: in a tick with what cuts have made of it.
 const tissue::Skin& skin_of(const Bodies& bodies, std::size_t organ) noexcept;
-/// Where loads on an organ or a membrane go. Only in a tick.
+/// Where loads on an organ, a membrane or fat go. Only in a tick.
 NetworkLoads& loads_on(const Bodies& bodies, BodyId body) noexcept;
 
 }  // namespace trocar::interactions

@@ -357,6 +357,33 @@ MaterialPoint on_nearest_element(const Bodies& bodies, std::size_t rod, Vec3d pl
 
 }  // namespace
 
+bool is_valid(const BodyModels& models, const MaterialPoint& p) noexcept {
+  const auto below = [](std::int32_t i, std::size_t count) { return i >= 0 && std::size_t(i) < count; };
+  for (const float off : p.offset)
+    if (!(std::fabs(off) < 10)) return false;
+  for (const float w : p.weight)
+    if (!(std::fabs(w) < 10)) return false;
+  if (p.in_space()) return p.body == BodyId{};
+  if (p.count < 0 || p.count > kRowNodes || p.frame < MaterialPoint::space || p.frame > MaterialPoint::triangle)
+    return false;
+  const std::size_t i = p.body.index(), lattices = models.solids.size();
+  std::size_t nodes = 0;
+  if (p.body.is(BodyKind::strand))
+    return i < models.strand_bodies.size() && below(p.element, std::size_t(models.strand_bodies[i].nodes() - 1));
+  if (p.body.is(BodyKind::organ) && i < lattices) {
+    nodes = std::size_t(models.solids[i].network.nodes);
+  } else if (p.body.is(BodyKind::organ) && i < lattices + models.cuttables.size()) {
+    nodes = 4;
+    if (!below(p.element, models.cuttables[i - lattices].body.drawn.cells.size())) return false;
+  } else if (p.body.is(BodyKind::membrane) && i < models.membranes.size()) {
+    nodes = std::size_t(models.membranes[i].sheet.nodes());
+    if (p.element >= 0 && !below(p.element, models.membranes[i].sheet.triangles.size())) return false;
+  } else if (p.body.is(BodyKind::fat) && i < models.fat.size()) {
+    nodes = std::size_t(models.fat[i].fat.lobules());
+  }
+  return std::all_of(p.node.begin(), p.node.begin() + p.count, [&](std::int32_t n) { return below(n, nodes); });
+}
+
 MaterialPoint in_space(Vec3d place) noexcept {
   MaterialPoint p;
   set_offset(p, place);

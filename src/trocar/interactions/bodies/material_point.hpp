@@ -27,6 +27,7 @@
 namespace trocar::interactions {
 
 struct Bodies;
+struct BodyModels;
 
 /// No padding.
 struct MaterialPoint {
@@ -54,6 +55,9 @@ struct MaterialPoint {
   }
 };
 static_assert(sizeof(MaterialPoint) == 4 * (4 + 2 * kRowNodes + 3), "no padding");
+
+/// Does it name places of these bodies? For what comes from outside.
+bool is_valid(const BodyModels& models, const MaterialPoint& point) noexcept;
 
 /// A point of space.
 MaterialPoint in_space(Vec3d place) noexcept;

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/interactions/contact/nearest_skin.hpp>
 #include <trocar/interactions/verbs/pierce.hpp>
 
 namespace trocar::interactions {
@@ -15,16 +14,16 @@ constexpr double kLeastCarried = 0.01;
 /// to 1.
 class Patch {
  public:
-  Patch(const tissue::Skin& skin, const SkinPlace& place) noexcept : m_skin(skin) {
+  Patch(const tissue::Skin& skin, const SkinPoint& place) noexcept : m_skin(skin) {
     for (std::size_t k = 0; k < 3; ++k)
-      m_middle += place.weight[k] * vec_cast<double>(skin.rest[std::size_t(place.vertex[k])]);
+      m_middle += place.weights[int(k)] * vec_cast<double>(skin.rest[std::size_t(place.vertex[k])]);
     for (const std::int32_t v : place.vertex) {
       take(v);
       for (int i = skin.neighbour_first[std::size_t(v)]; i < skin.neighbour_first[std::size_t(v) + 1]; ++i)
         take(skin.neighbour[std::size_t(i)]);
     }
     if (m_sum > 0) return;
-    for (std::size_t k = 0; k < 3; ++k) add(place.vertex[k], place.weight[k]);  // a coarse skin: its triangle
+    for (std::size_t k = 0; k < 3; ++k) add(place.vertex[k], place.weights[int(k)]);  // a coarse skin: its triangle
   }
   template <class F>
   void each(F&& f) const noexcept {
@@ -56,14 +55,16 @@ class Patch {
   double m_sum = 0;
 };
 
-void load_place(const Surface& surface, const SkinPlace& place, const SkinLoad& whole, std::int32_t hand,
-                NetworkLoads& loads) noexcept {
-  Patch(*surface.skin, place).each([&](int vertex, double share) {
+void load_about(const Bodies& bodies, const MaterialPoint& point, const SkinLoad& whole, std::int32_t hand) noexcept {
+  const std::size_t organ = point.body.index();
+  const Surface& surface = bodies.organ(organ);
+  Patch(*surface.skin, skin_at(bodies, point)).each([&](int vertex, double share) {
     if (share < kLeastCarried) return;
     SkinLoad load = whole;
     load.k *= share;
     load.d *= share;
-    add_skin_load(surface.nodes, *surface.skin, vertex, load, {Owner::tool_contact, hand, 0}, loads);
+    add_skin_load(surface.nodes, *surface.skin, vertex, load, {Owner::tool_contact, hand, 0},
+                  bodies.work->organs[organ].loads);
   });
 }
 
@@ -78,19 +79,15 @@ NeedleLine needle_of(const ToolModel& tool, const ToolShape& shape) noexcept {
   return line;
 }
 
-Vec3d place_on(const Surface& surface, const SkinPlace& place) noexcept {
-  Vec3d sum;
-  for (std::size_t k = 0; k < 3; ++k) sum += place.weight[k] * surface.position(place.vertex[k]);
-  return sum;
+SkinPoint skin_at(const Bodies& bodies, const MaterialPoint& point) noexcept {
+  const Surface& surface = bodies.organ(point.body.index());
+  const Vec3d place = place_of(bodies, point);
+  const int near = nearest_vertex_near(surface, place, kPointFound);
+  return nearest_skin_point(surface, near >= 0 ? near : nearest_vertex(surface, place), place);
 }
 
-Vec3d normal_on(const Surface& surface, const SkinPlace& place) noexcept {
-  Vec3d sum;
-  for (std::size_t k = 0; k < 3; ++k) sum += place.weight[k] * surface.normal(place.vertex[k]);
-  return normalised(sum, surface.normal(place.vertex[0]));
-}
-
-SkinPlace caught_at(const Surface& surface, BodyId body, const NeedleLine& needle) noexcept {
+MaterialPoint caught_at(const Bodies& bodies, std::size_t organ, const NeedleLine& needle) noexcept {
+  const Surface& surface = bodies.organ(organ);
   const Vec3d p = needle.point;
   if (!surface.pose->bounds.reaches(p, kPointFound)) return {};
   const int vertex = nearest_vertex_near(surface, p, kPointFound);
@@ -98,42 +95,37 @@ SkinPlace caught_at(const Surface& surface, BodyId body, const NeedleLine& needl
   const SkinPoint on = nearest_skin_point(surface, vertex, p);
   // From within an organ's far side, or alongside its skin, a point does not catch.
   if (dot(on.point - p, on.normal) <= 0 || dot(needle.axis, on.normal) > kAlongside) return {};
-  SkinPlace place;
-  place.body = body;
-  for (std::size_t k = 0; k < 3; ++k) {
-    place.vertex[k] = on.vertex[k];
-    place.weight[k] = on.weights[int(k)];
-  }
-  return place;
+  return at_vertex(bodies, organ, vertex, on.point);
 }
 
-double sunk_into(const Surface& surface, const SkinPlace& place, const NeedleLine& needle) noexcept {
-  const Vec3d beyond = needle.point - place_on(surface, place);
+double sunk_into(const Bodies& bodies, const MaterialPoint& point, const NeedleLine& needle) noexcept {
+  const Vec3d beyond = needle.point - place_of(bodies, point);
   const double sunk = dot(beyond, needle.axis);
   // It has been drawn back, or the skin has turned away from it.
-  if (sunk <= 0 || length(beyond) > kPointFound || dot(needle.axis, normal_on(surface, place)) > kAlongside) return 0;
+  if (sunk <= 0 || length(beyond) > kPointFound || dot(needle.axis, skin_at(bodies, point).normal) > kAlongside)
+    return 0;
   return sunk;
 }
 
-double press_skin(const Surface& surface, const SkinPlace& place, const NeedleLine& needle, std::int32_t hand,
-                  NetworkLoads& loads) noexcept {
+double press_skin(const Bodies& bodies, const MaterialPoint& point, const NeedleLine& needle,
+                  std::int32_t hand) noexcept {
   SkinLoad load;
   load.k = kPointStiffness;
-  load.shift = needle.point - place_on(surface, place);
-  load_place(surface, place, load, hand, loads);
+  load.shift = needle.point - place_of(bodies, point);
+  load_about(bodies, point, load, hand);
   return kPointStiffness * dot(load.shift, needle.axis);
 }
 
-void carry_skin(const Surface& surface, const SkinPlace& place, const NeedleLine& needle, double& anchor,
-                std::int32_t hand, NetworkLoads& loads) noexcept {
-  const Vec3d at = place_on(surface, place);
+void carry_skin(const Bodies& bodies, const MaterialPoint& point, const NeedleLine& needle, double& anchor,
+                std::int32_t hand) noexcept {
+  const Vec3d at = place_of(bodies, point);
   const double depth = dot(needle.point - at, needle.axis);
   const double slack = kNeedleDrag * std::max(0.0, depth) / kShaftStiffness;
   anchor = std::clamp(anchor, depth - slack, depth + slack);
   SkinLoad load;
   load.k = kShaftStiffness;
   load.shift = (needle.point - anchor * needle.axis) - at;
-  load_place(surface, place, load, hand, loads);
+  load_about(bodies, point, load, hand);
 }
 
 double depth_below(const Surface& surface, Vec3d place) noexcept {

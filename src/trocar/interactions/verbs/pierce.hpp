@@ -14,8 +14,9 @@
 #include <array>
 #include <cstdint>
 
-#include <trocar/interactions/bodies/loads.hpp>
-#include <trocar/interactions/bodies/surface.hpp>
+#include <trocar/interactions/bodies/bodies.hpp>
+#include <trocar/interactions/bodies/material_point.hpp>
+#include <trocar/interactions/contact/nearest_skin.hpp>
 #include <trocar/interactions/instrument/tool.hpp>
 
 namespace trocar::interactions {
@@ -36,33 +37,21 @@ struct NeedleLine {
 };
 NeedleLine needle_of(const ToolModel& tool, const ToolShape& shape) noexcept;
 
-/// A material place of a skin. No padding.
-struct SkinPlace {
-  BodyId body;  ///< none: nowhere
-  std::array<std::int32_t, 3> vertex{-1, -1, -1};
-  std::array<double, 3> weight{0, 0, 0};
+/// The skin's place that is nearest to a point of it, and how the skin lies there.
+SkinPoint skin_at(const Bodies& bodies, const MaterialPoint& point) noexcept;
 
-  static constexpr bool kAsBytes = true;
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("body", s.body), v("vertex", s.vertex), v("weight", s.weight);
-  }
-};
-static_assert(sizeof(SkinPlace) == 4 * 4 + 3 * 8, "no padding");
-Vec3d place_on(const Surface& surface, const SkinPlace& place) noexcept;
-Vec3d normal_on(const Surface& surface, const SkinPlace& place) noexcept;
-
-/// Where the needle's point is below a skin that it has not pierced; body none: nowhere.
-SkinPlace caught_at(const Surface& surface, BodyId body, const NeedleLine& needle) noexcept;
-/// How far the point is beyond the place of the skin that it has caught, along the needle [m]; 0: it has let go of it.
-double sunk_into(const Surface& surface, const SkinPlace& place, const NeedleLine& needle) noexcept;
+/// Where the needle's point is below a skin that it has not pierced; of space: nowhere.
+MaterialPoint caught_at(const Bodies& bodies, std::size_t organ, const NeedleLine& needle) noexcept;
+/// How far the needle's point is beyond the point of the skin that it has caught, along the needle [m]; 0: it has let
+/// go of it.
+double sunk_into(const Bodies& bodies, const MaterialPoint& point, const NeedleLine& needle) noexcept;
 /// Takes the caught skin along with the point. @return the force along the needle [N]
-double press_skin(const Surface& surface, const SkinPlace& place, const NeedleLine& needle, std::int32_t hand,
-                  NetworkLoads& loads) noexcept;
+double press_skin(const Bodies& bodies, const MaterialPoint& point, const NeedleLine& needle,
+                  std::int32_t hand) noexcept;
 
 /// Carries the pierced skin. @param anchor  in/out: depth at which it sticks to the needle [m]
-void carry_skin(const Surface& surface, const SkinPlace& place, const NeedleLine& needle, double& anchor,
-                std::int32_t hand, NetworkLoads& loads) noexcept;
+void carry_skin(const Bodies& bodies, const MaterialPoint& point, const NeedleLine& needle, double& anchor,
+                std::int32_t hand) noexcept;
 
 /// How deep a place is below the nearest point of the skin [m]; negative above it.
 double depth_below(const Surface& surface, Vec3d place) noexcept;

@@ -38,28 +38,28 @@ struct InjectionModel {
 
 /// A hand's needle and its syringe. No padding.
 struct NeedleHand {
-  interactions::SkinPlace entry;  ///< where its point has gone in; body none: it is in nothing
-  interactions::SkinPlace touch;  ///< what its point has caught and not pierced; body none: nothing
-  Vec3d at{0, 0, 0};              ///< the point [m]
-  double anchor = 0;              ///< interactions::carry_skin [m]
-  double depth = 0;               ///< of the point below the nearest skin [m]
-  double press = 0;               ///< on a skin that it has not pierced [N]
-  double rate = 0;                ///< flow that the thumb has come to [m^3/s]
-  double flow = 0;                ///< out of the needle in the last tick [m^3/s]
-  double tip_pressure = 0;        ///< [Pa]
-  double plunger = 0;             ///< force on the plunger, pulling below 0 [N]
-  double carry = 0;               ///< [pL] below a whole one
-  double carry_drawn = 0;         ///< [pL] the same of blood
-  double drawn_for = 0;           ///< the plunger has been drawn at this place for so long [s]
-  Vec3d checked{0, 0, 0};         ///< where the point was then [m]
-  std::int64_t left = 0;          ///< in the syringe [pL]
-  std::int64_t pending = 0;       ///< has flowed into the body and is not shared out yet [pL]
-  std::int64_t here = 0;          ///< injected since the point went in [pL]
-  std::int64_t blood = 0;         ///< drawn since the point went in [pL]
-  std::int32_t vessel = -1;       ///< that its point is in
-  std::int32_t pushing = 0;       ///< 1: it was injecting in the last tick
-  std::int32_t punctures = 0;     ///< punctures so far
-  std::int32_t changes = 0;       ///< ToolState::changes of the instrument that this is
+  interactions::MaterialPoint entry;  ///< where its point has gone in; body none: it is in nothing
+  interactions::MaterialPoint touch;  ///< what its point has caught and not pierced; body none: nothing
+  Vec3d at{0, 0, 0};                  ///< the point [m]
+  double anchor = 0;                  ///< interactions::carry_skin [m]
+  double depth = 0;                   ///< of the point below the nearest skin [m]
+  double press = 0;                   ///< on a skin that it has not pierced [N]
+  double rate = 0;                    ///< flow that the thumb has come to [m^3/s]
+  double flow = 0;                    ///< out of the needle in the last tick [m^3/s]
+  double tip_pressure = 0;            ///< [Pa]
+  double plunger = 0;                 ///< force on the plunger, pulling below 0 [N]
+  double carry = 0;                   ///< [pL] below a whole one
+  double carry_drawn = 0;             ///< [pL] the same of blood
+  double drawn_for = 0;               ///< the plunger has been drawn at this place for so long [s]
+  Vec3d checked{0, 0, 0};             ///< where the point was then [m]
+  std::int64_t left = 0;              ///< in the syringe [pL]
+  std::int64_t pending = 0;           ///< has flowed into the body and is not shared out yet [pL]
+  std::int64_t here = 0;              ///< injected since the point went in [pL]
+  std::int64_t blood = 0;             ///< drawn since the point went in [pL]
+  std::int32_t vessel = -1;           ///< that its point is in
+  std::int32_t pushing = 0;           ///< 1: it was injecting in the last tick
+  std::int32_t punctures = 0;         ///< punctures so far
+  std::int32_t changes = 0;           ///< ToolState::changes of the instrument that this is
 
   bool in() const noexcept { return entry.body.exists(); }
 
@@ -73,12 +73,13 @@ struct NeedleHand {
         v("vessel", s.vessel), v("pushing", s.pushing), v("punctures", s.punctures), v("changes", s.changes);
   }
 };
-static_assert(sizeof(NeedleHand) == 2 * sizeof(interactions::SkinPlace) + 3 * 8 + 10 * 8 + 3 * 8 + 4 * 8 + 4 * 4,
+static_assert(sizeof(NeedleHand) == 2 * sizeof(interactions::MaterialPoint) + 3 * 8 + 10 * 8 + 3 * 8 + 4 * 8 + 4 * 4,
               "no padding");
 
 /// A way that a needle has left. No padding.
 struct NeedleTrack {
-  interactions::SkinPlace at;
+  interactions::MaterialPoint at;
+  std::int32_t reserved = 0;
   std::uint64_t tick = 0;   ///< when it was drawn out
   double carry = 0;         ///< [pL] below a whole one
   std::int64_t leaked = 0;  ///< so far [pL]
@@ -86,10 +87,10 @@ struct NeedleTrack {
   static constexpr bool kAsBytes = true;
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("at", s.at), v("tick", s.tick), v("carry", s.carry), v("leaked", s.leaked);
+    v("at", s.at), v("reserved", s.reserved), v("tick", s.tick), v("carry", s.carry), v("leaked", s.leaked);
   }
 };
-static_assert(sizeof(NeedleTrack) == sizeof(interactions::SkinPlace) + 3 * 8, "no padding");
+static_assert(sizeof(NeedleTrack) == sizeof(interactions::MaterialPoint) + 4 + 3 * 8, "no padding");
 inline constexpr std::int32_t kMaxTracks = 16;  ///< the oldest is closed when there are more
 
 /// [pL] since the beginning.

@@ -22,14 +22,9 @@ bool sound(const Model& model, int rack, const interactions::ToolState& t) {
   return true;
 }
 
-bool sound(const Model& model, const interactions::SkinPlace& place) {
-  if (!place.body.exists()) return place.body == BodyId{};
-  if (!place.body.is(BodyKind::organ) || place.body.index() >= std::size_t(model.organs())) return false;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (place.vertex[k] < 0 || place.vertex[k] >= places_on(model, place.body) ||
-        !(std::fabs(place.weight[k]) <= 1.001))
-      return false;
-  return true;
+/// Nowhere, or a point of an organ.
+bool is_on_organ(const Model& model, const interactions::MaterialPoint& point) {
+  return is_valid(model, point) && (point.in_space() || point.body.is(BodyKind::organ));
 }
 
 /// A needle is in nothing, or in a lattice at places of its skin.
@@ -38,7 +33,7 @@ bool sound(const Model& model, const NeedleHand& hand) {
                          hand.tip_pressure, hand.plunger})
     if (!(std::fabs(v) < 1e9)) return false;
   if (hand.vessel < -1 || hand.vessel >= std::int32_t(model.vessels.list.size()) || hand.left < 0) return false;
-  return sound(model, hand.entry) && sound(model, hand.touch);
+  return is_on_organ(model, hand.entry) && is_on_organ(model, hand.touch);
 }
 
 }  // namespace

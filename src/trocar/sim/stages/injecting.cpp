@@ -7,6 +7,7 @@
 #include <trocar/sim/bodies/bonds.hpp>
 #include <trocar/sim/bodies/static_organ.hpp>
 #include <trocar/sim/bodies/vessel_wounds.hpp>
+#include <trocar/sim/bodies/views.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/injecting.hpp>
 #include <trocar/sim/stages/stage.hpp>
@@ -50,18 +51,18 @@ bool is_full(const StepContext& c) noexcept {
 }
 
 /// Out of the skin where a needle is or was in.
-void leak_at(StepContext& c, const interactions::SkinPlace& at, std::int64_t picolitres) noexcept {
+void leak_at(StepContext& c, const interactions::MaterialPoint& at, std::int64_t picolitres) noexcept {
   if (picolitres <= 0) return;
   c.state.injection.account.leaked += picolitres;
-  const size_t organ = at.body.index();
+  const interactions::SkinPoint skin = skin_at(bodies_of(c), at);
   NeedleOutlet out;
-  out.place = interactions::place_on(c.work.surfaces[organ], at);
-  out.direction = interactions::normal_on(c.work.surfaces[organ], at);
+  out.place = skin.point;
+  out.direction = skin.normal;
   out.picolitres = picolitres;
   size_t most = 0;
   for (size_t k = 1; k < 3; ++k)
-    if (at.weight[k] > at.weight[most]) most = k;
-  if (c.model.wet.there) out.film = c.model.wet.film[organ] + at.vertex[most];
+    if (skin.weights[int(k)] > skin.weights[int(most)]) most = k;
+  if (c.model.wet.there) out.film = c.model.wet.film[at.body.index()] + skin.vertex[most];
   let_into_open(c, out);
 }
 
@@ -98,7 +99,7 @@ void leave_track(StepContext& c, const NeedleHand& n) noexcept {
     std::move(s.tracks.begin() + 1, s.tracks.end(), s.tracks.begin());
     --s.track_count;
   }
-  s.tracks[size_t(s.track_count++)] = {n.entry, c.state.tick, 0, 0};
+  s.tracks[size_t(s.track_count++)] = {n.entry, 0, c.state.tick, 0, 0};
 }
 
 void draw_out(StepContext& c, size_t hand, NeedleHand& n, bool drugged) noexcept {
@@ -125,24 +126,21 @@ void go_in(StepContext& c, size_t hand, NeedleHand& n) noexcept {
 /// The point at a skin that it has not pierced.
 void dent_skins(StepContext& c, size_t hand, const NeedleLine& line, NeedleHand& n) noexcept {
   n.press = 0;
-  const auto surface_of = [&c](const interactions::SkinPlace& place) -> const interactions::Surface& {
-    return c.work.surfaces[place.body.index()];
-  };
-  if (n.touch.body.exists() && !(sunk_into(surface_of(n.touch), n.touch, line) > 0)) n.touch = {};
+  const interactions::Bodies bodies = bodies_of(c);
+  if (n.touch.body.exists() && !(sunk_into(bodies, n.touch, line) > 0)) n.touch = {};
   if (!(line.out > 0)) n.touch = {};
   for (size_t i = 0; i < size_t(c.model.organs()) && line.out > 0 && !n.touch.body.exists(); ++i)
-    n.touch = interactions::caught_at(c.work.surfaces[i], BodyId::organ(i), line);
+    n.touch = interactions::caught_at(bodies, i, line);
   if (!n.touch.body.exists()) return;
   const size_t organ = n.touch.body.index();
-  n.press =
-      interactions::press_skin(surface_of(n.touch), n.touch, line, std::int32_t(hand), c.work.organs[organ].loads);
+  n.press = interactions::press_skin(bodies, n.touch, line, std::int32_t(hand));
   const double gives = interactions::kGroundBevel * c.model.injection.organs[organ].puncture;
   if (gives > 0 && n.press >= gives) go_in(c, hand, n);
 }
 
 /// Is the pierced skin's point still somewhere on the needle?
 bool still_in(const StepContext& c, const NeedleHand& n, const NeedleLine& line) noexcept {
-  const Vec3d entry = interactions::place_on(c.work.surfaces[n.entry.body.index()], n.entry);
+  const Vec3d entry = place_of(bodies_of(c), n.entry);
   const double deep = dot(line.point - entry, line.axis);
   return deep > 0 && length(line.point - deep * line.axis - entry) < interactions::kTornOut;
 }
@@ -161,8 +159,7 @@ void pierce_with(StepContext& c, size_t hand) noexcept {
   }
   if (!n.in()) return dent_skins(c, hand, line, n);
   const size_t organ = n.entry.body.index();
-  interactions::carry_skin(c.work.surfaces[organ], n.entry, line, n.anchor, std::int32_t(hand),
-                           c.work.organs[organ].loads);
+  interactions::carry_skin(bodies_of(c), n.entry, line, n.anchor, std::int32_t(hand));
   n.depth = interactions::depth_below(c.work.surfaces[organ], n.at);
 }
 
@@ -283,9 +280,8 @@ void leak_tracks(StepContext& c) noexcept {
       s.tracks[size_t(kept++)] = track;
       continue;
     }
-    const interactions::Surface& surface = c.work.surfaces[organ];
-    const Vec3d inside =
-        interactions::place_on(surface, track.at) - kTrackDeep * interactions::normal_on(surface, track.at);
+    const interactions::SkinPoint skin = skin_at(bodies_of(c), track.at);
+    const Vec3d inside = skin.point - kTrackDeep * skin.normal;
     const double pressure = tissue::pressure_at(c.work.organs[organ].nodes, inside, s.organs[organ]);
     const double flow = kTrackLeaks * portable::exp(-age / kTrackCloses) * pressure;
     const std::int64_t wants = fluids::whole_picolitres(flow, double(kShareTicks) * kTick, track.carry);
