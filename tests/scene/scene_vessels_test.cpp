@@ -14,6 +14,7 @@
 #include <trocar/scene/description/vary.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/files/writer.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 
 #include "../sim/small_scene.hpp"
@@ -21,8 +22,6 @@
 
 namespace trocar::scene {
 namespace {
-
-using interactions::VesselHold;
 
 const Description& described() {
   static const Description d = read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding/scene.json");
@@ -37,20 +36,19 @@ const interactions::VesselPath& path_of(const char* name) {
   return pelvis().vessels.list[size_t(pelvis().vessel_index(name))].path;
 }
 /// Do most points of this vessel ride on that body?
-bool rides_on(const char* vessel, VesselHold::Kind kind, int index) {
+bool rides_on(const char* vessel, BodyId body) {
   const auto& points = path_of(vessel).points;
-  const auto there = std::count_if(points.begin(), points.end(),
-                                   [&](const auto& p) { return p.hold.kind == kind && p.hold.index == index; });
+  const auto there = std::count_if(points.begin(), points.end(), [&](const auto& p) { return p.rides.body == body; });
   return 2 * there > std::ptrdiff_t(points.size());
 }
 
 TEST(SceneVessels, TheArteriesOfThePelvisRideOnWhatTheySupply) {
   EXPECT_EQ(pelvis().vessels.list.size(), 46u);
-  EXPECT_TRUE(rides_on("uterine_upper_left", VesselHold::organ, pelvis().organ_index("uterus")));
-  EXPECT_TRUE(rides_on("tubal_left", VesselHold::membrane, pelvis().membrane_index("mesosalpinx_left")) ||
-              rides_on("tubal_left", VesselHold::strand, pelvis().strand_index("tube_left")));
-  EXPECT_TRUE(rides_on("common_iliac_left", VesselHold::space, -1)) << "behind the peritoneum";
-  EXPECT_TRUE(rides_on("uterine_upper_vein_left", VesselHold::organ, pelvis().organ_index("uterus")));
+  EXPECT_TRUE(rides_on("uterine_upper_left", sim::body_of(pelvis(), "uterus")));
+  EXPECT_TRUE(rides_on("tubal_left", sim::body_of(pelvis(), "mesosalpinx_left")) ||
+              rides_on("tubal_left", sim::body_of(pelvis(), "tube_left")));
+  EXPECT_TRUE(rides_on("common_iliac_left", BodyId{})) << "behind the peritoneum";
+  EXPECT_TRUE(rides_on("uterine_upper_vein_left", sim::body_of(pelvis(), "uterus")));
   for (const sim::Vessel& v : pelvis().vessels.list) {
     const double mmhg = v.mean_pressure / vessels::kPascalPerMmHg;
     EXPECT_GT(mmhg, v.vein ? 12 : 60) << v.name;
@@ -66,10 +64,9 @@ TEST(SceneVessels, VesselsThatMeetRideOnTheSameBodyThere) {
       for (const bool end_a : {false, true})
         for (const bool end_b : {false, true}) {
           if ((end_a ? segments[a].to : segments[a].from) != (end_b ? segments[b].to : segments[b].from)) continue;
-          const VesselHold &x = end_a ? list[a].path.points.back().hold : list[a].path.points.front().hold,
-                           &y = end_b ? list[b].path.points.back().hold : list[b].path.points.front().hold;
-          EXPECT_EQ(x.kind, y.kind) << list[a].name << " and " << list[b].name;
-          EXPECT_EQ(x.index, y.index) << list[a].name << " and " << list[b].name;
+          const auto& x = end_a ? list[a].path.points.back() : list[a].path.points.front();
+          const auto& y = end_b ? list[b].path.points.back() : list[b].path.points.front();
+          EXPECT_EQ(x.rides.body, y.rides.body) << list[a].name << " and " << list[b].name;
         }
 }
 

@@ -8,9 +8,6 @@
 namespace trocar::interactions {
 namespace {
 
-Vec3d offset_of(const MaterialPoint& p) noexcept {
-  return {double(p.offset[0]), double(p.offset[1]), double(p.offset[2])};
-}
 void set_offset(MaterialPoint& p, Vec3d off) noexcept { p.offset = {float(off.x), float(off.y), float(off.z)}; }
 
 // --- rods ---
@@ -66,7 +63,7 @@ struct RodFrame {
 
 // --- bodies of nodes ---
 
-/// The row as it is now. Sums are taken from its first node, so that weights that add up to 1 but for rounding do.
+/// The row as it is now.
 struct Row {
   std::array<std::int32_t, kRowNodes> node{};
   std::array<double, kRowNodes> weight{};
@@ -104,6 +101,8 @@ Row row_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
     row.x[i] = nodes.position(row.node[i]);
     row.v[i] = nodes.velocity(row.node[i]);
   }
+  row.weight[0] = 1;  // weights of single precision add up to 1 but for rounding
+  for (std::size_t i = 1; i < std::size_t(row.count); ++i) row.weight[0] -= row.weight[i];
   if (p.body.is(BodyKind::membrane) && p.element >= 0 && bodies.states.torn[p.body.index()][std::size_t(p.element)])
     keep_heaviest(row);
   return row;
@@ -231,26 +230,36 @@ struct RowNodes {
   }
 };
 
-/// With weights of the corners; what those do not give is left as an offset.
-void fit(const RowNodes& corners, Vec3d place, MaterialPoint& p) noexcept {
+/// Puts three corners first that lie in no line, if there are such. @return are there?
+bool begin_with_triangle(RowNodes& corners) noexcept {
+  constexpr double kInLine = 0.2;  // sine of the least angle
+  for (int i = 2; i < corners.count; ++i) {
+    const Vec3d ab = corners.x[1] - corners.x[0], ac = corners.x[std::size_t(i)] - corners.x[0];
+    if (length(cross(ab, ac)) < kInLine * length(ab) * length(ac)) continue;
+    std::swap(corners.x[2], corners.x[std::size_t(i)]);
+    std::swap(corners.node[2], corners.node[std::size_t(i)]);
+    return true;
+  }
+  return false;
+}
+
+/// With weights of the corners. What those do not give, as beside nodes that lie in a plane, is an offset that turns
+/// with three of them.
+void fit(RowNodes corners, Vec3d place, MaterialPoint& p) noexcept {
+  constexpr double kGiven = 1e-6;  // [m]
+  const bool turns = begin_with_triangle(corners);
   p.count = corners.count;
   std::copy(corners.node.begin(), corners.node.end(), p.node.begin());
   const std::size_t n = std::size_t(p.count);
-  if (!fit_affine({corners.x.data(), n}, place, {p.weight.data(), n})) {
-    p.count = std::min(1, p.count);
-    p.weight = {1};
-  }
+  if (!fit_affine({corners.x.data(), n}, place, {p.weight.data(), n})) p.weight = {1};
   Row row;
   row.count = p.count;
   row.x = corners.x;
-  for (std::size_t i = 0; i < n; ++i) row.weight[i] = double(p.weight[i]);
+  row.weight[0] = 1;
+  for (std::size_t i = 1; i < n; ++i) row.weight[i] = double(p.weight[i]), row.weight[0] -= row.weight[i];
   const Vec3d off = place - row.mean(row.x);
-  if (p.count < 3 || p.frame != MaterialPoint::triangle) {
-    p.frame = MaterialPoint::space;
-    set_offset(p, off);
-  } else {
-    set_offset(p, SheetFrame(row.x).in(off));
-  }
+  p.frame = turns && length(off) > kGiven ? MaterialPoint::triangle : MaterialPoint::space;
+  set_offset(p, p.frame == MaterialPoint::triangle ? SheetFrame(row.x).in(off) : off);
 }
 
 NearNodes nodes_near(const Bodies& bodies, BodyId body, Vec3d place) noexcept {
@@ -298,7 +307,6 @@ MaterialPoint in_a_cell(const Bodies& bodies, BodyId body, std::span<const std::
     MaterialPoint p;
     p.body = body;
     p.element = std::int32_t(c);
-    p.frame = corners.count == 3 ? MaterialPoint::triangle : MaterialPoint::space;
     fit(corners, place, p);
     double magnitude = length(offset_of(p)) / 0.001;
     for (std::size_t i = 0; i < std::size_t(p.count); ++i) magnitude += std::fabs(double(p.weight[i]));
@@ -356,6 +364,12 @@ MaterialPoint on_nearest_element(const Bodies& bodies, std::size_t rod, Vec3d pl
 }
 
 }  // namespace
+
+Vec3d offset_of(const MaterialPoint& p) noexcept {
+  return {double(p.offset[0]), double(p.offset[1]), double(p.offset[2])};
+}
+
+StrandPlace place_on_rod(const MaterialPoint& p) noexcept { return {p.element, double(p.weight[0])}; }
 
 bool is_valid(const BodyModels& models, const MaterialPoint& p) noexcept {
   const auto below = [](std::int32_t i, std::size_t count) { return i >= 0 && std::size_t(i) < count; };

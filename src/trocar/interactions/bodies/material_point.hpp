@@ -23,6 +23,7 @@
 #include <trocar/core/body_id.hpp>
 #include <trocar/interactions/bodies/affine_fit.hpp>
 #include <trocar/interactions/bodies/loads.hpp>
+#include <trocar/interactions/bodies/strand_body.hpp>
 
 namespace trocar::interactions {
 
@@ -78,6 +79,11 @@ Vec3d velocity_of(const Bodies& bodies, const MaterialPoint& point) noexcept;
 Vec3d drawn_place(const Bodies& bodies, const MaterialPoint& point) noexcept;
 /// Where its row is, without the offset: what it is rooted in.
 Vec3d foot_of(const Bodies& bodies, const MaterialPoint& point) noexcept;
+
+/// Of a point of a rod: where on its axis, whether that is whole or not.
+StrandPlace place_on_rod(const MaterialPoint& point) noexcept;
+/// As it is stored: in its frame, of a rod in the drawn shape's axes [m].
+Vec3d offset_of(const MaterialPoint& point) noexcept;
 
 /// f0 + k (target - x) - d v, of all directions or of one. k and d act on the row's nodes, implicitly.
 struct PointLoad {

@@ -14,67 +14,6 @@ Vec3d turned(Vec3d v, Vec3d a, Vec3d b) noexcept {
   return v * c + cross(axis, v) + axis * (dot(axis, v) / (1.0 + c));
 }
 
-Vec3d drawn_direction(const StrandBody& body, int e) noexcept {
-  return normalised(body.model.rest[std::size_t(e) + 1] - body.model.rest[std::size_t(e)]);
-}
-
-/// Edge, across, normal of a triangle.
-struct TriangleFrame {
-  Vec3d edge, across, normal;
-};
-TriangleFrame frame_of(Vec3d a, Vec3d b, Vec3d c) noexcept {
-  const Vec3d edge = normalised(b - a), normal = normalised(cross(b - a, c - a));
-  return {edge, cross(normal, edge), normal};
-}
-
-/// Bodies as they are now, and vertices that have been worked out.
-struct Carriers {
-  const Bodies& bodies;
-  VertexPlaces corners;
-};
-
-Vec3d corner(const VesselHold& hold, const Carriers& now, std::size_t k) noexcept {
-  const std::size_t i = std::size_t(hold.index);
-  if (hold.kind == VesselHold::membrane) return membrane_nodes(now.bodies, i).position(hold.vertex[k]);
-  if (!now.corners.empty()) return now.corners[i][std::size_t(hold.vertex[k])];
-  return skin_point(organ_nodes(now.bodies, i), now.bodies.models.skin(hold.index), hold.vertex[k]);
-}
-
-int heaviest(const VesselHold& hold) noexcept {
-  int most = 0;
-  for (int k = 1; k < 3; ++k)
-    if (hold.share[std::size_t(k)] > hold.share[std::size_t(most)]) most = k;
-  return most;
-}
-
-/// On a triangle. Where that has been cut open, its corners go different ways: the nearest one has the point.
-Vec3d on_triangle(const VesselHold& hold, const Carriers& now) noexcept {
-  if (hold.kind == VesselHold::membrane && now.bodies.states.torn[std::size_t(hold.index)][std::size_t(hold.element)])
-    return corner(hold, now, std::size_t(heaviest(hold)));
-  const Vec3d a = corner(hold, now, 0), b = corner(hold, now, 1), c = corner(hold, now, 2);
-  const TriangleFrame f = frame_of(a, b, c);
-  return hold.share[0] * a + hold.share[1] * b + hold.share[2] * c + hold.offset.x * f.edge + hold.offset.y * f.across +
-         hold.offset.z * f.normal;
-}
-
-Vec3d in_cell(const VesselHold& hold, const Bodies& bodies) noexcept {
-  const std::size_t organ = std::size_t(hold.index);
-  const tissue::CuttableState& body = bodies.states.cuttables[organ - bodies.models.solids.size()];
-  const geometry::Tet& cell = body.tets.cells[std::size_t(hold.element)];
-  const tissue::NodeView nodes = organ_nodes(bodies, organ);
-  Vec3d at;
-  for (std::size_t k = 0; k < 4; ++k) at += hold.share[k] * nodes.position(cell[k]);
-  return at;
-}
-
-Vec3d on_strand(const VesselHold& hold, const Bodies& bodies) noexcept {
-  const std::size_t i = std::size_t(hold.index);
-  const StrandBody& body = bodies.strand(i);
-  const StrandPlace place{hold.element, hold.w};
-  const Vec3d now = tangent_at(body, bodies.strand_state(i), place);
-  return point_at(body, bodies.strand_state(i), place) + turned(hold.offset, drawn_direction(body, hold.element), now);
-}
-
 /// The last point that is not beyond s, but not the last of all.
 int point_before(const VesselPath& path, double s) noexcept {
   const auto beyond = std::upper_bound(path.points.begin(), path.points.end(), s,
@@ -106,38 +45,12 @@ Vec3d straight_on(const VesselPath& path, std::span<const Vec3d> points, std::sp
 
 }  // namespace
 
-Vec3d held_point(const VesselHold& hold, const Bodies& bodies, VertexPlaces corners) noexcept {
-  switch (hold.kind) {
-    case VesselHold::strand:
-      return on_strand(hold, bodies);
-    case VesselHold::organ:
-    case VesselHold::membrane:
-      return on_triangle(hold, {bodies, corners});
-    case VesselHold::cell:
-      return in_cell(hold, bodies);
-    case VesselHold::space:
-      break;
-  }
-  return hold.offset;
-}
-
-void anchor_point(VesselHold& hold, Vec3d drawn, const Bodies& bodies) noexcept {
-  hold.offset = {0, 0, 0};
-  if (hold.kind == VesselHold::cell) return;
-  const Vec3d away = drawn - held_point(hold, bodies);
-  hold.offset = away;
-  if (hold.kind != VesselHold::organ && hold.kind != VesselHold::membrane) return;
-  const Carriers now{bodies, {}};
-  const TriangleFrame f = frame_of(corner(hold, now, 0), corner(hold, now, 1), corner(hold, now, 2));
-  hold.offset = {dot(away, f.edge), dot(away, f.across), dot(away, f.normal)};
-}
-
-void pose_vessel(const VesselPath& path, const Bodies& bodies, std::span<Vec3d> points, VertexPlaces corners) noexcept {
+void pose_vessel(const VesselPath& path, const Bodies& bodies, std::span<Vec3d> points) noexcept {
   for (std::size_t i = 0; i < path.points.size(); ++i)
-    if (path.points[i].hold.kind != VesselHold::space) points[i] = held_point(path.points[i].hold, bodies, corners);
+    if (!path.points[i].rides.in_space()) points[i] = place_of(bodies, path.points[i].rides);
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const VesselPoint& p = path.points[i];
-    if (p.hold.kind != VesselHold::space) continue;
+    if (!p.rides.in_space()) continue;
     points[i] = p.drawn;
     for (std::size_t k = 0; k < 2; ++k)
       if (p.near[k] >= 0)

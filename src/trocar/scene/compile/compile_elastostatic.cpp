@@ -62,12 +62,15 @@ void keep(std::int32_t node, std::vector<std::uint8_t>& kept) {
   if (node >= 0 && std::size_t(node) < kept.size()) kept[std::size_t(node)] = 1;
 }
 
-/// Corners of the cells that vessels run through.
-void keep_cells(const sim::Model& model, int organ, const interactions::VesselHold& hold,
-                std::vector<std::uint8_t>& kept) {
-  if (hold.kind != interactions::VesselHold::cell || sim::lattice_of(model, organ) >= 0) return;
-  for (const std::int32_t node : sim::cuttable_of(model, organ).body.drawn.cells[std::size_t(hold.element)])
-    keep(node, kept);
+/// Nodes of the row of a point of the organ.
+void keep_row(const sim::Model& model, int organ, const interactions::MaterialPoint& p,
+              std::vector<std::uint8_t>& kept) {
+  if (p.body != BodyId::organ(std::size_t(organ))) return;
+  const bool tetrahedral = sim::lattice_of(model, organ) < 0;
+  for (std::size_t k = 0; k < std::size_t(p.count); ++k)
+    keep(tetrahedral ? sim::cuttable_of(model, organ).body.drawn.cells[std::size_t(p.element)][std::size_t(p.node[k])]
+                     : p.node[k],
+         kept);
 }
 
 /// Nodes that a hand, a neighbour, or whatever hangs on the organ can pull at.
@@ -84,11 +87,11 @@ std::vector<int> kept_nodes(const sim::Model& model, int organ, const OrganAsDra
       if (end->organ == organ)
         for (const std::int32_t node : end->patch.node) keep(node, kept);
   for (const sim::Vessel& vessel : model.vessels.list)
-    for (const interactions::VesselPoint& p : vessel.path.points) {
-      if (p.hold.carrier() != BodyId::organ(std::size_t(organ))) continue;
-      keep(p.node, kept);
-      keep_cells(model, organ, p.hold, kept);
-    }
+    for (const interactions::VesselPoint& p : vessel.path.points) keep_row(model, organ, p.rides, kept);
+  for (const sim::MembraneBody& membrane : model.membranes)
+    for (const interactions::Attachment& hold : membrane.holds) keep_row(model, organ, hold.point, kept);
+  for (const interactions::BondSet& set : model.bonds)
+    for (const interactions::Bond& bond : set.bonds) keep_row(model, organ, bond.far, kept);
   std::vector<int> nodes;
   for (std::size_t i = 0; i < kept.size(); ++i)
     if (kept[i]) nodes.push_back(int(i));

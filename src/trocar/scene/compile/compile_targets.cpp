@@ -58,9 +58,9 @@ std::int32_t surface_over(const tissue::Skin& skin, Vec3d inside) {
   return nearest;
 }
 
-/// The corner of a fold's triangle that is next to the place on it.
-std::int32_t nearest_corner(const interactions::VesselHold& hold) {
-  return hold.vertex[size_t(std::max_element(hold.share.begin(), hold.share.begin() + 3) - hold.share.begin())];
+/// The corner of a membrane's triangle that is next to the place on it.
+std::int32_t nearest_corner(const interactions::MaterialPoint& p) {
+  return p.node[size_t(std::max_element(p.weight.begin(), p.weight.begin() + p.count) - p.weight.begin())];
 }
 
 /// Where a vessel opens by itself: the place of its host that is next to it. Nothing can be reported where it has none.
@@ -71,16 +71,15 @@ void add_bleeder(sim::Model& model) {
   const auto nearest = std::min_element(points.begin(), points.end(), [&b](const auto& p, const auto& q) {
     return std::fabs(p.s - b.s) < std::fabs(q.s - b.s);
   });
-  const interactions::VesselHold& hold = nearest->hold;
-  if (hold.kind == interactions::VesselHold::strand)
-    add_target(model, {sim::VisibilityTarget::strand, "bleeder", hold.index, 0, 0}, {{0, hold.element, hold.w}});
-  if (hold.kind == interactions::VesselHold::organ)
-    add_target(model, {sim::VisibilityTarget::organ, "bleeder", hold.index, 0, 0}, {{0, hold.vertex[0], 0}});
-  if (hold.kind == interactions::VesselHold::cell)
-    add_target(model, {sim::VisibilityTarget::organ, "bleeder", hold.index, 0, 0},
-               {{0, surface_over(model.skin(hold.index), nearest->drawn), 0}});
-  if (hold.kind == interactions::VesselHold::membrane)
-    add_target(model, {sim::VisibilityTarget::fold, "bleeder", hold.index, 0, 0}, {{0, nearest_corner(hold), 0}});
+  const interactions::MaterialPoint& on = nearest->rides;
+  const std::int32_t i = std::int32_t(on.body.index());
+  if (on.body.is(BodyKind::strand))
+    add_target(model, {sim::VisibilityTarget::strand, "bleeder", i, 0, 0}, {{0, on.element, double(on.weight[0])}});
+  if (on.body.is(BodyKind::organ))
+    add_target(model, {sim::VisibilityTarget::organ, "bleeder", i, 0, 0},
+               {{0, surface_over(model.skin(i), nearest->drawn), 0}});
+  if (on.body.is(BodyKind::membrane))
+    add_target(model, {sim::VisibilityTarget::fold, "bleeder", i, 0, 0}, {{0, nearest_corner(on), 0}});
 }
 
 void add_mark(sim::Model& model, std::int32_t mark) {

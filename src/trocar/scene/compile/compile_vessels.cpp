@@ -11,12 +11,12 @@
 #include <trocar/scene/compile/compile_hands.hpp>
 #include <trocar/scene/compile/compile_vessels.hpp>
 #include <trocar/sim/bodies/sling.hpp>
+#include <trocar/sim/model/attach_near.hpp>
 #include <trocar/sim/model/bodies.hpp>
 
 namespace trocar::scene {
 namespace {
 
-using interactions::VesselHold;
 using interactions::VesselPath;
 using interactions::VesselPoint;
 using Faults = std::vector<core::Fault>;
@@ -64,104 +64,69 @@ vessels::VesselGraph joined(const Description& d) {
   return all;
 }
 
-/// A body that a vessel may ride on.
-struct Carrier {
-  VesselHold::Kind kind = VesselHold::space;
-  std::int32_t index = -1;
-
-  bool operator==(const Carrier& o) const { return kind == o.kind && index == o.index; }
-};
-
-std::optional<Carrier> carrier_of(const std::string& name, const sim::Model& model) {
-  if (const int i = model.strand_index(name); i >= 0) return Carrier{VesselHold::strand, i};
-  if (const int i = model.membrane_index(name); i >= 0) return Carrier{VesselHold::membrane, i};
-  const int i = model.organ_index(name);
-  if (i < 0) return std::nullopt;
-  return Carrier{lattice_of(model, i) >= 0 ? VesselHold::organ : VesselHold::cell, i};
-}
-
-/// A way to ride on a body, and how far that is from the point.
+/// A point of a body, and how far that is from where it shall be.
 struct Ride {
-  VesselHold hold;
+  interactions::MaterialPoint point;
   double distance = 1e30;
 };
 
-Ride ride_on_strand(const Carrier& c, Vec3d p, const sim::Model& model) {
-  const interactions::StrandBody& body = model.strand_bodies[size_t(c.index)];
-  Ride best;
-  for (int e = 0; e + 1 < body.nodes(); ++e) {
-    const Vec3d a = body.model.rest[size_t(e)], b = body.model.rest[size_t(e) + 1];
-    const double w = geometry::closest_on_segment(p, a, b);
-    const double distance = length(p - (a + w * (b - a))) - body.model.radius[size_t(e)];
-    if (distance >= best.distance) continue;
-    best.distance = distance;
-    best.hold.element = e;
-    best.hold.w = w;
-  }
-  return best;
+Ride ride_on_rod(const interactions::Bodies& bodies, size_t rod, Vec3d p) {
+  const interactions::MaterialPoint point = attach(bodies, BodyId::strand(rod), p);
+  const double radius = bodies.strand(rod).model.radius[size_t(point.element)];
+  return {point, length(p - foot_of(bodies, point)) - radius};
 }
 
-/// On the nearest triangle. Within a solid every depth up to kDeep is as good.
-Ride ride_on_skin(const Carrier& c, Vec3d p, const sim::Model& model) {
-  const bool fold = c.kind == VesselHold::membrane;
-  const tissue::Skin& skin = fold ? model.membranes[size_t(c.index)].skin : model.skin(c.index);
-  Ride best;
-  double least = 1e30;
-  for (size_t t = 0; t < skin.triangles.size(); ++t) {
-    const auto x = [&](size_t k) { return vec_cast<double>(skin.rest[size_t(skin.triangles[t][k])]); };
+Ride ride_on_membrane(const interactions::Bodies& bodies, size_t membrane, Vec3d p) {
+  const interactions::MaterialPoint point = attach(bodies, BodyId::membrane(membrane), p);
+  return {point, length(p - foot_of(bodies, point))};
+}
+
+/// Within a lattice every depth up to kDeep is as good.
+Ride ride_on_lattice(const interactions::Bodies& bodies, size_t organ, Vec3d p) {
+  const tissue::Skin& skin = bodies.models.skin(int(organ));
+  double least = 1e30, distance = 0;
+  for (const std::array<int, 3>& t : skin.triangles) {
+    const auto x = [&](size_t k) { return vec_cast<double>(skin.rest[size_t(t[k])]); };
     const auto near = geometry::closest_on_triangle(p, x(0), x(1), x(2));
     if (near.distance2 >= least) continue;
     least = near.distance2;
-    best.distance = std::sqrt(near.distance2);
-    const bool inside = dot(p - near.point, cross(x(1) - x(0), x(2) - x(0))) < 0;
-    if (!fold && inside && best.distance < kDeep) best.distance = 0;
-    best.hold.element = std::int32_t(t);
-    for (size_t k = 0; k < 3; ++k) best.hold.vertex[k] = skin.triangles[t][k];
-    best.hold.share = {near.weights.x, near.weights.y, near.weights.z, 0};
+    distance = std::sqrt(near.distance2);
+    if (dot(p - near.point, cross(x(1) - x(0), x(2) - x(0))) < 0 && distance < kDeep) distance = 0;
   }
-  return best;
+  return {attach(bodies, BodyId::organ(organ), p), distance};
 }
 
-/// In the cell that it lies in, or the nearest one, continued beyond its faces.
-Ride ride_in_cell(const Carrier& c, Vec3d p, const sim::Model& model) {
-  const geometry::CuttableTets& body = sim::cuttable_of(model, c.index).body.drawn;
-  Ride best;
-  for (size_t i = 0; i < body.cells.size(); ++i) {
-    const auto x = [&](size_t k) { return body.rest[size_t(body.cells[i][k])]; };
+/// How far outside of the nearest cell: its most negative share times its height there is at least the distance.
+double outside_of_cells(const geometry::CuttableTets& body, Vec3d p) {
+  double least = 1e30;
+  for (const geometry::Tet& cell : body.cells) {
+    const auto x = [&](size_t k) { return body.rest[size_t(cell[k])]; };
     const Vec3d u = x(1) - x(0), v = x(2) - x(0), w = x(3) - x(0), q = p - x(0);
     const double volume = dot(u, cross(v, w));
     const double b = dot(q, cross(v, w)) / volume, d = dot(u, cross(q, w)) / volume, e = dot(u, cross(v, q)) / volume;
     const std::array<double, 4> share{1 - b - d - e, b, d, e};
-    // How far outside: the most negative share times the cell's height there is at least the distance to that face.
     double distance = 0;
     for (size_t k = 0; k < 4; ++k) {
       if (share[k] >= 0) continue;
       const Vec3d f = x((k + 1) % 4), g = x((k + 2) % 4), h = x((k + 3) % 4);
-      const double height = std::fabs(volume) / length(cross(g - f, h - f));
-      distance = std::max(distance, -share[k] * height);
+      distance = std::max(distance, -share[k] * std::fabs(volume) / length(cross(g - f, h - f)));
     }
-    if (distance >= best.distance) continue;
-    best.distance = distance;
-    best.hold.element = std::int32_t(i);
-    best.hold.share = share;
+    least = std::min(least, distance);
   }
-  return best;
+  return least;
 }
 
-Ride ride_on(const Carrier& c, Vec3d p, const sim::Model& model) {
-  Ride ride = c.kind == VesselHold::strand ? ride_on_strand(c, p, model)
-              : c.kind == VesselHold::cell ? ride_in_cell(c, p, model)
-                                           : ride_on_skin(c, p, model);
-  ride.hold.kind = c.kind;
-  ride.hold.index = c.index;
-  return ride;
+Ride ride_on(const interactions::Bodies& bodies, BodyId body, Vec3d p) {
+  if (body.is(BodyKind::strand)) return ride_on_rod(bodies, body.index(), p);
+  if (body.is(BodyKind::membrane)) return ride_on_membrane(bodies, body.index(), p);
+  if (!is_tetrahedral(bodies, body)) return ride_on_lattice(bodies, body.index(), p);
+  return {attach(bodies, body, p), outside_of_cells(tets_of(bodies, body), p)};
 }
 
-Ride nearest_ride(const std::vector<Carrier>& carriers, double reach, Vec3d p, const sim::Model& model) {
-  Ride best;
-  best.distance = reach;
-  for (const Carrier& c : carriers)
-    if (Ride ride = ride_on(c, p, model); ride.distance < best.distance) best = ride;
+Ride nearest_ride(const interactions::Bodies& bodies, const std::vector<BodyId>& carriers, double reach, Vec3d p) {
+  Ride best{interactions::in_space(p), reach};
+  for (const BodyId body : carriers)
+    if (Ride ride = ride_on(bodies, body, p); ride.distance < best.distance) best = ride;
   return best;
 }
 
@@ -188,7 +153,7 @@ sim::Bleeder bleeder_of(const BleederSetting& setting, const sim::Model& model, 
 class Compiling {
  public:
   Compiling(const Description& d, sim::Model& model, Faults& faults)
-      : m_description(d), m_model(model), m_faults(faults), m_graph(joined(d)) {}
+      : m_description(d), m_model(model), m_faults(faults), m_graph(joined(d)), m_drawn(model) {}
 
   void compile() {
     gather();
@@ -220,9 +185,9 @@ class Compiling {
         for (const Vec3d& p : geometry::sampled_by_arc(curve, count)) out.path.points.emplace_back().drawn = p;
         m_model.vessels.list.push_back(std::move(out));
         m_vessels.push_back(&vessel);
-        std::vector<Carrier>& carriers = m_carriers.emplace_back();
+        std::vector<BodyId>& carriers = m_carriers.emplace_back();
         for (const std::string& name : vessel.rides_on)
-          if (const auto c = carrier_of(name, m_model)) carriers.push_back(*c);
+          if (const BodyId body = body_of(m_model, name); body.exists()) carriers.push_back(body);
       }
   }
 
@@ -256,10 +221,10 @@ class Compiling {
         const size_t node = size_t(to ? m_graph.segments[v].to : m_graph.segments[v].from);
         const std::vector<VesselPoint>& points = m_model.vessels.list[v].path.points;
         const Vec3d p = to ? points.back().drawn : points.front().drawn;
-        const Ride ride = nearest_ride(m_carriers[v], m_vessels[v]->reach, p, m_model);
-        if (ride.hold.kind == VesselHold::space || ride.distance >= nearest[node]) continue;
+        const Ride ride = nearest_ride(bodies(), m_carriers[v], m_vessels[v]->reach, p);
+        if (ride.point.in_space() || ride.distance >= nearest[node]) continue;
         nearest[node] = ride.distance;
-        m_node_carrier[node] = {ride.hold.kind, ride.hold.index};
+        m_node_carrier[node] = ride.point.body;
       }
   }
 
@@ -273,10 +238,8 @@ class Compiling {
       VesselPoint& p = path.points[i];
       p.s = i + 1 == n ? 1 : double(i) / double(n - 1);
       p.radius = kWall * (segment.radius + p.s * (to - segment.radius));
-      p.hold = hold_of(v, i, p.drawn);
-      carried =
-          carried || nearest_ride(m_carriers[v], m_vessels[v]->reach, p.drawn, m_model).hold.kind != VesselHold::space;
-      p.node = bearing_node(p.hold);
+      p.rides = ride_of(v, i, p.drawn);
+      carried = carried || !nearest_ride(bodies(), m_carriers[v], m_vessels[v]->reach, p.drawn).point.in_space();
       if (i > 0 && i + 1 < n) {
         p.along = normalised(path.points[i + 1].drawn - path.points[i - 1].drawn);
         p.turn = normalised(p.drawn - path.points[i - 1].drawn) - normalised(path.points[i + 1].drawn - p.drawn);
@@ -290,47 +253,21 @@ class Compiling {
     follow_neighbours(path);
   }
 
-  VesselHold hold_of(size_t v, size_t i, Vec3d p) {
+  interactions::MaterialPoint ride_of(size_t v, size_t i, Vec3d p) {
     const vessels::VesselSegment& segment = m_graph.segments[v];
     const size_t last = m_model.vessels.list[v].path.points.size() - 1;
-    Ride ride;
-    if (i == 0 || i == last) {
-      const Carrier c = m_node_carrier[size_t(i == 0 ? segment.from : segment.to)];
-      if (c.kind != VesselHold::space) ride = ride_on(c, p, m_model);
-    } else {
-      ride = nearest_ride(m_carriers[v], m_vessels[v]->reach, p, m_model);
-    }
-    ride.hold.offset = p;
-    if (ride.hold.kind != VesselHold::space) {
-      anchor_point(ride.hold, p, sim::bodies_of(m_model, drawn_state()));
-    }
-    return ride.hold;
+    if (i != 0 && i != last) return nearest_ride(bodies(), m_carriers[v], m_vessels[v]->reach, p).point;
+    const BodyId on = m_node_carrier[size_t(i == 0 ? segment.from : segment.to)];
+    return on.exists() ? ride_on(bodies(), on, p).point : interactions::in_space(p);
   }
 
-  const sim::State& drawn_state() {
-    if (!m_drawn) m_drawn = sim::drawn_bodies(m_model);
-    return *m_drawn;
-  }
-
-  std::int32_t bearing_node(const VesselHold& hold) const {
-    if (hold.kind != VesselHold::organ && hold.kind != VesselHold::membrane) return -1;
-    size_t most = 0;
-    for (size_t k = 1; k < 3; ++k)
-      if (hold.share[k] > hold.share[most]) most = k;
-    if (hold.kind == VesselHold::membrane) return hold.vertex[most];
-    std::int32_t heaviest = -1;
-    float greatest = 0;
-    m_model.skin(hold.index).each_carrier(hold.vertex[most], [&](int node, int, float weight) {
-      if (heaviest < 0 || weight > greatest) heaviest = node, greatest = weight;
-    });
-    return heaviest;
-  }
+  interactions::Bodies bodies() const { return m_drawn.all(); }
 
   /// Points in space between carried ones go with both; before the first and behind the last ever less.
   static void follow_neighbours(VesselPath& path) {
     const int n = int(path.points.size());
     const double step = path.length / (n - 1);
-    const auto carried = [&](int i) { return path.points[size_t(i)].hold.kind != VesselHold::space; };
+    const auto carried = [&](int i) { return !path.points[size_t(i)].rides.in_space(); };
     for (int i = 0; i < n; ++i) {
       if (carried(i)) continue;
       VesselPoint& p = path.points[size_t(i)];
@@ -356,10 +293,10 @@ class Compiling {
   sim::Model& m_model;
   Faults& m_faults;
   vessels::VesselGraph m_graph;
-  std::optional<sim::State> m_drawn;
+  sim::DrawnBodies m_drawn;
   std::vector<const Vessel*> m_vessels;
-  std::vector<std::vector<Carrier>> m_carriers;  // (vessels)
-  std::vector<Carrier> m_node_carrier;           // (nodes)
+  std::vector<std::vector<BodyId>> m_carriers;  // (vessels)
+  std::vector<BodyId> m_node_carrier;           // (nodes)
 };
 
 }  // namespace

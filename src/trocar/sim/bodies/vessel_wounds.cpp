@@ -4,11 +4,11 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/bodies/vessel_wounds.hpp>
 #include <trocar/sim/bodies/views.hpp>
+#include <trocar/sim/model/vessel_cuts.hpp>
 
 namespace trocar::sim {
 namespace {
 
-using interactions::VesselHold;
 using interactions::VesselPath;
 using interactions::VesselPiece;
 
@@ -49,10 +49,10 @@ void open_vessel(StepContext& c, int vessel, double s, double share, int hand) n
   o->tick = c.state.tick;
 }
 
-bool rides_on(const StepContext& c, const VesselHold& hold, BodyId carrier) noexcept {
-  const bool flesh = hold.kind == VesselHold::cell ||
-                     (hold.kind == VesselHold::membrane && c.model.membranes[size_t(hold.index)].sheet.closed());
-  return carrier.exists() ? hold.carrier() == carrier : !flesh;
+bool rides_on(const StepContext& c, BodyId on, BodyId carrier) noexcept {
+  const bool flesh =
+      is_tetrahedral(bodies_of(c), on) || (on.is(BodyKind::membrane) && c.model.membranes[on.index()].sheet.closed());
+  return carrier.exists() ? on == carrier : !flesh;
 }
 
 bool out_of_reach(const VesselPath& path, int i) noexcept {
@@ -93,7 +93,8 @@ void open_vessels(StepContext& c, const geometry::Blade& blade, BodyId carrier, 
     const std::vector<Vec3d>& points = points_of(c, v);
     for (int i = 0; i + 1 < int(points.size()); ++i) {
       if (out_of_reach(path, i) || !near(blade, points[size_t(i)], reach)) continue;
-      if (!rides_on(c, path.points[size_t(i)].hold, carrier) && !rides_on(c, path.points[size_t(i) + 1].hold, carrier))
+      if (!rides_on(c, path.points[size_t(i)].rides.body, carrier) &&
+          !rides_on(c, path.points[size_t(i) + 1].rides.body, carrier))
         continue;
       VesselPiece piece[2];
       const int pieces = pieces_of(path, points, cuts_of(c.state, int(v), places), i, piece);
@@ -116,12 +117,13 @@ struct Within {
 /// @param arc  of the strand [m]
 Within within_strand(const interactions::StrandBody& body, int strand, const VesselPath& path, size_t i,
                      double arc) noexcept {
-  const VesselHold &a = path.points[i].hold, &b = path.points[i + 1].hold;
-  if (a.kind != VesselHold::strand || b.kind != VesselHold::strand || a.index != strand || b.index != strand) return {};
-  const double from = arc_at(body, {a.element, a.w}), to = arc_at(body, {b.element, b.w});
+  const interactions::MaterialPoint &a = path.points[i].rides, &b = path.points[i + 1].rides;
+  const BodyId on = BodyId::maybe(BodyKind::strand, strand);
+  if (a.body != on || b.body != on) return {};
+  const double from = arc_at(body, place_on_rod(a)), to = arc_at(body, place_on_rod(b));
   if ((from > arc) == (to > arc)) return {};
   const double w = (arc - from) / (to - from);
-  const Vec3d off = a.offset + w * (b.offset - a.offset);
+  const Vec3d off = offset_of(a) + w * (offset_of(b) - offset_of(a));
   if (length(off) > body.model.radius[size_t(interactions::place_at(body, arc).element)]) return {};
   return {true, path.points[i].s + w * (path.points[i + 1].s - path.points[i].s)};
 }

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <trocar/sim/model/clip_seat.hpp>
-#include <trocar/sim/model/vessel_carriers.hpp>
+#include <trocar/sim/model/vessel_cuts.hpp>
 
 namespace trocar::sim {
 namespace {

@@ -56,7 +56,6 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
   w.touches.resize(model.hands.size());
   interactions::make_object_work(model, int(model.hands.size()), w);
   if (model.vessels.there()) {
-    w.ridden = make_ridden_corners(model);
     for (const Vessel& v : model.vessels.list) w.vessel_points.emplace_back(v.path.points.size());
     w.vessel_posed.resize(w.vessel_points.size());
     w.flow = vessels::make_work(model.vessels.flow);

@@ -11,7 +11,6 @@
 #include <trocar/interactions/verbs/grasp.hpp>
 #include <trocar/interactions/wetting/fluid_contact.hpp>
 #include <trocar/sim/model/state.hpp>
-#include <trocar/sim/model/vessel_carriers.hpp>
 
 namespace trocar::sim {
 
@@ -50,8 +49,7 @@ struct Work : interactions::BodyWork {
   std::vector<std::uint8_t> beyond;  ///< (rows of the largest organ or membrane) springs stretched too far
   std::vector<double> sheet_gaps;    ///< (hands x membranes) apart by at least this much [m]
   interactions::ObjectWork objects;
-  std::vector<Vec3d> wave_force;  ///< (nodes of the largest organ with waves) [N]
-  RiddenCorners ridden;
+  std::vector<Vec3d> wave_force;                  ///< (nodes of the largest organ with waves) [N]
   std::vector<std::vector<Vec3d>> vessel_points;  ///< (vessels)(points of the path) [m]
   std::vector<std::uint8_t> vessel_posed;         ///< (vessels) 0: its points are not known in this tick
   vessels::FlowWork flow;
@@ -84,7 +82,7 @@ struct Work : interactions::BodyWork {
         v("strands", s.strands), v("membranes", s.membranes), v("fat", s.fat), v("surfaces", s.surfaces),
         v("shapes", s.shapes), v("shapes_before", s.shapes_before), v("touches", s.touches),
         v("wall_stops", s.wall_stops), v("statics", s.statics), v("parts", s.parts), v("beyond", s.beyond),
-        v("sheet_gaps", s.sheet_gaps), v("objects", s.objects), v("wave_force", s.wave_force), v("ridden", s.ridden),
+        v("sheet_gaps", s.sheet_gaps), v("objects", s.objects), v("wave_force", s.wave_force),
         v("vessel_points", s.vessel_points), v("vessel_posed", s.vessel_posed), v("flow", s.flow), v("open", s.open),
         v("closed", s.closed), v("flows", s.flows), v("walls", s.walls), v("busy", s.busy), v("impact_at", s.impact_at),
         v("bleeds", s.bleeds), v("bleed_count", s.bleed_count), v("heat", s.heat), v("heat_sources", s.heat_sources),

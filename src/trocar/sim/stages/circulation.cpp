@@ -4,6 +4,7 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/bodies/vessel_wounds.hpp>
+#include <trocar/sim/model/vessel_cuts.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 #include <trocar/sim/stages/injecting.hpp>
 #include <trocar/sim/stages/pulse_feel.hpp>
@@ -13,7 +14,6 @@
 namespace trocar::sim {
 namespace {
 
-using interactions::VesselHold;
 using interactions::VesselPath;
 
 using CutPlaces = std::array<double, interactions::kMaxOpenings>;
@@ -24,54 +24,13 @@ using CutPlaces = std::array<double, interactions::kMaxOpenings>;
 void pose_vessels(StepContext& c) noexcept {
   if (!c.model.vessels.there()) return;
   const interactions::Bodies bodies = bodies_of(c);
-  pose(bodies, c.work.ridden);
   for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
     c.work.vessel_posed[v] = c.model.vessels.list[v].pulses();
-    if (c.work.vessel_posed[v] != 0) pose_vessel(path_of(c, v), bodies, c.work.vessel_points[v], c.work.ridden.place);
+    if (c.work.vessel_posed[v] != 0) pose_vessel(path_of(c, v), bodies, c.work.vessel_points[v]);
   }
 }
 
 namespace {
-
-/// A node of the cell that a point rides in.
-std::int32_t corner_of(const StepContext& c, const VesselHold& hold, size_t corner) noexcept {
-  return visit_organ(c.model, size_t(hold.index),
-                     Overloaded{[&](SolidRef) { return std::int32_t(-1); },
-                                [&](CuttableRef organ) {
-                                  return c.state.cuttables[organ.index].tets.cells[size_t(hold.element)][corner];
-                                }});
-}
-
-/// Puts a force on what carries a point.
-void push(StepContext& c, const interactions::VesselPoint& p, Vec3d force, interactions::Tag tag = {}) noexcept {
-  const size_t i = size_t(p.hold.index);
-  tissue::NodeLoad load;
-  load.f0 = vec_cast<float>(force);
-  load.node = p.node;
-  switch (p.hold.kind) {
-    case VesselHold::strand: {
-      tissue::StrandLoad on;
-      on.element = p.hold.element;
-      on.w = p.hold.w;
-      on.f0 = force;
-      c.work.strands[i].loads.add(on, tag);
-      return;
-    }
-    case VesselHold::organ:
-      return c.work.organs[i].loads.add(load, tag);
-    case VesselHold::membrane:
-      return c.work.membranes[i].loads.add(load, tag);
-    case VesselHold::cell: {
-      size_t most = 0;
-      for (size_t k = 1; k < 4; ++k)
-        if (p.hold.share[k] > p.hold.share[most]) most = k;
-      load.node = corner_of(c, p.hold, most);
-      return c.work.organs[i].loads.add(load, tag);
-    }
-    case VesselHold::space:
-      return;
-  }
-}
 
 /// A wall that a pulse drives outwards pushes what palpates it, and is pushed back: pressure above the mean on the
 /// vessel's width times the length that a point of its line stands for, less the more tissue lies between.
@@ -80,7 +39,8 @@ void push_hands(StepContext& c, const interactions::VesselPoint& p, Vec3d at, do
     if (!presses(c.state, t)) continue;
     const PulseTouch touch = pulse_touch(c.work.shapes[t], at, radius);
     if (touch.share > 0)
-      push(c, p, (-force * touch.share) * touch.towards, {interactions::Owner::tool_contact, std::int32_t(t), 0});
+      put_load(bodies_of(c), p.rides, {.f0 = (-force * touch.share) * touch.towards},
+               {interactions::Owner::tool_contact, std::int32_t(t), 0});
   }
 }
 
@@ -101,9 +61,10 @@ void apply_pulse_loads(StepContext& c) noexcept {
     const double wide = wall.radius / (segment.radius + 0.5 * segment.taper);
     for (size_t i = 1; i + 1 < x.size(); ++i) {
       const interactions::VesselPoint& p = vessel.path.points[i];
-      if (p.hold.kind == VesselHold::space) continue;
+      if (p.rides.in_space()) continue;
       const double radius = wide * (segment.radius + segment.taper * p.s);
-      push(c, p, (over * portable::pi * radius * radius) * turn_at(vessel.path, x, int(i)));
+      const Vec3d force = (over * portable::pi * radius * radius) * turn_at(vessel.path, x, int(i));
+      put_load(bodies_of(c), p.rides, {.f0 = force}, {interactions::Owner::anchor, 0, 0});
       if (over > 0) push_hands(c, p, x[i], over * 2 * radius * stands_for(vessel.path, i), radius);
     }
   }

@@ -372,10 +372,14 @@ double blanched_at(const State& s, std::size_t organ, const tissue::Skin& skin, 
 double blanched_around(const Model& model, const State& s, const interactions::VesselPath& path) noexcept {
   double sum = 0;
   for (const interactions::VesselPoint& p : path.points) {
-    if (p.hold.kind != interactions::VesselHold::organ || size_t(p.hold.index) >= model.solids.size()) continue;
-    const tissue::Skin& skin = model.solids[size_t(p.hold.index)].skin;
-    for (size_t k = 0; k < 3; ++k)
-      sum += p.hold.share[k] * blanched_at(s, size_t(p.hold.index), skin, p.hold.vertex[k]);
+    const size_t organ = p.rides.body.index();
+    if (!p.rides.body.is(BodyKind::organ) || organ >= model.solids.size() || s.injection.organs[organ].since.empty())
+      continue;
+    for (size_t k = 0; k < size_t(p.rides.count); ++k) {
+      const size_t row = size_t(model.solids[organ].network.row_of_node[size_t(p.rides.node[k])]);
+      if (p.rides.weight[k] > 0)
+        sum += double(p.rides.weight[k]) * tissue::blanched(s.injection.organs[organ], row, s.tick);
+    }
   }
   return sum / double(path.points.size());
 }

@@ -51,7 +51,7 @@ double PulseReader::area(const State& state, int hand, int vessel) {
   double sum = 0;
   for (size_t i = 1; i + 1 < line.size(); ++i) {
     const interactions::VesselPoint& p = v.path.points[i];
-    if (p.hold.kind == interactions::VesselHold::space) continue;
+    if (p.rides.in_space()) continue;
     sum += 2 * p.radius * stands_for(v.path, i) * pulse_touch(shape, line[i], p.radius).share;
   }
   return sum;

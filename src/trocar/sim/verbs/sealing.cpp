@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include <trocar/sim/bodies/vessel_wounds.hpp>
-#include <trocar/sim/model/vessel_carriers.hpp>
+#include <trocar/sim/model/vessel_cuts.hpp>
 #include <trocar/sim/verbs/sealing.hpp>
 #include <trocar/tissue/heat/heat_look.hpp>
 

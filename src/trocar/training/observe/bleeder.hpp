@@ -43,7 +43,7 @@ inline BodyId carrier_of_bleeder(const sim::Model& model) {
   const auto nearest = std::min_element(points.begin(), points.end(), [&](const auto& p, const auto& q) {
     return std::fabs(p.s - b.s) < std::fabs(q.s - b.s);
   });
-  return nearest->hold.carrier();
+  return nearest->rides.body;
 }
 
 /// These bodies, and what carries the vessel that bleeds by itself: that may always be treated.

@@ -15,14 +15,14 @@ VesselCarrier on_strand(Surgeon& op, int strand, interactions::StrandPlace place
 VesselCarrier carrier_at(Surgeon& op, int vessel, double s) {
   const interactions::VesselSpot at = op.vessel_spot(vessel, s);
   const interactions::VesselPoint& point = op.model().vessels.list[size_t(vessel)].path.points[size_t(at.after)];
-  const interactions::VesselHold& hold = point.hold;
-  if (hold.kind != interactions::VesselHold::strand) return {at.place, at.along, point.radius};
+  if (!point.rides.body.is(BodyKind::strand)) return {at.place, at.along, point.radius};
+  const int strand = int(point.rides.body.index());
+  const interactions::StrandPlace on = place_on_rod(point.rides);
   // The point before the place: what is left lies along the strand.
-  const interactions::StrandBody& body = op.model().strand_bodies[size_t(hold.index)];
-  const VesselCarrier before = on_strand(op, hold.index, {hold.element, hold.w});
+  const interactions::StrandBody& body = op.model().strand_bodies[size_t(strand)];
+  const VesselCarrier before = on_strand(op, strand, on);
   const double ahead = dot(at.place - before.place, before.along);
-  return on_strand(op, hold.index,
-                   interactions::place_at(body, interactions::arc_at(body, {hold.element, hold.w}) + ahead));
+  return on_strand(op, strand, interactions::place_at(body, interactions::arc_at(body, on) + ahead));
 }
 
 }  // namespace trocar::training

@@ -39,7 +39,7 @@ constexpr int kRidgeInWall = 2, kGlide = 12;  // stations where the ligament is 
 /// Is it what folds hang on, or does a vessel run in it?
 bool carries(const sim::Model& model, int strand) {
   const auto rides = [strand](const interactions::VesselPoint& p) {
-    return p.hold.kind == interactions::VesselHold::strand && p.hold.index == strand;
+    return p.rides.body == BodyId::maybe(BodyKind::strand, strand);
   };
   return std::any_of(model.drawn_folds.begin(), model.drawn_folds.end(),
                      [&](const auto& s) { return s.strand == strand; }) ||

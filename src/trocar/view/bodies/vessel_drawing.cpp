@@ -81,14 +81,33 @@ std::vector<Vec3d> drawn_line(const Run& run, const Curve& curve, const interact
   return line;
 }
 
+/// How high a place is over the nearest vertex of a skin as drawn, and that vertex' normal.
+struct Over {
+  double height;
+  Vec3d normal;
+};
+Over over_skin(const tissue::Skin& skin, Vec3d p) {
+  int best = 0;
+  double least = 1e30;
+  for (int v = 0; v < skin.size(); ++v) {
+    const Vec3d off = p - vec_cast<double>(skin.rest[std::size_t(v)]);
+    if (skin.at_surface(v) && dot(off, off) < least) least = dot(off, off), best = v;
+  }
+  const Vec3d normal = vec_cast<double>(skin.rest_normal[std::size_t(best)]);
+  return {dot(p - vec_cast<double>(skin.rest[std::size_t(best)]), normal), normal};
+}
+
 /// A vessel that rides on an organ lies in its surface, one that a fold carries in the fold, from where it goes deep
 /// into the organ: lines are drawn by hand and run up to some millimetres beside.
-interactions::VesselPath nestled(interactions::VesselPath path) {
+interactions::VesselPath nestled(interactions::VesselPath path, const interactions::Bodies& drawn) {
   const bool fold = in_a_fold(path);
   for (interactions::VesselPoint& p : path.points) {
-    if (p.hold.kind == interactions::VesselHold::organ)
-      p.hold.offset.z = std::min(p.hold.offset.z, fold ? -kBuried : -kNestled * p.radius);
-    if (p.hold.kind == interactions::VesselHold::membrane) p.hold.offset.z = 0;
+    if (p.rides.body.is(BodyKind::organ) && !is_tetrahedral(drawn, p.rides.body)) {
+      const Over at = over_skin(drawn.models.skin(int(p.rides.body.index())), p.drawn);
+      const double down = at.height + (fold ? kBuried : kNestled * p.radius);
+      if (down > 0) p.rides = attach(drawn, p.rides.body, p.drawn - down * at.normal);
+    }
+    if (p.rides.body.is(BodyKind::membrane)) p.rides.offset[2] = 0;
   }
   return path;
 }
@@ -109,7 +128,7 @@ std::pair<double, double> in_sight(const interactions::VesselPath& path) {
   const bool fold = in_a_fold(path);
   double from = 1, to = 0;
   for (const interactions::VesselPoint& p : path.points) {
-    if (p.covered() || (fold && p.hold.kind == interactions::VesselHold::space)) continue;
+    if (p.covered() || (fold && p.rides.in_space())) continue;
     from = std::min(from, p.s);
     to = std::max(to, p.s);
   }
@@ -138,9 +157,8 @@ std::vector<double> sorted_cuts(const sim::State& state, int vessel) {
 }  // namespace
 
 bool in_a_fold(const interactions::VesselPath& path) {
-  return std::any_of(path.points.begin(), path.points.end(), [](const interactions::VesselPoint& p) {
-    return p.hold.kind == interactions::VesselHold::membrane;
-  });
+  return std::any_of(path.points.begin(), path.points.end(),
+                     [](const interactions::VesselPoint& p) { return p.rides.body.is(BodyKind::membrane); });
 }
 
 bool is_in_sight(const interactions::VesselPath& path) {
@@ -151,9 +169,10 @@ bool is_in_sight(const interactions::VesselPath& path) {
 VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, const Detail& detail,
                              Lie lie)
     : m_model(&model), m_veins(veins), m_lie(lie) {
-  for (const sim::Vessel& vessel : model.vessels.list) m_paths.push_back(nestled(vessel.path));
   for (const sim::DetailLevel& level : detail.levels()) m_errors.push_back(level.error);
   const sim::State state = sim::initial_state(model);
+  for (const sim::Vessel& vessel : model.vessels.list)
+    m_paths.push_back(nestled(vessel.path, sim::bodies_of(model, state)));
   lay_out(state);
   place(state);
   m_buffer.rest = m_buffer.positions;

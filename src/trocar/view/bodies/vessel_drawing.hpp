@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include <trocar/sim/model/vessel_carriers.hpp>
+#include <trocar/sim/model/vessel_cuts.hpp>
 #include <trocar/view/base/level_of_detail.hpp>
 
 namespace trocar::view {

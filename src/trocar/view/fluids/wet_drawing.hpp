@@ -6,7 +6,7 @@
 
 #include <trocar/interactions/wetting/fluid_contact.hpp>
 #include <trocar/sim/model/state.hpp>
-#include <trocar/sim/model/vessel_carriers.hpp>
+#include <trocar/sim/model/vessel_cuts.hpp>
 #include <trocar/view/fluids/fluid_drawing.hpp>
 
 namespace trocar::view {
