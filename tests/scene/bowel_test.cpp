@@ -114,8 +114,7 @@ TEST(BowelScene, EveryStationLiesOnTheGutAndFacesOutOfIt) {
   for (const sim::MarkModel& mark : model.marks) {
     if (mark.name.rfind("station_", 0) != 0) continue;
     ++stations;
-    EXPECT_EQ(mark.on, sim::MarkModel::organ) << mark.name;
-    EXPECT_EQ(mark.body, gut) << mark.name;
+    EXPECT_EQ(mark.at.body, BodyId::organ(size_t(gut))) << mark.name;
     EXPECT_GT(mark.normal.z, 0) << mark.name;
   }
   EXPECT_EQ(stations, 128);

@@ -38,8 +38,13 @@ std::vector<std::int32_t> stations(char face) {
 /// Of the skin, the one nearest to the station.
 int vertex_of(std::int32_t target) {
   const sim::MarkModel& mark = bowel().marks[size_t(bowel().targets[size_t(target)].index)];
-  const double weights[] = {mark.weight.x, mark.weight.y, mark.weight.z};
-  return mark.vertex[size_t(std::max_element(weights, weights + 3) - weights)];
+  const tissue::Skin& skin = bowel().skin(mark.body());
+  int best = 0;
+  for (int v = 0; v < skin.size(); ++v)
+    if (length(skin.rest[size_t(v)] - vec_cast<float>(mark.place)) <
+        length(skin.rest[size_t(best)] - vec_cast<float>(mark.place)))
+      best = v;
+  return best;
 }
 
 Argument number(double v) { return {true, -1, v, v, {}, {}}; }

@@ -243,7 +243,7 @@ void without_energy(sim::Model& scene) { scene.energy.there = false; }
 void with_a_stripe(sim::Model& scene) {
   sim::MarkModel stripe;
   stripe.name = "stripe";
-  stripe.on = sim::MarkModel::strand;
+  stripe.at.body = BodyId::strand(0);
   scene.targets.push_back({sim::VisibilityTarget::mark, "stripe", std::int32_t(scene.marks.size()), 0, 0});
   scene.marks.push_back(stripe);
 }

@@ -46,10 +46,10 @@ TEST(MarksInThePicture, AStripeIsGoneWhereItsTubeIsCut) {
   const sim::MarkModel& mark = model.marks.front();
   interactions::Cut& cut = state.cuts[std::size_t(state.cut_count++)];
   cut = {};
-  cut.strand = mark.body;
+  cut.strand = mark.body();
   cut.s = mark.s;
   cut.fraction = 1;
-  tissue::cut_element(state.strands[std::size_t(mark.body)], mark.at.element);
+  tissue::cut_element(state.strands[std::size_t(mark.body())], mark.at.element);
   EXPECT_EQ(listed(view, state), before - 1);
 }
 

@@ -4,6 +4,7 @@
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/interactions/bodies/bodies.hpp>
 #include <trocar/interactions/bodies/material_point.hpp>
+#include <trocar/numerics/mat3.hpp>
 
 namespace trocar::interactions {
 namespace {
@@ -106,6 +107,27 @@ Row row_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
   if (p.body.is(BodyKind::membrane) && p.element >= 0 && bodies.states.torn[p.body.index()][std::size_t(p.element)])
     keep_heaviest(row);
   return row;
+}
+
+/// The same as it was drawn; places only.
+Row drawn_row(const Bodies& bodies, const MaterialPoint& p) noexcept {
+  const std::span<const Vec3d> rest = is_tetrahedral(bodies, p.body)
+                                          ? std::span<const Vec3d>(tets_of(bodies, p.body).rest)
+                                          : drawn_nodes(bodies.models, p.body);
+  const geometry::Tet* const cell = cell_of(bodies, p.body, p.element);
+  Row row;
+  row.count = p.count;
+  for (std::size_t i = 0; i < std::size_t(p.count); ++i) {
+    row.weight[i] = double(p.weight[i]);
+    row.x[i] = rest[std::size_t(cell ? (*cell)[std::size_t(p.node[i])] : p.node[i])];
+  }
+  return row;
+}
+
+Vec3d middle_of(const Row& row) noexcept {
+  Vec3d sum;
+  for (std::size_t i = 0; i < std::size_t(row.count); ++i) sum += row.x[i];
+  return sum / double(row.count);
 }
 
 /// Edge, across and normal of a triangle of nodes.
@@ -524,17 +546,32 @@ Vec3d drawn_place(const Bodies& bodies, const MaterialPoint& p) noexcept {
     const std::size_t e = std::size_t(p.element);
     return rest[e] + double(p.weight[0]) * (rest[e + 1] - rest[e]) + offset_of(p);
   }
-  const std::span<const Vec3d> rest = is_tetrahedral(bodies, p.body)
-                                          ? std::span<const Vec3d>(tets_of(bodies, p.body).rest)
-                                          : drawn_nodes(bodies.models, p.body);
-  const geometry::Tet* const cell = cell_of(bodies, p.body, p.element);
-  Row row;
-  row.count = p.count;
-  for (std::size_t i = 0; i < std::size_t(p.count); ++i) {
-    row.weight[i] = double(p.weight[i]);
-    row.x[i] = rest[std::size_t(cell ? (*cell)[std::size_t(p.node[i])] : p.node[i])];
-  }
+  const Row row = drawn_row(bodies, p);
   return row.mean(row.x) + beside(row, p);
+}
+
+Vec3d normal_at(const Bodies& bodies, const MaterialPoint& p, Vec3d drawn) noexcept {
+  if (p.in_space()) return drawn;
+  if (p.body.is(BodyKind::strand)) {
+    const StrandBody& body = bodies.strand(p.body.index());
+    const tissue::StrandState& s = bodies.strand_state(p.body.index());
+    const RodFrame frame(body, s, on_rod(body, s, p).element);
+    return swung(drawn, frame.drawn, frame.now);
+  }
+  const Row now = row_of(bodies, p), rest = drawn_row(bodies, p);
+  if (p.count < 4) return p.count == 3 ? SheetFrame(now.x).out(SheetFrame(rest.x).in(drawn)) : drawn;
+  // The affine map of the row's nodes from where they were drawn takes two lines of the plane along.
+  const Vec3d middle = middle_of(now), was = middle_of(rest);
+  Mat3d moved{}, spread{};
+  for (std::size_t i = 0; i < std::size_t(p.count); ++i) {
+    moved = moved + outer(now.x[i] - middle, rest.x[i] - was);
+    spread = spread + outer(rest.x[i] - was, rest.x[i] - was);
+  }
+  const Mat3d map = moved * inverse(spread);
+  const Vec3d u = any_perpendicular(drawn), v = cross(drawn, u);
+  const Vec3d normal = cross(map * u, map * v);
+  const double square = dot(normal, normal);
+  return square > 0 && square < 1e12 ? normalised(normal) : drawn;  // nodes that were drawn in a plane say nothing
 }
 
 void put_load(const Bodies& bodies, const MaterialPoint& p, const PointLoad& load, Tag tag) noexcept {

@@ -80,6 +80,8 @@ Vec3d drawn_place(const Bodies& bodies, const MaterialPoint& point) noexcept;
 /// Where its row is, without the offset: what it is rooted in.
 Vec3d foot_of(const Bodies& bodies, const MaterialPoint& point) noexcept;
 
+/// How a plane of the tissue about it faces now that was drawn facing along the unit vector `drawn`.
+Vec3d normal_at(const Bodies& bodies, const MaterialPoint& point, Vec3d drawn) noexcept;
 /// Of a point of a rod: where on its axis, whether that is whole or not.
 StrandPlace place_on_rod(const MaterialPoint& point) noexcept;
 /// As it is stored: in its frame, of a rod in the drawn shape's axes [m].

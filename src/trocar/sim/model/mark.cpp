@@ -1,7 +1,7 @@
 #include <cmath>
 
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/model/mark.hpp>
-#include <trocar/sim/model/state.hpp>
 
 namespace trocar::sim {
 namespace {
@@ -9,32 +9,22 @@ namespace {
 constexpr double kOut = 0.7;                   // radii: where a disc's outer samples lie
 constexpr double kHalf = 0.86602540378443865;  // sine of 60 degrees
 
-/// Out of the triangle, and the point of it.
-MarkPose on_skin(const tissue::Skin& skin, const tissue::NodeView& nodes, const MarkModel& mark) noexcept {
-  const Vec3d a = tissue::skin_point(nodes, skin, mark.vertex[0]), b = tissue::skin_point(nodes, skin, mark.vertex[1]),
-              c = tissue::skin_point(nodes, skin, mark.vertex[2]);
-  return {mark.weight.x * a + mark.weight.y * b + mark.weight.z * c, normalised(cross(b - a, c - a), mark.normal)};
-}
-
 }  // namespace
 
 MarkPose pose_of(const Model& model, const State& state, const MarkModel& mark) noexcept {
-  if (mark.on == MarkModel::space) return {mark.place, mark.normal};
-  if (mark.on == MarkModel::organ) return on_skin(model.skin(mark.body), nodes_of(model, state, mark.body), mark);
-  if (mark.on == MarkModel::membrane) {
-    const MembraneBody& m = model.membranes[size_t(mark.body)];
-    return on_skin(m.skin, view_of(m.sheet.network, state.membranes[size_t(mark.body)].network), mark);
+  const interactions::Bodies bodies = bodies_of(model, state);
+  if (mark.is_stripe()) {
+    const size_t rod = mark.at.body.index();
+    return {place_of(bodies, mark.at), tangent_at(bodies.strand(rod), bodies.strand_state(rod), place_on_rod(mark.at))};
   }
-  const interactions::StrandBody& body = model.strand_bodies[size_t(mark.body)];
-  const tissue::StrandState& strand = state.strands[size_t(mark.body)];
-  return {interactions::point_at(body, strand, mark.at), interactions::tangent_at(body, strand, mark.at)};
+  return {place_of(bodies, mark.at), normal_at(bodies, mark.at, mark.normal)};
 }
 
 Vec3d mark_sample(const Model& model, const State& state, const MarkModel& mark, int k, Vec3d eye) noexcept {
   if (mark.is_stripe()) {
-    const interactions::StrandBody& body = model.strand_bodies[size_t(mark.body)];
+    const interactions::StrandBody& body = model.strand_bodies[size_t(mark.body())];
     const interactions::StrandPlace at = interactions::place_at(body, mark.s + kOut * (k - 1) * mark.half);
-    const Vec3d centre = interactions::point_at(body, state.strands[size_t(mark.body)], at);
+    const Vec3d centre = interactions::point_at(body, state.strands[size_t(mark.body())], at);
     return centre + body.model.radius[size_t(at.element)] * normalised(eye - centre);
   }
   const MarkPose pose = pose_of(model, state, mark);

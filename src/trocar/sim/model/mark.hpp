@@ -2,12 +2,10 @@
 // has no contact.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
 
 #include <trocar/core/fields.hpp>
-#include <trocar/interactions/bodies/strand_body.hpp>
+#include <trocar/interactions/bodies/material_point.hpp>
 #include <trocar/numerics/vec3.hpp>
 
 namespace trocar::sim {
@@ -17,26 +15,24 @@ struct State;
 
 /// Const after compile. What lies on a wall is in space: walls do not move.
 struct MarkModel {
-  enum Carrier : std::int32_t { space, organ, strand, membrane } on = space;
   std::string name, label, colour, look;  ///< the last three for the picture
-  std::int32_t body = -1;                 ///< organ, strand or membrane
-  std::array<std::int32_t, 3> vertex{};   ///< of that skin, around the disc's middle ...
-  Vec3d weight;                           ///< ... and how much each counts, sum 1
-  interactions::StrandPlace at;           ///< on a strand
-  double s = 0;                           ///< the same as arc length [m]
-  Vec3d place, normal{0, 0, 1};           ///< in space: middle [m] and where it faces, unit
+  interactions::MaterialPoint at;         ///< a disc's middle; a stripe goes around the rod that this is on
+  double s = 0;                           ///< of a stripe, as arc length [m]
+  Vec3d place, normal{0, 0, 1};           ///< as drawn: middle [m] and where it faces, unit
   double half = 0.0025;                   ///< radius of a disc, half the width of a stripe [m]
   double high = 0;                        ///< by how much a disc with a look stands out, for the picture [m]
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("on", s.on), v("body", s.body), v("vertex", s.vertex), v("weight", s.weight), v("s", s.s), v("place", s.place),
-        v("normal", s.normal), v("half", s.half), v("name", s.name, core::kNotHashed),
-        v("label", s.label, core::kNotHashed), v("colour", s.colour, core::kNotHashed),
-        v("look", s.look, core::kNotHashed), v("high", s.high, core::kNotHashed), v("at", s.at, core::kNotHashed);
+    v("at", s.at), v("s", s.s), v("place", s.place), v("normal", s.normal), v("half", s.half),
+        v("name", s.name, core::kNotHashed), v("label", s.label, core::kNotHashed),
+        v("colour", s.colour, core::kNotHashed), v("look", s.look, core::kNotHashed),
+        v("high", s.high, core::kNotHashed);
   }
 
-  bool is_stripe() const noexcept { return on == strand; }
+  bool is_stripe() const noexcept { return at.body.is(BodyKind::strand); }
+  bool on_organ() const noexcept { return at.body.is(BodyKind::organ); }
+  int body() const noexcept { return at.in_space() ? -1 : int(at.body.index()); }  ///< number among its kind
 };
 
 /// Samples by which one sees how much of a mark is in view: of a disc its middle and six points at 0.7 radii, of a

@@ -88,7 +88,7 @@ int strand_of(const Model& model, const VisibilityTarget& target) noexcept {
   if (target.kind == VisibilityTarget::strand) return target.index;
   if (target.kind != VisibilityTarget::mark) return -1;
   const MarkModel& mark = model.marks[size_t(target.index)];
-  return mark.is_stripe() ? mark.body : -1;
+  return mark.is_stripe() ? mark.body() : -1;
 }
 
 /// Is no fold between the eye and the point?

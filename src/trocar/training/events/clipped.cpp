@@ -64,7 +64,7 @@ const interactions::VesselClip* on_bleeder(const Snapshot& snapshot, const Event
 Value to_mark(const Snapshot& snapshot, const EventInstance& h) {
   Value nearest = kUnknown;
   for (const sim::MarkModel& mark : snapshot.model.marks) {
-    if (!mark.is_stripe() || h.body != BodyId::maybe(BodyKind::strand, mark.body)) continue;
+    if (!mark.is_stripe() || h.body != mark.at.body) continue;
     const double off = std::fabs(mark.s - clip_of(snapshot, h).s);
     if (!nearest.known || off < nearest.number) nearest = off;
   }

@@ -9,12 +9,14 @@
 namespace trocar::training {
 namespace {
 
+constexpr float kBeside = 0.006f;  // [m] from a disc: vertices that begin at it. Our choice
+
 /// The mark behind a target, if that is a disc on an organ.
 const sim::MarkModel* disc_on_organ(const sim::Model& model, std::int32_t target) {
   const sim::VisibilityTarget& t = model.targets[size_t(target)];
   if (t.kind != sim::VisibilityTarget::mark) return nullptr;
   const sim::MarkModel& mark = model.marks[size_t(t.index)];
-  return mark.on == sim::MarkModel::organ ? &mark : nullptr;
+  return mark.on_organ() ? &mark : nullptr;
 }
 
 /// From all sources at once along the edges of a skin in the drawn shape: which source is nearest to each vertex.
@@ -22,8 +24,9 @@ std::vector<std::int16_t> nearest_source(const tissue::Skin& skin, std::span<con
   using Reached = std::tuple<float, std::int32_t, std::int16_t>;  // way [m], vertex, source
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> front;
   for (size_t i = 0; i < sources.size(); ++i)
-    for (const std::int32_t v : sources[i]->vertex)
-      front.push({length(skin.rest[size_t(v)] - vec_cast<float>(sources[i]->place)), v, std::int16_t(i)});
+    for (std::int32_t v = 0; v < skin.size(); ++v)
+      if (const float way = length(skin.rest[size_t(v)] - vec_cast<float>(sources[i]->place)); way < kBeside)
+        front.push({way, v, std::int16_t(i)});
   std::vector<std::int16_t> nearest(size_t(skin.size()), std::int16_t(-1));
   while (!front.empty()) {
     const auto [way, vertex, source] = front.top();
@@ -46,8 +49,8 @@ Stations::Stations(const sim::Model& model, std::span<const std::int32_t> marks,
   for (const std::int32_t target : marks)
     if (const sim::MarkModel* disc = disc_on_organ(model, target)) discs.push_back(disc);
   if (discs.empty()) return;
-  m_body = BodyId::organ(size_t(discs.front()->body));
-  m_station = nearest_source(model.skin(discs.front()->body), discs);
+  m_body = discs.front()->at.body;
+  m_station = nearest_source(model.skin(discs.front()->body()), discs);
 }
 
 double Stations::held_at(const sim::State& state, size_t hand) const {
@@ -73,7 +76,7 @@ std::string no_stations(const sim::Model& model, std::span<const std::int32_t> m
   const sim::MarkModel* first = marks.empty() ? nullptr : disc_on_organ(model, marks.front());
   for (const std::int32_t target : marks) {
     const sim::MarkModel* disc = disc_on_organ(model, target);
-    if (!disc || !first || disc->body != first->body) return "expected discs on one organ, got others";
+    if (!disc || !first || disc->at.body != first->at.body) return "expected discs on one organ, got others";
   }
   return first ? "" : "expected discs on one organ, got none";
 }

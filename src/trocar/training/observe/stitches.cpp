@@ -15,14 +15,6 @@ using interactions::SutureHole;
 constexpr double kTogether = 5;      // diameters: further apart, elements are not tied to each other
 constexpr double kShaftSeen = 0.03;  // [m] of the shaft behind the jaws on which thread is looked for
 
-Vec3d drawn_mark(const sim::Model& model, const sim::MarkModel& m) {
-  Vec3d at;
-  const tissue::Skin& skin =
-      m.on == sim::MarkModel::organ ? model.skin(m.body) : model.membranes[std::size_t(m.body)].skin;
-  for (int k = 0; k < 3; ++k) at += m.weight[k] * vec_cast<double>(skin.rest[std::size_t(m.vertex[std::size_t(k)])]);
-  return at;
-}
-
 }  // namespace
 
 std::string_view needs_suture(const sim::Model& model) { return has_suture(model) ? "" : "a suture"; }
@@ -37,9 +29,8 @@ double bite_to_mark(const sim::Model& model, const sim::State& state, int target
   const sim::VisibilityTarget& t = model.targets[std::size_t(target)];
   if (t.kind != sim::VisibilityTarget::mark) return -1;
   const sim::MarkModel& mark = model.marks[std::size_t(t.index)];
-  if (mark.on != sim::MarkModel::organ && mark.on != sim::MarkModel::membrane) return -1;
-  const BodyId on = mark.on == sim::MarkModel::organ ? BodyId::organ(std::size_t(mark.body))
-                                                     : BodyId::membrane(std::size_t(mark.body));
+  if (!mark.on_organ() && !mark.at.body.is(BodyKind::membrane)) return -1;
+  const BodyId on = mark.at.body;
   const interactions::SutureState& s = suture_of(state);
   double least = -1;
   for (int i = 0; i < s.bite_count; ++i) {
@@ -47,7 +38,7 @@ double bite_to_mark(const sim::Model& model, const sim::State& state, int target
     if (bite.body != on || bite.stage == SutureBite::gone) continue;
     if (!entry && bite.stage == SutureBite::open) continue;
     const Vec3d at = drawn_place(sim::bodies_of(model, state), entry ? bite.entry : bite.exit);
-    const double off = length(at - drawn_mark(model, mark));
+    const double off = length(at - mark.place);
     if (least < 0 || off < least) least = off;
   }
   return least;

@@ -28,13 +28,13 @@ double dome(double out, double high) {
 }  // namespace
 
 bool FindingDrawing::draws(const sim::Model& model, const sim::MarkModel& mark) {
-  return !mark.look.empty() && mark.on == sim::MarkModel::organ && sim::lattice_of(model, mark.body) >= 0;
+  return !mark.look.empty() && mark.on_organ() && sim::lattice_of(model, mark.body()) >= 0;
 }
 
 FindingDrawing::FindingDrawing(const sim::Model& model, const sim::MarkModel& mark, render::Backend& backend)
     : m_model(&model),
-      m_organ(mark.body),
-      m_solid(sim::lattice_of(model, mark.body)),
+      m_organ(mark.body()),
+      m_solid(sim::lattice_of(model, mark.body())),
       m_backend(&backend),
       m_material(&look(model, mark.look).material) {
   lay(mark);

@@ -130,7 +130,7 @@ void MarkDrawing::place_stripe(const TubeDrawing& tube) {
 void MarkDrawing::update(const sim::State& state, std::span<const TubeDrawing> tubes) {
   if (m_finding) return m_finding->update(state);
   if (m_mark->is_stripe())
-    place_stripe(tubes[std::size_t(m_mark->body)]);
+    place_stripe(tubes[std::size_t(m_mark->body())]);
   else
     place_disc(sim::pose_of(*m_model, state, *m_mark));
 }

@@ -55,7 +55,7 @@ Value nth_at(const Snapshot& m, const Arguments& a) {
 }
 Value to_mark(const Snapshot& m, const Arguments& a) {
   const sim::MarkModel& mark = mark_of(m.model, a);
-  const auto loop = loop_on(m.model, m.state, mark.body, mark.s);
+  const auto loop = loop_on(m.model, m.state, mark.body(), mark.s);
   return loop ? Value(std::fabs(loop->closure.s - mark.s)) : kUnknown;
 }
 
