@@ -5,9 +5,12 @@
 
 #include <trocar/core/random.hpp>
 #include <trocar/core/tick.hpp>
-#include <trocar/interactions/bodies/hosting.hpp>
+#include <trocar/interactions/bodies/spread.hpp>
+#include <trocar/interactions/couplings/coupled.hpp>
 #include <trocar/sim/stages/step.hpp>
 #include <trocar/tissue/network/lattice_springs.hpp>
+
+#include "few_bodies.hpp"
 
 using namespace trocar;
 using namespace trocar::interactions;
@@ -27,9 +30,23 @@ tissue::NetworkDescription block(double young, double density) {
 
 const Vec3d kRoot{-0.002, 0.001, -0.0005};  // inside the block, whose front face is x = 0
 
-TEST(HostPatch, FollowsEveryAffineMotionExactly) {
-  const tissue::NetworkModel network = tissue::build(block(20e3, 1050), kTick);
-  const HostPatch patch = make_patch(network.rest, network.mass, kRoot, 0.010);
+/// A block of its own with a point that many of its nodes carry.
+struct Spread : test::FewBodies {
+  tissue::NetworkModel& network = models.solids.emplace_back().network;
+  tissue::NetworkState& state = states.solids.emplace_back();
+  MaterialPoint point;
+
+  explicit Spread(Vec3d at = kRoot) {
+    network = tissue::build(block(20e3, 1050), kTick);
+    state = tissue::rest_state(network);
+    point = spread(models, 0, network.mass, at, 0.010);
+    work.organs.resize(1);
+    work.organs[0].loads.reserve(models.rows[0].node.size());
+  }
+};
+
+TEST(SpreadPoint, FollowsEveryAffineMotionExactly) {
+  Spread b;
   core::Random random(1);
   for (int trial = 0; trial < 200; ++trial) {
     Mat3d a = Mat3d::identity();
@@ -37,53 +54,41 @@ TEST(HostPatch, FollowsEveryAffineMotionExactly) {
       for (double& v : row) v += random.uniform(-0.5, 0.5);
     const Vec3d shift{random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)};
     const Vec3d drift{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-    tissue::NetworkState state = tissue::rest_state(network);
-    for (int n = 0; n < network.nodes; ++n) {
-      tissue::set_position(network, state, n, a * network.rest[size_t(n)] + shift);
-      tissue::set_velocity(network, state, n, drift);
+    for (int n = 0; n < b.network.nodes; ++n) {
+      tissue::set_position(b.network, b.state, n, a * b.network.rest[size_t(n)] + shift);
+      tissue::set_velocity(b.network, b.state, n, drift);
     }
-    const tissue::StrandEnd end = hosted_end(patch, view_of(network, state), 0);
-    EXPECT_LT(length(end.x - (a * kRoot + shift)), 3e-8) << "single precision of tenths of metres";
-    EXPECT_LT(length(end.v - drift), 1e-6);
-    const tissue::StrandEnd later = hosted_end(patch, view_of(network, state), kTick);
-    EXPECT_LT(length(later.x - (end.x + kTick * end.v)), 1e-12);
+    EXPECT_LT(length(place_of(b.all(), b.point) - (a * kRoot + shift)), 3e-8) << "single precision of tenths of metres";
+    EXPECT_LT(length(velocity_of(b.all(), b.point) - drift), 1e-6);
   }
 }
 
-TEST(HostPatch, WeightsSumToOneAndNearNodesCarryMore) {
-  const tissue::NetworkModel network = tissue::build(block(20e3, 1050), kTick);
-  const HostPatch patch = make_patch(network.rest, network.mass, kRoot, 0.010);
+TEST(SpreadPoint, WeightsSumToOneAndManyNodesCarryIt) {
+  const Spread b;
   double sum = 0;
-  for (float w : patch.weight) sum += double(w);
+  for (float w : b.models.rows[0].weight) sum += double(w);
   EXPECT_NEAR(sum, 1, 1e-6);
-  EXPECT_LT(length(patch.offset), 1e-8);
-  EXPECT_GE(patch.node.size(), 8u);
+  for (const float off : b.point.offset) EXPECT_LT(std::fabs(off), 1e-8f);
+  EXPECT_GT(b.models.rows[0].node.size(), size_t(kRowNodes));
 }
 
-TEST(HostPatch, TooFarFromTheOrganIsRefused) {
-  const tissue::NetworkModel network = tissue::build(block(20e3, 1050), kTick);
-  EXPECT_THROW(make_patch(network.rest, network.mass, {0.05, 0, 0}, 0.010), std::invalid_argument);
-}
+TEST(SpreadPoint, TooFarFromTheOrganIsRefused) { EXPECT_THROW(Spread({0.05, 0, 0}), std::invalid_argument); }
 
 /// What the pull of a stiff strand makes of one node of its patch that was thrown: `thrown` while the tick begins.
-struct Thrown {
-  tissue::NetworkModel network = tissue::build(block(20e3, 1050), kTick);
-  tissue::NetworkState state = tissue::rest_state(network);
-  HostPatch patch = make_patch(network.rest, network.mass, kRoot, 0.010);
-  NetworkLoads loads;
+struct Thrown : Spread {
+  NetworkLoads& loads = work.organs[0].loads;
   double brought_in = 0, way = 0;  ///< [J], [m]
 
   explicit Thrown(Vec3d thrown) {
-    const int node = patch.node[0];
+    const int node = models.rows[0].node[0];
     tissue::set_velocity(network, state, node, thrown);
     tissue::StrandReaction reaction;
     for (int k = 0; k < 3; ++k) reaction.tangent.m[k][k] = 2e5;
-    loads.reserve(patch.node.size());
-    host_loads(patch, reaction, view_of(network, state), kTick, 0, loads);
+    end_load(all(), {point}, reaction, kTick);
     loads.sort();
-    tissue::NetworkWork work = tissue::make_work(network);
+    tissue::NetworkWork scratch = tissue::make_work(network);
     const tissue::NetworkEnergy before = tissue::energy(network, state);
-    EXPECT_TRUE(tissue::advance(network, loads.sorted, {}, state, work).fine());
+    EXPECT_TRUE(tissue::advance(network, loads.sorted, {}, state, scratch).fine());
     const tissue::NetworkEnergy after = tissue::energy(network, state);
     brought_in = after.kinetic + after.elastic - before.kinetic - before.elastic;
     way = length(tissue::position(network, state, node) - network.rest[size_t(node)]);
@@ -103,7 +108,8 @@ TEST(Hosting, ANodeThatHandsCanThrowIsCountedOnWithAllItsSpeed) {
   const Vec3d v{8, -12, 10};
   const Thrown flies(v);
   for (const tissue::NodeLoad& load : flies.loads.gathered)
-    EXPECT_EQ(load.f0, vec_cast<float>(double(load.d) * (load.node == flies.patch.node[0] ? v : Vec3d{0, 0, 0})));
+    EXPECT_EQ(load.f0,
+              vec_cast<float>(double(load.d) * (load.node == flies.models.rows[0].node[0] ? v : Vec3d{0, 0, 0})));
 }
 
 /// A block that floats in space without weight, and a strand of `young` that grows out of it.
@@ -129,8 +135,7 @@ sim::Model floating(double block_young, double block_density, double strand_youn
   sim::StrandAnatomy strand;
   strand.name = "strand";
   strand.start.kind = sim::StrandEndModel::hosted;
-  strand.start.organ = 0;
-  strand.start.patch = make_patch(m.solids[0].network.rest, m.solids[0].network.mass, kRoot, 0.010);
+  strand.start.on.point = spread(m, 0, m.solids[0].network.mass, kRoot, 0.010);
   m.strands.push_back(strand);
   m.strand_bodies.push_back(body);
   return m;

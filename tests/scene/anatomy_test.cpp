@@ -113,8 +113,8 @@ TEST(Anatomy, CordsPassOrgansAndWallsExceptAtTheirRoots) {
     const sim::StrandAnatomy& strand = m.strands[k];
     for (const Ball& ball : balls_of(k)) {
       for (std::size_t j = 0; j < solids.size(); ++j) {
-        const bool start_here = strand.start.organ == std::int32_t(j) && ball.from_start < kRoot;
-        const bool end_here = strand.end.organ == std::int32_t(j) && ball.to_end < kRoot;
+        const bool start_here = strand.start.organ() == std::int32_t(j) && ball.from_start < kRoot;
+        const bool end_here = strand.end.organ() == std::int32_t(j) && ball.to_end < kRoot;
         if (start_here || end_here) continue;
         EXPECT_GT(height(solids[j], ball.centre) - ball.radius, kGap)
             << strand.name << " at " << ball.from_start * 1000 << " mm and " << solids[j].name;
@@ -144,7 +144,7 @@ TEST(Anatomy, RootsSitOnTheSkinsThatCarryThem) {
   for (std::size_t k = 0; k < m.strands.size(); ++k) {
     const auto check = [&](const sim::StrandEndModel& end, Vec3d at) {
       if (end.kind != sim::StrandEndModel::hosted) return;
-      const double h = height(solids[std::size_t(end.organ)], at);
+      const double h = height(solids[std::size_t(end.organ())], at);
       EXPECT_LT(h, 0.0007) << m.strands[k].name;
       EXPECT_GT(h, -0.0015) << m.strands[k].name;
     };

@@ -57,7 +57,7 @@ struct Grown {
 Grown grown(int strand, const std::vector<OrganDrawing>& organs, render::Backend& backend) {
   TubeDrawing tube(pelvis(), strand, {}, &walls());
   tube.create(std::vector<Paint>(tube.drawn().positions.size()), backend);
-  const auto organ = std::size_t(pelvis().strands[std::size_t(strand)].start.organ);
+  const auto organ = std::size_t(pelvis().strands[std::size_t(strand)].start.organ());
   Joint joint(tube, true, organs[organ], pelvis().solids[organ].fine, backend);
   return {std::move(tube), organ, std::move(joint)};
 }
@@ -367,8 +367,7 @@ TEST(SheetDrawing, ABaseInTheAirGoesOnToTheWall) {
   int hanging = 0;
   for (int i = 0; i < int(pelvis().drawn_folds.size()); ++i) {
     const auto& base = pelvis().drawn_folds[std::size_t(i)].base;
-    if (std::any_of(base.begin(), base.end(), [](const sim::BasePoint& b) { return b.organ >= 0 || b.strand >= 0; }))
-      continue;
+    if (std::any_of(base.begin(), base.end(), [](const auto& b) { return !b.in_space(); })) continue;
     const SheetDrawing sheet(pelvis(), i, *backend, {}, &walls());
     int below = 0;
     for (const Vec3f& f : sheet.buffer().positions) {

@@ -161,6 +161,26 @@ struct SheetFrame {
   }
 };
 
+/// A long row as it is now: f(node, weight, x, v) of each of its nodes.
+template <class F>
+void each_of_long(const Bodies& bodies, const MaterialPoint& p, F&& f) noexcept {
+  const LongRow& row = bodies.models.rows[std::size_t(p.element)];
+  const tissue::NodeView nodes = nodes_of(bodies, p.body);
+  for (std::size_t i = 0; i < row.node.size(); ++i)
+    f(row.node[i], double(row.weight[i]), nodes.position(row.node[i]), nodes.velocity(row.node[i]));
+}
+
+struct LongMean {
+  Vec3d x, v;
+  double magnitude = 0;  ///< sum |w|
+
+  LongMean(const Bodies& bodies, const MaterialPoint& p) noexcept {
+    each_of_long(bodies, p, [this](std::int32_t, double w, Vec3d xi, Vec3d vi) {
+      x += w * xi, v += w * vi, magnitude += std::fabs(w);
+    });
+  }
+};
+
 Vec3d beside(const Row& row, const MaterialPoint& p) noexcept {
   return p.frame == MaterialPoint::triangle ? SheetFrame(row.x).out(offset_of(p)) : offset_of(p);
 }
@@ -234,6 +254,26 @@ void put_on_nodes(const Bodies& bodies, const MaterialPoint& p, const PointLoad&
     loads.add(node, tag, another);
     another = true;
   }
+}
+
+void put_on_long_row(const Bodies& bodies, const MaterialPoint& p, const PointLoad& load, Tag tag) noexcept {
+  const LongMean mean(bodies, p);
+  const Vec3d x = mean.x + offset_of(p), v = counted_on(mean.v);
+  NetworkLoads& loads = loads_on(bodies, p.body);
+  bool another = false;
+  each_of_long(bodies, p, [&](std::int32_t n, double share, Vec3d xi, Vec3d vi) {
+    const double counts = std::fabs(share) * mean.magnitude;
+    tissue::NodeLoad node;
+    node.node = n;
+    node.k = float(counts * load.k);
+    node.d = float(counts * load.d);
+    node.dir = vec_cast<float>(load.dir);
+    node.f0 = vec_cast<float>(share * (load.f0 - along(load.d * v, load.dir)) +
+                              along((counts * load.d) * counted_on(vi), load.dir));
+    if (counts > 0) node.x0 = vec_cast<float>(xi + (share / counts) * (load.target - x));
+    loads.add(node, tag, another);
+    another = true;
+  });
 }
 
 /// Nodes of a row that are not there twice, and that take loads.
@@ -400,8 +440,7 @@ bool is_valid(const BodyModels& models, const MaterialPoint& p) noexcept {
   for (const float w : p.weight)
     if (!(std::fabs(w) < 10)) return false;
   if (p.in_space()) return p.body == BodyId{};
-  if (p.count < 0 || p.count > kRowNodes || p.frame < MaterialPoint::space || p.frame > MaterialPoint::triangle)
-    return false;
+  if (p.count < 0 || p.is_long() || p.frame < MaterialPoint::space || p.frame > MaterialPoint::triangle) return false;
   const std::size_t i = p.body.index(), lattices = models.solids.size();
   std::size_t nodes = 0;
   if (p.body.is(BodyKind::strand))
@@ -498,6 +537,7 @@ MaterialPoint attach(const Bodies& bodies, BodyId body, Vec3d place) noexcept {
 
 Vec3d foot_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
   if (p.in_space()) return offset_of(p);
+  if (p.is_long()) return LongMean(bodies, p).x;
   if (!p.body.is(BodyKind::strand)) {
     const Row row = row_of(bodies, p);
     return row.mean(row.x);
@@ -509,6 +549,7 @@ Vec3d foot_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
 
 Vec3d place_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
   if (p.in_space()) return offset_of(p);
+  if (p.is_long()) return LongMean(bodies, p).x + offset_of(p);
   if (!p.body.is(BodyKind::strand)) {
     const Row row = row_of(bodies, p);
     return row.mean(row.x) + beside(row, p);
@@ -521,6 +562,7 @@ Vec3d place_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
 
 Vec3d velocity_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
   if (p.in_space()) return {};
+  if (p.is_long()) return counted_on(LongMean(bodies, p).v);
   if (!p.body.is(BodyKind::strand)) {
     const Row row = row_of(bodies, p);
     Vec3d v = row.mean(row.v);
@@ -576,13 +618,14 @@ Vec3d normal_at(const Bodies& bodies, const MaterialPoint& p, Vec3d drawn) noexc
 
 void put_load(const Bodies& bodies, const MaterialPoint& p, const PointLoad& load, Tag tag) noexcept {
   if (p.in_space()) return;
+  if (p.is_long()) return put_on_long_row(bodies, p, load, tag);
   if (p.body.is(BodyKind::strand)) return put_on_rod(bodies, p, load, tag);
   put_on_nodes(bodies, p, load, tag);
 }
 
 NodeForces transposed(const Bodies& bodies, const MaterialPoint& p, Vec3d force) noexcept {
   NodeForces out;
-  if (p.in_space()) return out;
+  if (p.in_space() || p.is_long()) return out;
   if (!p.body.is(BodyKind::strand)) {
     const Row row = row_of(bodies, p);
     Vec3d couple[3] = {};

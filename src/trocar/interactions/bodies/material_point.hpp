@@ -10,6 +10,7 @@
 //   lattice, fat         up to eight nodes with weights that give it for every affine motion of them; no frame
 //   tetrahedra           the corners of a cell: it stays with its cell when blades part them
 //   membrane             the corners of a triangle, and the triangle's frame
+//   organ, spread        a long row of many nodes (spread.hpp); no frame
 //   rod                  the ends of an element, and the direction of that; where the element is cut through, the point
 //                        rides on the stump that it lies on
 //
@@ -34,12 +35,13 @@ struct BodyModels;
 struct MaterialPoint {
   /// What its offset turns with.
   enum Frame : std::int32_t {
-    space,    ///< nothing: the row gives it for every affine motion
-    rod,      ///< the drawn direction of its element
-    triangle  ///< edge, across and normal of its first three nodes
+    space,     ///< nothing: the row gives it for every affine motion
+    rod,       ///< the drawn direction of its element
+    triangle,  ///< edge, across and normal of its first three nodes
+    long_row   ///< nothing; nodes and weights are in BodyModels::rows[element]
   };
   BodyId body;                ///< none: space, and `offset` is the place
-  std::int32_t element = -1;  ///< of a rod; cell of tetrahedra; triangle of a membrane; -1: nodes are all that it has
+  std::int32_t element = -1;  ///< of a rod; cell of tetrahedra; triangle of a membrane; long row; -1: none of these
   std::int32_t count = 0;     ///< nodes of the row; of a rod and of tetrahedra its element says which
   std::int32_t frame = space;
   std::array<std::int32_t, kRowNodes> node{};
@@ -47,6 +49,7 @@ struct MaterialPoint {
   std::array<float, 3> offset{};          ///< [m] in the frame; of a rod in the drawn shape's axes
 
   bool in_space() const noexcept { return !body.exists(); }
+  bool is_long() const noexcept { return frame == long_row; }
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>
@@ -98,7 +101,7 @@ struct PointLoad {
 /// Nothing to a point of space. Only in a tick.
 void put_load(const Bodies& bodies, const MaterialPoint& point, const PointLoad& load, Tag tag) noexcept;
 
-/// What a force on a point is on the nodes of its body.
+/// What a force on a point, whose row is no long one, is on the nodes of its body.
 struct NodeForces {
   static constexpr int kMost = kRowNodes + 3;  ///< the row's, and those that bear the couple
   std::array<std::int32_t, kMost> node{};

@@ -9,7 +9,6 @@
 #include <trocar/core/fields.hpp>
 #include <trocar/interactions/bodies/attachment.hpp>
 #include <trocar/interactions/bodies/fat_body.hpp>
-#include <trocar/interactions/bodies/hosting.hpp>
 #include <trocar/interactions/bodies/static_organ.hpp>
 #include <trocar/interactions/bodies/strand_body.hpp>
 #include <trocar/tissue/membrane/membrane.hpp>
@@ -68,12 +67,13 @@ struct LandmarkModel {
 /// What holds a strand's end: nothing, space, or an organ.
 struct StrandEndModel {
   enum Kind : std::int32_t { free, fixed, hosted } kind = free;
-  std::int32_t organ = -1;
-  HostPatch patch;
+  Attachment on;  ///< of a hosted one: a long row of the organ's nodes
+
+  std::int32_t organ() const noexcept { return kind == hosted ? std::int32_t(on.point.body.index()) : -1; }
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("kind", s.kind), v("organ", s.organ), v("patch", s.patch);
+    v("kind", s.kind), v("on", s.on);
   }
 };
 
@@ -120,6 +120,17 @@ struct MembraneBody {
   }
 };
 
+/// A row of W of more nodes than a material point has with it. Weights add up to 1.
+struct LongRow {
+  std::vector<std::int32_t> node;
+  std::vector<float> weight;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("node", s.node), v("weight", s.weight);
+  }
+};
+
 /// Organs are numbered: lattices first, then what can be cut.
 struct BodyModels {
   std::vector<SolidModel> solids;
@@ -129,6 +140,7 @@ struct BodyModels {
   std::vector<StrandBody> strand_bodies;  ///< (strands) their mechanics
   std::vector<MembraneBody> membranes;
   std::vector<FatBody> fat;
+  std::vector<LongRow> rows;
 
   int organs() const { return int(solids.size() + cuttables.size()); }
   const tissue::Skin& skin(int organ) const {  ///< in the drawn shape

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <trocar/interactions/couplings/coupled.hpp>
 
 namespace trocar::interactions {
@@ -21,6 +23,12 @@ void couple(const Bodies& bodies, const Coupled& ends, const SpringDamper& law, 
 void bear(const Bodies& bodies, const MaterialPoint& far, Vec3d pull, double resists, Tag tag) noexcept {
   if (far.in_space()) return;
   put_load(bodies, far, {.f0 = pull + resists * velocity_of(bodies, far), .d = resists}, tag);
+}
+
+void end_load(const Bodies& bodies, const Attachment& on, const tissue::StrandReaction& reaction, double dt) noexcept {
+  const Mat3d& t = reaction.tangent;
+  const double k = std::max(0.0, t.m[0][0] + t.m[1][1] + t.m[2][2]);
+  bear(bodies, on.point, reaction.force - on.drawn_pull, k * dt, {Owner::anchor, 0, 0});
 }
 
 }  // namespace trocar::interactions

@@ -40,4 +40,8 @@ void couple(const Bodies& bodies, const Coupled& ends, const SpringDamper& law, 
 /// of its speed with [N s/m].
 void bear(const Bodies& bodies, const MaterialPoint& far, Vec3d pull, double resists, Tag tag) noexcept;
 
+/// A rod's end that grows out of a body gives it the rod's pull. That was found for a body that flies on freely; where
+/// the tick bends that flight, the pull falls by the tangent: over one tick a resistance of so much times dt.
+void end_load(const Bodies& bodies, const Attachment& on, const tissue::StrandReaction& reaction, double dt) noexcept;
+
 }  // namespace trocar::interactions

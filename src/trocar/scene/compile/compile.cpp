@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include <trocar/geometry/curves/polyline.hpp>
+#include <trocar/interactions/bodies/spread.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/compile/compile_contacts.hpp>
@@ -19,6 +20,7 @@
 #include <trocar/scene/compile/compile_warnings.hpp>
 #include <trocar/scene/description/capacity.hpp>
 #include <trocar/scene/description/variant.hpp>
+#include <trocar/sim/model/attach_near.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/containing.hpp>
 #include <trocar/tissue/elastostatic/drawn_springs.hpp>
@@ -47,27 +49,25 @@ StrandStation station_at(const std::vector<StrandStation>& stations, double s) {
 }
 
 /// Over a few cells the organ takes the strand's pull.
-interactions::HostPatch patch_on(const sim::Model& model, int organ, Vec3d at) {
+interactions::MaterialPoint spread_on(sim::Model& model, int organ, Vec3d at) {
   const auto reach = [](double cell) { return std::max(0.005, 2.2 * cell); };
-  if (const std::int32_t lattice = lattice_of(model, organ); lattice >= 0) {
+  if (const int lattice = sim::lattice_of(model, organ); lattice >= 0) {
     const sim::SolidModel& s = model.solids[size_t(lattice)];
-    return interactions::make_patch(s.network.rest, s.network.mass, at, reach(s.cell));
+    return interactions::spread(model, size_t(organ), s.network.mass, at, reach(s.cell));
   }
   const sim::CuttableOrgan& c = sim::cuttable_of(model, organ);
-  const size_t nodes = size_t(c.body.own_nodes);
-  return interactions::make_patch({c.body.drawn.rest.data(), nodes}, tissue::drawn_masses(c.body), at, reach(c.cell));
+  return interactions::spread(model, size_t(organ), tissue::drawn_masses(c.body), at, reach(c.cell));
 }
 
-sim::StrandEndModel compile_end(const StrandEnd& end, Vec3d at, const sim::Model& model, Faults& faults) {
+sim::StrandEndModel compile_end(const StrandEnd& end, Vec3d at, sim::Model& model, Faults& faults) {
   sim::StrandEndModel out;
   if (end.fixed) out.kind = sim::StrandEndModel::fixed;
   if (end.organ.empty()) return out;
   const int organ = model.organ_index(end.organ);
   if (organ < 0) return out;
   out.kind = sim::StrandEndModel::hosted;
-  out.organ = organ;
   try {
-    out.patch = patch_on(model, organ, at);
+    out.on.point = spread_on(model, organ, at);
   } catch (const std::invalid_argument&) {
     faults.push_back(
         {end.at, "expected the strand's end within a few cells of '" + end.organ + "', got a larger distance"});
@@ -85,7 +85,7 @@ void note_drawn_pull(const tissue::StrandModel& model, sim::StrandAnatomy& stran
   tissue::advance(model, ends, {}, reactions, {}, state, work);
   size_t i = 0;
   for (sim::StrandEndModel* end : {&strand.start, &strand.end})
-    if (end->kind != sim::StrandEndModel::free) end->patch.drawn_pull = reactions[i++].force;
+    if (end->kind != sim::StrandEndModel::free) end->on.drawn_pull = reactions[i++].force;
 }
 
 constexpr double kStrandDamping = 0.004;      // [s] times stiffness, stretch and bending
@@ -162,20 +162,7 @@ void compile_strand(const Strand& strand, const Tissue& tissue, Vec3d gravity, s
   model.strand_bodies.push_back(std::move(body));
 }
 
-/// The place on a strand nearest to p (in the drawn shape).
-interactions::StrandPlace nearest_place(const interactions::StrandBody& body, Vec3d p) {
-  interactions::StrandPlace best;
-  double least = 1e30;
-  for (int e = 0; e + 1 < body.nodes(); ++e) {
-    const Vec3d a = body.model.rest[size_t(e)], ab = body.model.rest[size_t(e) + 1] - a;
-    const double w = std::clamp(dot(p - a, ab) / dot(ab, ab), 0.0, 1.0);
-    const double distance = length(a + w * ab - p);
-    if (distance >= least) continue;
-    least = distance;
-    best = {e, w};
-  }
-  return best;
-}
+constexpr double kAnywhere = 1e3;  // [m] a drawn fold's base lies on its organ, however far that is
 
 sim::DrawnFold compile_sheet(const Sheet& sheet, const sim::Model& model) {
   sim::DrawnFold out;
@@ -185,22 +172,8 @@ sim::DrawnFold compile_sheet(const Sheet& sheet, const sim::Model& model) {
   const double length = out.strand >= 0 ? model.strand_bodies[size_t(out.strand)].length() : 0;
   out.from = std::min(sheet.from, length);
   out.to = std::min(sheet.to, length);
-  for (Vec3d p : sheet.base) {
-    sim::BasePoint point;
-    point.rest = p;
-    point.organ = model.organ_index(sheet.base_organ);
-    double least = 1e30;
-    for (int v = 0; point.organ >= 0 && v < model.skin(point.organ).size(); ++v) {
-      const tissue::Skin& skin = model.skin(point.organ);
-      const double distance = trocar::length(vec_cast<double>(skin.rest[size_t(v)]) - p);
-      if (distance >= least || !skin.at_surface(v)) continue;
-      least = distance;
-      point.vertex = v;
-    }
-    point.strand = model.strand_index(sheet.base_organ);
-    if (point.strand >= 0) point.place = nearest_place(model.strand_bodies[size_t(point.strand)], p);
-    out.base.push_back(point);
-  }
+  const sim::DrawnBodies drawn(model);
+  for (Vec3d p : sheet.base) out.base.push_back(attach_near(drawn, {sheet.base_organ}, kAnywhere, p).point);
   return out;
 }
 

@@ -49,7 +49,7 @@ void add_sample(interactions::SurfacePair& pair, const interactions::Surface& su
 }
 
 bool rooted(const sim::StrandEndModel& end, int surface) {
-  return end.kind == sim::StrandEndModel::hosted && end.organ == surface;
+  return end.kind == sim::StrandEndModel::hosted && end.organ() == surface;
 }
 
 void pair_strand(sim::Model& model, const Drawn& drawn, int strand, int surface) {

@@ -84,8 +84,8 @@ std::vector<int> kept_nodes(const sim::Model& model, int organ, const OrganAsDra
         });
   for (const sim::StrandAnatomy& strand : model.strands)
     for (const sim::StrandEndModel* end : {&strand.start, &strand.end})
-      if (end->organ == organ)
-        for (const std::int32_t node : end->patch.node) keep(node, kept);
+      if (end->organ() == organ)
+        for (const std::int32_t node : model.rows[std::size_t(end->on.point.element)].node) keep(node, kept);
   for (const sim::Vessel& vessel : model.vessels.list)
     for (const interactions::VesselPoint& p : vessel.path.points) keep_row(model, organ, p.rides, kept);
   for (const sim::MembraneBody& membrane : model.membranes)

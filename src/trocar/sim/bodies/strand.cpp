@@ -1,6 +1,8 @@
+#include <trocar/interactions/couplings/coupled.hpp>
 #include <trocar/sim/bodies/breathing.hpp>
 #include <trocar/sim/bodies/containment.hpp>
 #include <trocar/sim/bodies/strand.hpp>
+#include <trocar/sim/bodies/views.hpp>
 #include <trocar/tissue/failure/overstretch.hpp>
 
 namespace trocar::sim {
@@ -12,9 +14,10 @@ tissue::StrandEnd end_of(const StepContext& c, const StrandEndModel& end, const 
                          Vec3d& now) noexcept {
   if (end.kind != StrandEndModel::hosted && by_breath.moves) return {drawn + by_breath.x, by_breath.v};
   if (end.kind != StrandEndModel::hosted) return {drawn, {0, 0, 0}};
-  const tissue::StrandEnd next = hosted_end(end.patch, c.work.organs[size_t(end.organ)].nodes, kTick);
-  now = next.x - kTick * next.v;
-  return next;
+  const interactions::Bodies bodies = bodies_of(c);
+  now = place_of(bodies, end.on.point);
+  const Vec3d v = velocity_of(bodies, end.on.point);
+  return {now + kTick * v, v};
 }
 
 }  // namespace
@@ -55,8 +58,7 @@ void pull_on_hosts(StepContext& c, StrandRef r) noexcept {
     if (end->kind == StrandEndModel::free) continue;
     const tissue::StrandReaction& reaction = c.work.strands[r.index].end_reactions[ends++];
     if (end->kind != StrandEndModel::hosted) continue;
-    const size_t host = size_t(end->organ);
-    host_loads(end->patch, reaction, c.work.organs[host].nodes, kTick, int(r.index), c.work.organs[host].loads);
+    interactions::end_load(bodies_of(c), end->on, reaction, kTick);
   }
 }
 

@@ -52,26 +52,12 @@ struct WallModel {
   }
 };
 
-/// A point of a sheet's base line and what it rides on.
-struct BasePoint {
-  Vec3d rest;
-  std::int32_t organ = -1;  ///< rides on this organ's skin vertex ...
-  std::int32_t vertex = -1;
-  std::int32_t strand = -1;  ///< ... or on this strand, or (both -1) on space
-  interactions::StrandPlace place;
-
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("rest", s.rest), v("organ", s.organ), v("vertex", s.vertex), v("strand", s.strand), v("place", s.place);
-  }
-};
-
 /// A thin fold, drawn between a strand and its base; mechanically it is the strand's foundation.
 struct DrawnFold {
   std::string name, look;
   std::int32_t strand = -1;
-  double from = 0, to = 0;  ///< arc length [m]
-  std::vector<BasePoint> base;
+  double from = 0, to = 0;                        ///< arc length [m]
+  std::vector<interactions::MaterialPoint> base;  ///< its other border
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
@@ -293,9 +279,9 @@ struct Model : interactions::BodyModels {
   static void fields(S& s, V&& v) {
     v("gravity", s.gravity), v("solids", s.solids), v("cuttables", s.cuttables), v("strand_bodies", s.strand_bodies),
         v("strands", s.strands), v("walls", s.walls), v("membranes", s.membranes),
-        v("fat", s.fat, core::only_if(!s.fat.empty())), v("hands", s.hands), v("scope", s.scope), v("start", s.start),
-        v("cavity", s.cavity), v("surface_pairs", s.surface_pairs), v("strand_pairs", s.strand_pairs),
-        v("self_pairs", s.self_pairs), v("samples", s.samples), v("marks", s.marks),
+        v("fat", s.fat, core::only_if(!s.fat.empty())), v("rows", s.rows), v("hands", s.hands), v("scope", s.scope),
+        v("start", s.start), v("cavity", s.cavity), v("surface_pairs", s.surface_pairs),
+        v("strand_pairs", s.strand_pairs), v("self_pairs", s.self_pairs), v("samples", s.samples), v("marks", s.marks),
         v("vessels", s.vessels, core::only_if(s.vessels.there())), v("wet", s.wet, core::only_if(s.wet.there)),
         v("energy", s.energy, core::only_if(s.energy.there)),
         v("injection", s.injection, core::only_if(s.injection.there())),

@@ -19,7 +19,7 @@ struct Touch {
 Touch nearest_organ(const sim::Model& model, const sim::StrandAnatomy& strand, Vec3d at) {
   Touch best;
   sim::visit_solids(model, [&](auto r) {
-    if (strand.start.kind == sim::StrandEndModel::hosted && std::size_t(strand.start.organ) == r.organ()) return;
+    if (strand.start.kind == sim::StrandEndModel::hosted && std::size_t(strand.start.organ()) == r.organ()) return;
     const tissue::Skin& skin = model_of(model, r).fine;
     for (std::size_t v = 0; v < skin.rest.size(); ++v)
       if (const double d = length(vec_cast<double>(skin.rest[v]) - at); d < best.distance) best = {&skin, v, d};

@@ -3,6 +3,7 @@
 
 #include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/view/base/fold_pattern.hpp>
 #include <trocar/view/base/looks.hpp>
 #include <trocar/view/bodies/sheet_drawing.hpp>
@@ -48,17 +49,6 @@ double hem_openness(std::size_t column, std::size_t columns, int row) {
   return (1 - lost) * (1 - smooth(0, 0.5, t) * smooth(1, 0, beside));
 }
 
-Vec3d rest_of(const sim::BasePoint& b, const sim::Model& model) {
-  if (b.organ >= 0) return vec_cast<double>(model.skin(b.organ).rest[std::size_t(b.vertex)]);
-  const interactions::StrandBody& body = model.strand_bodies[std::size_t(b.strand)];
-  const std::size_t e = std::size_t(b.place.element);
-  return body.model.rest[e] + b.place.w * (body.model.rest[e + 1] - body.model.rest[e]);
-}
-
-Vec3d skin_now(const sim::Model& model, const sim::State& state, int organ, int vertex) {
-  return tissue::skin_point(nodes_of(model, state, organ), model.skin(organ), vertex);
-}
-
 }  // namespace
 
 SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, render::Backend& backend, const Detail& detail,
@@ -67,13 +57,13 @@ SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, render::Backend& 
       m_sheet(&model.drawn_folds[std::size_t(sheet)]),
       m_body(&model.strand_bodies[std::size_t(m_sheet->strand)]),
       m_base(m_sheet->base.size()) {
+  const sim::State rest = sim::initial_state(model);
   double way = 0;
   for (std::size_t i = 0; i < m_sheet->base.size(); ++i) {
-    if (i > 0) way += length(m_sheet->base[i].rest - m_sheet->base[i - 1].rest);
+    if (i > 0) way += length(base_point(i, rest) - base_point(i - 1, rest));
     m_base_share.push_back(way);
   }
   for (double& share : m_base_share) share /= std::max(way, 1e-9);
-  const sim::State rest = sim::initial_state(model);
   const auto strand = std::size_t(m_sheet->strand);
   lay_out(pieces_of(*m_body, tissue::rest_state(m_body->model).alive, {}, int(strand)));
   place(rest);
@@ -169,8 +159,8 @@ void SheetDrawing::connect_end(bool at_end) {
 /// A base that nothing carries hangs in the air: below it the sheet continues to the wall and is lost there.
 void SheetDrawing::find_hem(const WallSurface& walls) {
   m_hem.clear();
-  for (const sim::BasePoint& b : m_sheet->base)
-    if (b.organ >= 0 || b.strand >= 0) return;
+  for (const interactions::MaterialPoint& b : m_sheet->base)
+    if (!b.in_space()) return;
   for (std::size_t c = 0; c < m_columns.size(); ++c) {
     const Vec3d top = vec_cast<double>(m_buffer.positions[c * kSheetRows]),
                 base = vec_cast<double>(m_buffer.positions[c * kSheetRows + kSheetRows - 1]);
@@ -241,7 +231,9 @@ SheetDrawing::Ligament SheetDrawing::ligament_near(Vec3d tip) const {
   double nearest = kLigamentNear;
   for (int k = 0; k < int(m_model->strands.size()); ++k) {
     const sim::StrandAnatomy& strand = m_model->strands[std::size_t(k)];
-    const auto carries = [k](const sim::BasePoint& b) { return b.strand == k; };
+    const auto carries = [k](const interactions::MaterialPoint& b) {
+      return b.body == BodyId::maybe(BodyKind::strand, k);
+    };
     if (k == m_sheet->strand || std::any_of(m_sheet->base.begin(), m_sheet->base.end(), carries)) continue;
     if (strand.start.kind != sim::StrandEndModel::hosted || strand.end.kind != sim::StrandEndModel::fixed) continue;
     const interactions::StrandBody& body = m_model->strand_bodies[std::size_t(k)];
@@ -311,7 +303,7 @@ void SheetDrawing::place_margin(const sim::State& state, bool at_end) {
   const std::size_t edge = (at_end ? m_columns.size() - 1 : 0) * kSheetRows, first = m_beyond_first[at_end];
   for (std::size_t r = 0; r < kSheetRows; ++r) {
     const Margin& m = m_margin[at_end][r];
-    const Vec3d to = skin_now(*m_model, state, m.organ, m.vertex);
+    const Vec3d to = tissue::skin_point(nodes_of(*m_model, state, m.organ), m_model->skin(m.organ), m.vertex);
     const Vec3f from = m_buffer.positions[edge + r], step = vec_cast<float>(to) - from;
     for (int k = 1; k <= kMarginSteps; ++k)
       m_buffer.positions[first + std::size_t(k - 1) * kSheetRows + r] = from + (float(k) / kMarginSteps) * step;
@@ -328,11 +320,7 @@ void SheetDrawing::place_crescent(const sim::State& state, const StrandCurve& cu
 }
 
 Vec3d SheetDrawing::base_point(std::size_t i, const sim::State& state) const {
-  const sim::BasePoint& b = m_sheet->base[i];
-  if (b.organ >= 0) return b.rest + skin_now(*m_model, state, b.organ, b.vertex) - rest_of(b, *m_model);
-  if (b.strand < 0) return b.rest;
-  const std::size_t k = std::size_t(b.strand);
-  return b.rest + point_at(m_model->strand_bodies[k], state.strands[k], b.place) - rest_of(b, *m_model);
+  return place_of(sim::bodies_of(*m_model, state), m_sheet->base[i]);
 }
 
 /// Rest coordinates: those of a fold with an arcade are its own, others' are where it is drawn.

@@ -55,8 +55,8 @@ TubeRoot TubeDrawing::root_at(const StrandCurve& rest, bool at_start, const Wall
   }
   double nearest = 1;
   Vec3d at{}, normal{};
-  const std::int32_t lattice = lattice_of(*m_model, end.organ);
-  const tissue::Skin& skin = lattice >= 0 ? m_model->solids[std::size_t(lattice)].fine : m_model->skin(end.organ);
+  const std::int32_t lattice = lattice_of(*m_model, end.organ());
+  const tissue::Skin& skin = lattice >= 0 ? m_model->solids[std::size_t(lattice)].fine : m_model->skin(end.organ());
   for (std::size_t i = 0; i < skin.rest.size(); ++i) {
     if (!skin.at_surface(int(i))) continue;
     const double d = length(vec_cast<double>(skin.rest[i]) - f.point);
@@ -100,7 +100,7 @@ TubeRoot TubeDrawing::root_in_wall(const CurveFrame& end, Vec3d onward, double r
 double TubeDrawing::neck_of(const StrandCurve& rest, bool at_start) const {
   const int node = at_start ? 0 : m_body->nodes() - 1;
   const sim::StrandEndModel& end = at_start ? m_strand->start : m_strand->end;
-  const std::int32_t lattice = hosted(node) ? lattice_of(*m_model, end.organ) : -1;
+  const std::int32_t lattice = hosted(node) ? lattice_of(*m_model, end.organ()) : -1;
   if (lattice < 0) return 0;
   const tissue::Skin& skin = m_model->solids[std::size_t(lattice)].fine;
   const double radius = m_strand->outer[std::size_t(node)];

@@ -29,7 +29,7 @@ Relief relief_of(int organ, const sim::Model& model) {
     const sim::StrandAnatomy& strand = model.strands[i];
     const std::vector<Vec3d>& rest = model.strand_bodies[i].model.rest;
     const auto hangs = [&](const sim::StrandEndModel& end) {
-      return end.kind == sim::StrandEndModel::hosted && end.organ == organ;
+      return end.kind == sim::StrandEndModel::hosted && end.organ() == organ;
     };
     if (hangs(strand.start)) relief.roots.push_back({rest.front(), strand.outer.front()});
     if (hangs(strand.end)) relief.roots.push_back({rest.back(), strand.outer.back()});
@@ -270,9 +270,9 @@ void BodyDrawing::make_joints(const WallSurface& walls, render::Backend& backend
         m_joints.push_back({i, -1, Joint(m_tubes[i], at_start, walls, backend, m_details.joints.back())});
         continue;
       }
-      const auto organ = std::size_t(end.organ);
+      const auto organ = std::size_t(end.organ());
       m_details.joints.emplace_back(levels_of(*m_model, m_model->solids[organ].name));
-      m_joints.push_back({i, end.organ,
+      m_joints.push_back({i, end.organ(),
                           Joint(m_tubes[i], at_start, m_organs[organ], m_model->solids[organ].fine, backend,
                                 m_details.joints.back())});
     }
@@ -496,7 +496,7 @@ void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Lis
         to.add(item(m_tubes[i].mesh(), look(*m_model, strand.look), first.of(BodyId::strand(i))), m_details.tubes[i],
                m_tubes[i].buffer().positions, m_tubes[i].burnt() || held(BodyId::strand(i)));
     if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
-      tube.material.tint = look(*m_model, m_model->organ_look(strand.start.organ)).material.colour;
+      tube.material.tint = look(*m_model, m_model->organ_look(strand.start.organ())).material.colour;
   }
   for (std::size_t i = 0; i < m_joints.size(); ++i) {
     const TubeJoint& j = m_joints[i];
