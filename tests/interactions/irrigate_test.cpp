@@ -4,6 +4,9 @@
 #include <trocar/core/tick.hpp>
 #include <trocar/interactions/verbs/irrigate.hpp>
 
+#include "few_bodies.hpp"
+#include "straight_tube.hpp"
+
 using namespace trocar;
 using namespace trocar::interactions;
 
@@ -50,18 +53,26 @@ TEST(Irrigator, NoDropIsBornInsideItsTube) {
   EXPECT_NEAR(length(end - (c.a + share * (c.b - c.a))), c.radius, 1e-6f);
 }
 
-TEST(WetTarget, EveryPlaceOfFilmBelongsToOneBodyAndNothingElseToAny) {
-  const std::vector<std::int32_t> first{0, 5, 5, 11, 14};  // an organ of 5 vertices, an empty wall, a fold, a strand
-  const auto target = [&](int body, int place) { return target_of(first, {2, 1}, body, place); };
-  EXPECT_EQ(target(0, 4).kind, WetTarget::surface);
-  EXPECT_EQ(target(0, 4).vertex, 4);
-  EXPECT_EQ(target(2, 8).kind, WetTarget::sheet);
-  EXPECT_EQ(target(2, 8).index, 0);
-  EXPECT_EQ(target(2, 8).vertex, 1) << "two sides a node";
-  EXPECT_EQ(target(3, 13).kind, WetTarget::strand);
-  EXPECT_EQ(target(3, 13).vertex, 2);
-  EXPECT_EQ(target(0, 5).kind, WetTarget::none) << "beyond the body's own";
-  EXPECT_EQ(target(0, -1).kind, WetTarget::none);
-  EXPECT_EQ(target(4, -1).kind, WetTarget::none) << "an instrument";
-  EXPECT_EQ(target(-1, 0).kind, WetTarget::none);
+TEST(FilmPoint, EveryPlaceOfFilmBelongsToOneBodyAndNothingElseToAny) {
+  test::FewBodies few;  // an organ of 5 vertices, an empty wall, a fold, a rod
+  few.models.solids.resize(1);
+  for (int v = 0; v < 5; ++v) few.models.solids[0].skin.weights.push_back(tissue::SkinWeights::at(v, v));
+  few.models.membranes.resize(1);
+  few.add(test::StraightTube().body);
+  few.work.organs.resize(1);
+  few.work.organs[0].skin = &few.models.solids[0].skin;
+  const std::vector<std::int32_t> first{0, 5, 5, 11, 36};
+  const auto point = [&](int body, int place) { return film_point(few.all(), first, {2, 1}, body, place); };
+  EXPECT_EQ(point(0, 4).body, BodyId::organ(0));
+  EXPECT_EQ(point(0, 4).node[0], 4);
+  EXPECT_EQ(point(2, 8).body, BodyId::membrane(0));
+  EXPECT_EQ(point(2, 8).node[0], 1) << "two sides a node";
+  EXPECT_EQ(point(3, 13).body, BodyId::strand(0));
+  EXPECT_EQ(point(3, 13).element, 2);
+  EXPECT_EQ(point(3, 35).element, 23) << "the last node ends the last element";
+  EXPECT_EQ(point(3, 35).weight[0], 1);
+  EXPECT_TRUE(point(0, 5).in_space()) << "beyond the body's own";
+  EXPECT_TRUE(point(0, -1).in_space());
+  EXPECT_TRUE(point(4, -1).in_space()) << "an instrument";
+  EXPECT_TRUE(point(-1, 0).in_space());
 }

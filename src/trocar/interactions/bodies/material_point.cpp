@@ -505,6 +505,26 @@ MaterialPoint at_element(const Bodies& bodies, std::size_t rod, std::int32_t ele
   return p;
 }
 
+MaterialPoint on_vertex(const Bodies& bodies, std::size_t organ, std::int32_t vertex) noexcept {
+  MaterialPoint p;
+  p.body = BodyId::organ(organ);
+  if (is_tetrahedral(bodies, p.body)) {  // its skin's vertices are its nodes
+    const tissue::CuttableWork& work = bodies.work->cuttables[organ - bodies.models.solids.size()].body;
+    p.element = work.around[std::size_t(work.begin[std::size_t(vertex)])];
+    const geometry::Tet& cell = tets_of(bodies, p.body).cells[std::size_t(p.element)];
+    p.count = 1;
+    p.node[0] = std::int32_t(std::find(cell.begin(), cell.end(), vertex) - cell.begin());
+    p.weight[0] = 1;
+    return p;
+  }
+  skin_of(bodies, organ).each_carrier(vertex, [&p](int node, int, float weight) {
+    if (weight == 0 || p.count == kRowNodes) return;
+    p.node[std::size_t(p.count)] = node;
+    p.weight[std::size_t(p.count++)] = weight;
+  });
+  return p;
+}
+
 MaterialPoint at_vertex(const Bodies& bodies, std::size_t organ, std::int32_t vertex, Vec3d place) noexcept {
   const BodyId body = BodyId::organ(organ);
   const tissue::NodeView nodes = organ_nodes(bodies, organ);

@@ -70,6 +70,8 @@ MaterialPoint in_space(Vec3d place) noexcept;
 MaterialPoint at_node(const Bodies& bodies, BodyId body, std::int32_t node, Vec3d offset = {}) noexcept;
 /// A place on a rod's axis, and what is beside it by `offset` as it is now [m].
 MaterialPoint at_element(const Bodies& bodies, std::size_t rod, std::int32_t element, double w, Vec3d offset) noexcept;
+/// A vertex of an organ's skin itself. Of tetrahedra only in a tick.
+MaterialPoint on_vertex(const Bodies& bodies, std::size_t organ, std::int32_t vertex) noexcept;
 /// At a vertex of an organ's skin, or beside it: carried by the nodes that carry that.
 MaterialPoint at_vertex(const Bodies& bodies, std::size_t organ, std::int32_t vertex, Vec3d place) noexcept;
 /// The point of that body that is at `place` now. It looks at all of the body's nodes.

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <trocar/interactions/verbs/irrigate.hpp>
 
 namespace trocar::interactions {
@@ -26,15 +28,19 @@ fluids::Capsule tube_of(const ToolModel& tool, const ToolShape& now, const ToolS
   return tube;
 }
 
-WetTarget target_of(std::span<const std::int32_t> first, const WetOrder& order, std::int32_t body,
-                    std::int32_t place) noexcept {
+MaterialPoint film_point(const Bodies& bodies, std::span<const std::int32_t> first, const WetOrder& order,
+                         std::int32_t body, std::int32_t place) noexcept {
   if (body < 0 || body + 1 >= std::int32_t(first.size())) return {};
   const std::int32_t number = place - first[std::size_t(body)];
   if (number < 0 || place >= first[std::size_t(body) + 1]) return {};
-  const std::int32_t index = std::int32_t(order.index(body));
-  if (order.is_surface(body)) return {WetTarget::surface, index, number};
-  if (order.is_sheet(body)) return {WetTarget::sheet, index, number / 2};
-  return {WetTarget::strand, index, number};
+  const std::size_t i = order.index(body);
+  if (order.is_surface(body)) {
+    if (i >= bodies.organ_count() || number >= skin_of(bodies, i).size()) return {};
+    return on_vertex(bodies, i, number);
+  }
+  if (order.is_sheet(body)) return at_node(bodies, BodyId::membrane(i), number / 2);
+  const std::int32_t last = bodies.strand(i).nodes() - 2;
+  return at_element(bodies, i, std::min(number, last), number > last ? 1 : 0, {});
 }
 
 }  // namespace trocar::interactions

@@ -2,11 +2,13 @@
 //
 //   const Bore bore = bore_of(tool, shape, before, tick);
 //   valve.blocked = covered(bodies, bore.end, kPlugs);                  // tissue plugs a port that it is so near to
-//   const WetTarget hit = target_of(first, order, impact.body, impact.film);   // in the next tick
+//   const MaterialPoint hit = film_point(bodies, first, order, impact.body, impact.film);   // in the next tick
 //
 // Drops move when tissue has moved: what they push, it feels in the next tick (sim::State::impacts).
 #pragma once
 
+#include <trocar/interactions/bodies/bodies.hpp>
+#include <trocar/interactions/bodies/material_point.hpp>
 #include <trocar/interactions/instrument/tool.hpp>
 #include <trocar/interactions/wetting/fluid_contact.hpp>
 
@@ -24,14 +26,10 @@ Bore bore_of(const ToolModel& tool, const ToolShape& now, const ToolShape& befor
 /// The tube as a body of the fluids: one capsule that ends where its bore does, so that no drop is born inside.
 fluids::Capsule tube_of(const ToolModel& tool, const ToolShape& now, const ToolShape& before, double dt) noexcept;
 
-/// What a place of film is part of, and where there.
-struct WetTarget {
-  enum Kind : std::int32_t { none, surface, sheet, strand } kind = none;
-  std::int32_t index = 0;   ///< of its kind; surfaces: organs, then walls
-  std::int32_t vertex = 0;  ///< of the skin; node of a fold or strand
-};
+/// The point of a body that a place of film is; of space for walls, and where there is no such place.
 /// @param first  film_places(...)
-WetTarget target_of(std::span<const std::int32_t> first, const WetOrder& order, std::int32_t body,
-                    std::int32_t place) noexcept;
+/// @param body   as fluids number them (wet_order.hpp)
+MaterialPoint film_point(const Bodies& bodies, std::span<const std::int32_t> first, const WetOrder& order,
+                         std::int32_t body, std::int32_t place) noexcept;
 
 }  // namespace trocar::interactions

@@ -2,6 +2,7 @@
 
 #include <trocar/interactions/verbs/irrigate.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
+#include <trocar/sim/bodies/views.hpp>
 #include <trocar/sim/model/pool_floor.hpp>
 #include <trocar/sim/stages/stage.hpp>
 #include <trocar/sim/stages/visibility.hpp>
@@ -190,49 +191,17 @@ struct Push {
   double drag() const noexcept { return mass / kTick; }
 };
 
-void press_surface(StepContext& c, size_t i, int vertex, const Push& push) noexcept {
-  if (i >= size_t(c.model.organs()) || vertex >= c.work.organs[i].skin->size()) return;  // a wall
-  const tissue::NodeView& nodes = c.work.organs[i].nodes;
-  interactions::SkinLoad load;
-  load.f0 = push.force(tissue::skin_velocity(nodes, *c.work.organs[i].skin, vertex));
-  load.dir = push.dir;
-  load.d = push.drag();
-  add_skin_load(nodes, *c.work.organs[i].skin, vertex, load, {}, c.work.organs[i].loads);
-}
-
-void press_sheet(StepContext& c, size_t i, int node, const Push& push) noexcept {
-  const tissue::NodeView nodes = view_of(c.model.membranes[i].sheet.network, c.state.membranes[i].network);
-  tissue::NodeLoad load;
-  load.node = node;
-  load.f0 = vec_cast<float>(push.force(nodes.velocity(node)));
-  load.dir = vec_cast<float>(push.dir);
-  load.d = float(push.drag());
-  c.work.membranes[i].loads.add(load, {});
-}
-
-void press_strand(StepContext& c, size_t i, int node, const Push& push) noexcept {
-  const int last = c.model.strand_bodies[i].nodes() - 2;
-  tissue::StrandLoad load;
-  load.element = std::min(node, last);
-  load.w = node > last ? 1 : 0;
-  load.f0 = push.force(c.state.strands[i].v[size_t(node)]);
-  load.dir = push.dir;
-  load.d = push.drag();
-  c.work.strands[i].loads.add(load, {});
-}
-
 }  // namespace
 
 void apply_drop_impacts(StepContext& c) noexcept {
-  using interactions::WetTarget;
+  const interactions::Bodies bodies = bodies_of(c);
   const interactions::WetOrder order{size_t(c.model.surfaces()), c.model.membranes.size()};
   for (int i = 0; i < c.state.impact_count; ++i) {
     const fluids::Impact& hit = c.state.impacts[size_t(i)];
-    const WetTarget at = interactions::target_of(c.model.wet.film, order, hit.body, hit.film);
+    const interactions::MaterialPoint at = film_point(bodies, c.model.wet.film, order, hit.body, hit.film);
     const Push push(hit);
-    if (at.kind == WetTarget::surface) press_surface(c, size_t(at.index), at.vertex, push);
-    if (at.kind == WetTarget::sheet) press_sheet(c, size_t(at.index), at.vertex, push);
-    if (at.kind == WetTarget::strand) press_strand(c, size_t(at.index), at.vertex, push);
+    put_load(bodies, at, {.f0 = push.force(velocity_of(bodies, at)), .d = push.drag(), .dir = push.dir},
+             {interactions::Owner::anchor, 0, 0});
   }
 }
 
