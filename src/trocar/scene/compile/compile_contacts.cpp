@@ -210,6 +210,58 @@ void pair_self(sim::Model& model, const Drawn& drawn, int organ) {
   model.nearest_at_start.resize(model.nearest_at_start.size() + model.self_pairs.back().sample.size(), -1);
 }
 
+/// Where a body's samples are drawn, and which take part.
+struct Samples {
+  BodyId body;
+  std::vector<Vec3d> place;
+  std::vector<std::uint8_t> held;
+  double near = 0;  ///< [m] drawn nearer than that, the pairs as drawn test them
+};
+
+std::vector<Samples> samples_of_bodies(const sim::Model& model, const Drawn& drawn) {
+  std::vector<Samples> all;
+  for (int i = 0; i < model.organs(); ++i) {
+    const interactions::Surface& surface = drawn.surface[size_t(i)];
+    Samples& s = all.emplace_back(Samples{BodyId::organ(size_t(i)), {}, {}, 0.5 * kReach});
+    for (int v = 0; v < surface.skin->size(); ++v) s.place.push_back(surface.position(v));
+    s.held.assign(s.place.size(), 0);
+  }
+  for (size_t i = 0; i < model.membranes.size(); ++i) {
+    const tissue::NetworkModel& net = model.membranes[i].sheet.network;
+    Samples& s = all.emplace_back(Samples{BodyId::membrane(i), net.rest, {}, kReach});
+    for (size_t n = 0; n < net.rest.size(); ++n) s.held.push_back(net.fixed[n] == tissue::kHeld);
+  }
+  for (size_t i = 0; i < model.strand_bodies.size(); ++i) {
+    const tissue::StrandModel& rod = model.strand_bodies[i].model;
+    all.push_back({BodyId::strand(i), rod.rest, {rod.prescribed.begin(), rod.prescribed.end()}, kReach});
+  }
+  return all;
+}
+
+tissue::Box box_of(const sim::Model& model, const Drawn& drawn, BodyId on) {
+  if (on.is(BodyKind::organ)) return drawn.surface[on.index()].pose->bounds;
+  tissue::Box box;
+  for (const Vec3d& p : model.membranes[on.index()].sheet.network.rest) box.add(vec_cast<float>(p));
+  return box;
+}
+
+/// All that may be carried to a skin, and was drawn farther from it than the other pairs look.
+void pair_carried(sim::Model& model, const Drawn& drawn) {
+  std::vector<BodyId> skins;
+  for (int i = 0; i < model.organs(); ++i) skins.push_back(BodyId::organ(size_t(i)));
+  for (size_t i = 0; i < model.membranes.size(); ++i)
+    if (model.membranes[i].sheet.closed()) skins.push_back(BodyId::membrane(i));
+  for (const Samples& s : samples_of_bodies(model, drawn))
+    for (const BodyId on : skins) {
+      if (on == s.body) continue;
+      const tissue::Box box = box_of(model, drawn, on);
+      interactions::CarriedPair pair{s.body, on, s.held};
+      for (size_t k = 0; k < s.place.size(); ++k) pair.never[k] |= box.reaches(s.place[k], s.near);
+      if (std::find(pair.never.begin(), pair.never.end(), 0) != pair.never.end())
+        model.carried_pairs.push_back(std::move(pair));
+    }
+}
+
 }  // namespace
 
 void compile_contacts(sim::Model& model) {
@@ -228,6 +280,7 @@ void compile_contacts(sim::Model& model) {
   for (int a = 0; a < strands; ++a)
     for (int b = a + 1; b < strands; ++b) pair_strands(model, a, b);
   for (int i = 0; i < organs; ++i) pair_self(model, drawn, i);
+  pair_carried(model, drawn);
 }
 
 }  // namespace trocar::scene

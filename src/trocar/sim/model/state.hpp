@@ -68,6 +68,7 @@ struct State : interactions::BodyStates {
   std::array<interactions::Cut, interactions::kMaxCuts> cuts;
   std::int32_t clip_count = 0, cut_count = 0;
   std::vector<std::int32_t> nearest;  ///< contact caches: one per sample of each pair, in the Model's order
+  std::vector<std::vector<std::int32_t>> carried;  ///< (carried pairs)(samples) vertex next to it, -1: none is near
   std::vector<Vec3f> strand_side;     ///< per element of each strand pair's first strand
   std::vector<Vec3f> tool_side;       ///< (tools x elements of all strands x kToolParts; kMostParts if it bends())
   std::vector<std::vector<std::uint8_t>> parted;  ///< (solids) per triangle of the drawn skin: 1 = cut open
@@ -109,7 +110,7 @@ struct State : interactions::BodyStates {
     const bool wet = !s.fluids.droplets.x.empty(), irrigates = !s.impacts.empty();
     v("tick", s.tick), v("solids", s.solids), v("cuttables", s.cuttables), v("strands", s.strands), v("tools", s.tools),
         v("magazine", s.magazine), v("scope", s.scope), v("clips", s.clips), v("cuts", s.cuts),
-        v("clip_count", s.clip_count), v("cut_count", s.cut_count), v("nearest", s.nearest),
+        v("clip_count", s.clip_count), v("cut_count", s.cut_count), v("nearest", s.nearest), v("carried", s.carried, core::only_if(!s.carried.empty())),
         v("strand_side", s.strand_side), v("tool_side", s.tool_side), v("touches", s.touches), v("seen", s.seen),
         v("membranes", s.membranes), v("fat", s.fat, core::only_if(!s.fat.empty())), v("sheet_side", s.sheet_side),
         v("sheet_bond", s.sheet_bond), v("overstretched_organs", s.overstretched_organs),

@@ -35,6 +35,7 @@ void resolve_instrument_contacts(StepContext& c) noexcept {
 // Organs on organs.
 void resolve_body_contacts(StepContext& c) noexcept {
   State& s = c.state;
+  const interactions::Bodies bodies = bodies_of(c);
   visit_cuttables(c.model, [&c](auto organ) { touch_itself(c, organ); });
   size_t at = 0;
   for (const interactions::SurfacePair& p : c.model.surface_pairs) {
@@ -72,6 +73,8 @@ void resolve_body_contacts(StepContext& c) noexcept {
     });
     at += p.sample.size();
   }
+  for (size_t i = 0; i < c.model.carried_pairs.size(); ++i)
+    interactions::carried_contact(bodies, c.model.carried_pairs[i], s.tick, s.carried[i]);
   rest_objects(c);
   rest_bags(c);
   rest_sutures(c);
