@@ -690,18 +690,18 @@ std::vector<OwnPiece> own_pieces(const Shape& a, const std::vector<Crossing>& cr
   return out;
 }
 
-/// How many times a closed surface lies around the places right outside of a piece: most of them say so.
-int layers_outside(const Shape& a, const OwnPiece& piece) {
+/// Is the winding number not 0 right outside of a piece? Most of its vertices decide.
+bool is_inside_another(const Shape& a, const OwnPiece& piece) {
   constexpr double kOutside = 2e-6;  // [m]
   constexpr size_t kMost = 33;
-  int above = 0, below = 0, all = 0;
+  int inside = 0, all = 0;
   const size_t step = std::max<size_t>(1, piece.vertices.size() / kMost);
   for (size_t k = 0; k < piece.vertices.size(); k += step) {
     const int v = piece.vertices[k];
     const double w = a.winding(a.at(v) + kOutside * normalised(a.normal[size_t(v)], Vec3d{0, 0, 0}));
-    ++all, above += w >= 0.5, below += w <= -0.5;
+    ++all, inside += std::fabs(w) >= 0.5;
   }
-  return 2 * above > all ? 1 : (2 * below > all ? -1 : 0);
+  return 2 * inside > all;
 }
 
 void closed_on_itself(const Shape& a, Deepest& deepest) {
@@ -712,19 +712,16 @@ void closed_on_itself(const Shape& a, Deepest& deepest) {
   const auto filled = std::count_if(own.begin(), own.end(), [](const OwnPiece& p) { return !p.vertices.empty(); });
   if (filled < 2) return;
   for (const OwnPiece& piece : own) {
-    if (piece.vertices.empty()) continue;
-    const int layers = layers_outside(a, piece);
-    if (layers == 0) continue;
+    if (piece.vertices.empty() || !is_inside_another(a, piece)) continue;
     for (const int v : piece.vertices) {
       const Vec3d p = a.at(v);
       const double rim = piece.to_rim(p);
       if (rim <= deepest.depth) continue;
       const int own_piece = pieces.of(v);
-      const Near near = a.nearest(p, deepest.depth, [&](int t, Vec3d foot) {
+      const Near near = a.nearest(p, deepest.depth, [&](int t, Vec3d) {
         for (const int u : a.s.triangles[size_t(t)])
           if (pieces.of(u) == own_piece) return false;  // also the other side of the same part
-        const Vec3d way = foot - p, out = a.area_vector(t);
-        return layers * dot(way, out) >= 0.5 * length(way) * length(out);  // there it comes out of the other part
+        return true;
       });
       if (std::min(rim, near.distance) < kFar) deepest.note(std::min(rim, near.distance), p);
     }

@@ -296,6 +296,28 @@ TEST(Interpenetration, PrintListsPairsAboveTheLimit) {
   EXPECT_EQ(none.str(), "");
 }
 
+TEST(Interpenetration, NearlyClosedEnvironmentSurfaceIsClosedAndFacesOutwards) {
+  // A shaft with a seam, which faces inwards and is open at its ends; a floor.
+  const BodySurface shaft = grid("shaft", 13, 21, [](int u, int v) {
+    const double angle = u % 12 * std::numbers::pi / 6;
+    return Vec3d{2 * std::cos(angle), 2 * std::sin(angle), 40 - 2.0 * v};
+  });
+  const BodySurface floor = flat(BodySurface::sheet, 0);
+  sim::Model m;
+  for (const BodySurface* s : {&shaft, &floor}) {
+    m.walls.emplace_back();
+    for (const Vec3d& p : s->points) m.walls.back().skin.rest.push_back(vec_cast<float>(p));
+    m.walls.back().skin.triangles = s->triangles;
+  }
+  const std::vector<BodySurface> all = surfaces_of(m, {});
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].kind, BodySurface::closed);
+  EXPECT_EQ(all[0].points.size(), 12u * 21);
+  EXPECT_GT(geometry::volume({all[0].points, all[0].triangles}), 0);
+  EXPECT_NEAR(depth_of(all[0], box("b", {1, -5, 10}, {10, 10, 10})), 1, 0.01);
+  EXPECT_EQ(all[1].kind, BodySurface::wall);
+}
+
 /// Of the small scene.
 int number_of(const std::vector<BodySurface>& surfaces, const std::string& name) {
   for (size_t i = 0; i < surfaces.size(); ++i)
