@@ -788,7 +788,7 @@ struct Numbers {
         walls(strands + int(m.strands.size())),
         rigid(walls + int(m.walls.size())),
         fat(rigid + int(m.objects.rigid.list.size())),
-        bags(fat + int(m.objects.fat.list.size())),
+        bags(fat + int(m.fat.size())),
         sutures(bags + int(m.objects.bags.list.size())),
         instruments(sutures + int(m.objects.sutures.list.size())) {}
 
@@ -967,29 +967,18 @@ BodySurface instrument_surface(const interactions::ToolShape& shape) {
   return s;
 }
 
-int holder(const interactions::BorderHold& hold, const Numbers& n) {
-  if (hold.kind == interactions::BorderHold::organ) return hold.index;
-  return hold.kind == interactions::BorderHold::strand ? n.strands + hold.index : -1;
-}
-
 void attach_bodies(const sim::Model& m, const sim::State& state, const Numbers& n, std::vector<BodySurface>& all) {
   for (size_t i = 0; i < m.strands.size(); ++i)
     for (const interactions::StrandEndModel* end : {&m.strands[i].start, &m.strands[i].end})
-      if (end->kind == interactions::StrandEndModel::hosted) attach(all, n.strands + int(i), end->organ);
+      if (end->kind == interactions::StrandEndModel::hosted) attach(all, n.strands + int(i), end->organ());
   for (size_t i = 0; i < m.membranes.size(); ++i) {
     const int own = n.membranes + int(i);
     if (m.membranes[i].strand >= 0) attach(all, own, n.strands + m.membranes[i].strand);
     if (m.membranes[i].duct >= 0) attach(all, own, n.strands + m.membranes[i].duct);
-    for (const interactions::BorderHold& hold : m.membranes[i].holds) attach(all, own, holder(hold, n));
+    for (const interactions::Attachment& hold : m.membranes[i].holds) attach(all, own, n.of(hold.point.body));
   }
   for (const interactions::BondSet& set : m.bonds)
-    for (const interactions::Bond& bond : set.bonds)
-      if (set.membrane >= 0) attach(all, n.membranes + set.membrane, holder(bond.hold, n));
-  for (size_t i = 0; i < m.objects.fat.list.size(); ++i) {
-    const interactions::FatBody& fat = m.objects.fat.list[i];
-    for (const interactions::Bond& root : fat.roots.bonds) attach(all, n.fat + int(i), holder(root.hold, n));
-    for (const interactions::FatTie& tie : fat.ties) attach(all, n.fat + int(i), n.membranes + tie.membrane);
-  }
+    for (const interactions::Bond& bond : set.bonds) attach(all, n.of(set.of), n.of(bond.far.body));
   for (size_t i = 0; i < m.objects.sutures.list.size(); ++i) {
     const interactions::SutureState& s = state.objects.sutures[i];
     for (int k = 0; k < s.bite_count; ++k) attach(all, n.sutures + int(i), n.of(s.bites[size_t(k)].body));
@@ -1024,9 +1013,8 @@ std::vector<BodySurface> surfaces_of(const sim::Model& m, const sim::State& stat
     add(rigid_surface(rigid, state.objects.rigid[i]), BodyId(BodyKind::rigid, i), rigid.name);
     if (state.objects.rigid[i].inside()) all.back().inside = n.membranes + rigid.inside;
   }
-  for (size_t i = 0; i < m.objects.fat.list.size(); ++i)
-    add(fat_surface(m.objects.fat.list[i].fat, state.objects.fat[i].fat), BodyId(BodyKind::fat, i),
-        m.objects.fat.list[i].name);
+  for (size_t i = 0; i < m.fat.size(); ++i)
+    add(fat_surface(m.fat[i].fat, state.fat[i]), BodyId(BodyKind::fat, i), m.fat[i].name);
   for (size_t i = 0; i < m.objects.bags.list.size(); ++i)
     add(bag_surface(m.objects.bags.list[i], state.objects.bags[i]), BodyId(BodyKind::bag, i),
         m.objects.bags.list[i].name);
