@@ -6,6 +6,7 @@
 #include <trocar/interactions/verbs/clip.hpp>
 #include <trocar/numerics/portable.hpp>
 
+#include "few_bodies.hpp"
 #include "straight_tube.hpp"
 
 using namespace trocar;
@@ -32,7 +33,7 @@ ToolModel applier() {
 /// An applier that closes over a tube along x, the tube `inside` from where the legs meet the jaws' ends.
 struct Applying {
   ToolModel model = applier();
-  StraightTube tube;
+  test::FewBodies few;
   ToolState tool;
   std::array<Clip, kMaxClips> clips{};
   std::int32_t count = 0;
@@ -43,6 +44,9 @@ struct Applying {
     pose = kinematics::inverse(model.port, tip, 0);
     pose.roll = kinematics::roll_towards(pose, {portable::cos(turn), portable::sin(turn), 0});
     tool.clips_left = model.clips;
+    const StraightTube tube;
+    few.models.strand_bodies.push_back(tube.body);
+    few.states.strands.push_back(tube.state);
   }
   /// Tip position such that the tube's centre, at z = 0, is `inside` from the jaws' hinge of a vertical applier.
   static Vec3d over(double x, double inside) { return {x, 0, inside - 0.018}; }
@@ -50,8 +54,7 @@ struct Applying {
   bool at(double aperture) {
     tool.aperture = aperture;
     const ToolShape shape = shape_of(model, pose, aperture);
-    return update_clip_applier(model, shape, 2, {{&tube.body, 1}, {&tube.state, 1}, {}}, {&tube.state, 1}, 2, tick++,
-                               tool, {clips, count});
+    return update_clip_applier(model, shape, 2, few.all(), few.states.strands, 2, tick++, tool, {clips, count});
   }
   /// Opens wide and closes evenly within `ticks`; true when a clip left the magazine.
   bool close(int ticks = 400) {
@@ -121,7 +124,8 @@ TEST(Clip, ItsDirectionsAreThoseOfTheJawsInTheTubesFrame) {
   Applying a(Applying::over(0.030, 0.013), 0.25);
   ASSERT_TRUE(a.close());
   const Clip& c = a.clips[0];
-  const StrandFrame f = frame_at(a.tube.body, a.tube.state, place_at(a.tube.body, c.s));
+  const StrandFrame f =
+      frame_at(a.few.models.strand_bodies[0], a.few.states.strands[0], place_at(a.few.models.strand_bodies[0], c.s));
   const ToolShape shape = shape_of(a.model, a.pose, 0);
   const auto world = [&f](const double(&v)[3]) { return v[0] * f.tangent + v[1] * f.normal + v[2] * f.binormal; };
   EXPECT_LT(length(world(c.opening) - shape.frame.opening()), 1e-9);
@@ -152,7 +156,7 @@ TEST(Clip, ClosedOnNothingIsDroppedAndCounted) {
   ASSERT_EQ(a.count, 1);
   EXPECT_EQ(a.clips[0].strand, -1);
   EXPECT_EQ(a.tool.clips_left, 19);
-  for (double scale : a.tube.state.scale) EXPECT_EQ(scale, 1);
+  for (double scale : a.few.states.strands[0].scale) EXPECT_EQ(scale, 1);
 }
 
 TEST(Clip, JawsMustOpenWideForTheNextOne) {
@@ -189,9 +193,9 @@ TEST(Clip, StiffensTheTubeWhereItSits) {
   a.model.port.x = 0.0312;
   a.pose = kinematics::inverse(a.model.port, Applying::over(0.0312, 0.013), a.pose.roll);
   ASSERT_TRUE(a.close());
-  const int element = place_at(a.tube.body, a.clips[0].s).element;
-  for (int e = 0; e + 1 < a.tube.body.nodes(); ++e)
-    EXPECT_EQ(a.tube.state.scale[size_t(e)] > 1, e == element) << "element " << e;
+  const int element = place_at(a.few.models.strand_bodies[0], a.clips[0].s).element;
+  for (int e = 0; e + 1 < a.few.models.strand_bodies[0].nodes(); ++e)
+    EXPECT_EQ(a.few.states.strands[0].scale[size_t(e)] > 1, e == element) << "element " << e;
 }
 
 TEST(Clip, DoesNotHealWhatIsHalfCut) {
@@ -200,11 +204,11 @@ TEST(Clip, DoesNotHealWhatIsHalfCut) {
     a->model.port.x = 0.0312;
     a->pose = kinematics::inverse(a->model.port, Applying::over(0.0312, 0.013), a->pose.roll);
   }
-  for (double& scale : half.tube.state.scale) scale = 0.1;
+  for (double& scale : half.few.states.strands[0].scale) scale = 0.1;
   ASSERT_TRUE(whole.close());
   ASSERT_TRUE(half.close());
-  const size_t element = size_t(place_at(half.tube.body, half.clips[0].s).element);
-  EXPECT_NEAR(half.tube.state.scale[element], 0.1 * whole.tube.state.scale[element], 1e-12);
+  const size_t element = size_t(place_at(half.few.models.strand_bodies[0], half.clips[0].s).element);
+  EXPECT_NEAR(half.few.states.strands[0].scale[element], 0.1 * whole.few.states.strands[0].scale[element], 1e-12);
 }
 
 }  // namespace
