@@ -217,10 +217,11 @@ void put_on_rod(const Bodies& bodies, const MaterialPoint& p, const PointLoad& l
   if (dot(couple, couple) < 1e-24) return;  // [N^2]
   tissue::StrandLoad end;
   end.element = int(on.element);
-  end.f0 = -couple;
+  end.d = load.d * dot(off, off) / (frame.length * frame.length);  // the couple turns the element as the force moves it
+  end.f0 = end.d * s.v[on.element] - couple;
   loads.add(end, tag);
   end.w = 1;
-  end.f0 = couple;
+  end.f0 = end.d * s.v[on.element + 1] + couple;
   loads.add(end, tag);
 }
 
@@ -229,27 +230,34 @@ void put_on_nodes(const Bodies& bodies, const MaterialPoint& p, const PointLoad&
   NetworkLoads& loads = loads_on(bodies, p.body);
   const Vec3d off = beside(row, p), x = row.mean(row.x) + off;
   Vec3d v = row.mean(row.v), couple[3] = {};
+  double turns = 0;  // what a node of the frame resists: the couple turns the frame as the force moves the row
   if (p.frame == MaterialPoint::triangle) {
     const SheetFrame frame(row.x);
     v += cross(frame.spin(row.v), off);
     frame.bear(cross(off, force_of(load, x, counted_on(v))), couple);
+    const double arm = std::min(frame.length, frame.height);
+    turns = load.d * dot(off, off) / (arm * arm);
   }
   v = counted_on(v);
   // Each node bears a share of k and d as if it were alone: more than they are together, so that what is stable for
   // one point is for its row. Weights beyond 1, of points outside of their nodes, count for the coupling between them.
+  // d holds the nodes to their mean velocity, so that it calms what they do against each other.
   const double magnitude = row.magnitude();
+  Vec3d together;
+  for (std::size_t i = 0; i < std::size_t(row.count); ++i)
+    together += (std::fabs(row.weight[i]) / magnitude) * counted_on(row.v[i]);
   bool another = false;
   for (std::size_t i = 0; i < std::size_t(row.count); ++i) {
     const double share = row.weight[i], counts = std::fabs(share) * magnitude;
     Vec3d f0 = share * (load.f0 - along(load.d * v, load.dir));
-    if (p.frame == MaterialPoint::triangle && i < 3) f0 += couple[i];
+    if (p.frame == MaterialPoint::triangle && i < 3) f0 += couple[i] + turns * counted_on(row.v[i]);
     if (share == 0 && f0.x == 0 && f0.y == 0 && f0.z == 0) continue;
     tissue::NodeLoad node;
     node.node = row.node[i];
     node.k = float(counts * load.k);
-    node.d = float(counts * load.d);
+    node.d = float(counts * load.d + (i < 3 ? turns : 0));
     node.dir = vec_cast<float>(load.dir);
-    node.f0 = vec_cast<float>(f0 + along((counts * load.d) * counted_on(row.v[i]), load.dir));
+    node.f0 = vec_cast<float>(f0 + along((counts * load.d) * together, load.dir));
     if (counts > 0) node.x0 = vec_cast<float>(row.x[i] + (share / counts) * (load.target - x));
     loads.add(node, tag, another);
     another = true;
@@ -536,6 +544,13 @@ MaterialPoint at_vertex(const Bodies& bodies, std::size_t organ, std::int32_t ve
   MaterialPoint p;
   p.body = body;
   fit(corners, place, p);
+  return p;
+}
+
+MaterialPoint along_with_vertex(const Bodies& bodies, std::size_t organ, std::int32_t vertex, Vec3d place) noexcept {
+  if (is_tetrahedral(bodies, BodyId::organ(organ))) return at_vertex(bodies, organ, vertex, place);
+  MaterialPoint p = on_vertex(bodies, organ, vertex);
+  set_offset(p, place - place_of(bodies, p));
   return p;
 }
 

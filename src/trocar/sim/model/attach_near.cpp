@@ -30,7 +30,7 @@ void look_at_organ(const interactions::Bodies& bodies, size_t i, Vec3d p, Neares
     best.distance = distance;
     nearest = v;
   }
-  if (nearest >= 0) best.point = at_vertex(bodies, i, nearest, p), best.vertex = nearest;
+  if (nearest >= 0) best.point = along_with_vertex(bodies, i, nearest, p), best.vertex = nearest;
 }
 
 void look_at_membrane(const interactions::Bodies& bodies, size_t i, Vec3d p, Nearest& best) {
