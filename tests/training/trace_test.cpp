@@ -179,7 +179,7 @@ TEST(TraceRecorder, TakesFiftySamplesASecondFromTheState) {
     state.tools[1].pull[2] = 1.5;
     sim::StepReport report;
     if (i == 499) {
-      report.events[0] = {sim::Event::clipped, 1, 0};
+      report.events[0] = sim::Event::recorded(sim::Event::clipped, 1, 0, {});
       report.event_count = 1;
     }
     recorder.update(model, state, report);

@@ -212,21 +212,14 @@ void Session::add_moment(const char* what, int tool, std::string text) {
 
 namespace {
 
-/// The body that an event is about: clips and cuts are in the State's buffers.
-BodyId body_of(const sim::Event& e, const sim::State& s) {
-  if (e.kind == sim::Event::clipped) return s.clips[size_t(e.index)].body();
-  if (e.kind == sim::Event::cut) return s.cuts[size_t(e.index)].body();
-  return e.body();
-}
-
 /// A scene without hands has no instrument to name: a declaration happens there, too.
 std::string in_words(const sim::Event& e, const sim::Model& model, const sim::State& s) {
   const sim::EventWords& words = sim::words_of(e.kind);
-  const bool by_hand = e.tool >= 0 && size_t(e.tool) < model.hands.size();
-  const std::string tool = by_hand ? model.tool(s, size_t(e.tool)).name : "endoscope";
+  const bool by_hand = e.hand >= 0 && size_t(e.hand) < model.hands.size();
+  const std::string tool = by_hand ? model.tool(s, size_t(e.hand)).name : "endoscope";
   return fmt::format(fmt::runtime(words.text), fmt::arg("tool", tool),
-                     fmt::arg("hand", by_hand ? model.hands[size_t(e.tool)].name : tool),
-                     fmt::arg("body", words.has_body ? sim::name_of(model, body_of(e, s)) : std::string()));
+                     fmt::arg("hand", by_hand ? model.hands[size_t(e.hand)].name : tool),
+                     fmt::arg("body", words.has_body ? sim::name_of(model, e.body) : std::string()));
 }
 
 }  // namespace
@@ -236,7 +229,7 @@ void Session::collect_moments() {
   for (int i = 0; i < m_report.event_count; ++i) {
     const sim::Event& e = m_report.events[i];
     ++m_counts[size_t(e.kind)];
-    if (e.kind != sim::Event::none) add_moment(sim::words_of(e.kind).name, e.tool, in_words(e, model, m_state));
+    if (e.kind != sim::Event::none) add_moment(sim::words_of(e.kind).name, e.hand, in_words(e, model, m_state));
   }
   for (size_t t = 0; t < model.hands.size(); ++t) {
     const interactions::ToolState& tool = m_state.tools[t];

@@ -14,18 +14,18 @@ struct StepContext {
   StepReport& report;
 };
 
-inline void emit_event(StepContext& c, Event::Kind kind, int tool, int index) noexcept {
-  if (c.report.event_count < kMaxEvents - kRoomForTears)
-    c.report.events[c.report.event_count++] = {kind, tool, index};
+/// Some room is kept for tears: one tick can tear several bodies, and each may be an error of a hand.
+inline void emit_event(StepContext& c, const Event& event) noexcept {
+  const int room = event.kind == Event::torn ? kMaxEvents : kMaxEvents - kRoomForTears;
+  if (c.report.event_count < room)
+    c.report.events[c.report.event_count++] = event;
   else
     c.report.flags |= StepReport::kEventsFull;
 }
-inline void emit_event(StepContext& c, Event::Kind kind, int tool, BodyId body) noexcept {
-  emit_event(c, kind, tool, body.code());
-}
 /// A grip has ended: reports whether it slipped, or the hand let go.
 inline void emit_grip_end(StepContext& c, size_t hand, int slips_before) noexcept {
-  emit_event(c, c.state.tools[hand].slipped > slips_before ? Event::slipped : Event::released, int(hand), -1);
+  const bool slipped = c.state.tools[hand].slipped > slips_before;
+  emit_event(c, slipped ? Event::of_hand(Event::slipped, int(hand)) : Event::of_hand(Event::released, int(hand)));
 }
 
 }  // namespace trocar::sim

@@ -85,7 +85,7 @@ void TraceRecorder::update(const sim::Model& model, const sim::State& state, con
   if (m_full) return;
   for (int e = 0; e < report.event_count && m_trace.marks.size() < kMaxTraceMarks; ++e) {
     const TraceMark::Kind kind = mark_of(report.events[e].kind);
-    const std::int32_t hand = report.events[e].tool;
+    const std::int32_t hand = report.events[e].hand;
     if (kind != TraceMark::kinds && hand >= 0) m_trace.marks.push_back({kind, hand, std::uint32_t(m_trace.size())});
   }
   if (state.tick % kTraceEvery != 0) return;
