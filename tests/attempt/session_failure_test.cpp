@@ -119,6 +119,26 @@ TEST(SessionWarnings, AFlagThatLimitsTheSimulationIsReportedOnceWithItsRemedy) {
   EXPECT_TRUE(session.broken().empty());
 }
 
+TEST(SessionRecords, WhatFoundNoRoomIsInTheResultToTheEndOfTheAttempt) {
+  Session session(lesson(), 1);
+  const int applier = two_sides::kApplier;
+  sim::Input input = lesson().model.start;
+  input.tools[applier].handle = 1;
+  session.advance(input);
+  EXPECT_FALSE(session.result(false).contains("not_recorded"));
+  auto& state = const_cast<sim::State&>(session.state());
+  state.clip_count = interactions::kMaxClips;
+  state.tools[applier].armed = 1;
+  for (int i = 0; i < 500; ++i) session.advance(input);
+  state.clip_count = 0;
+  session.advance(input);
+  const Json missing = session.result(false)["not_recorded"];
+  ASSERT_EQ(missing.size(), 2u) << "so many clips at once are more events than a tick has room for, too";
+  EXPECT_NE(missing[0].get<std::string>().find("clips, cuts, wounds, seals or stitches were not recorded"),
+            std::string::npos);
+  EXPECT_NE(missing[1].get<std::string>().find("Some events were not recorded"), std::string::npos);
+}
+
 /// A node that something keeps on the far side of its cells.
 TEST(SessionFlags, CellsThatArePushedOpenCountWhenThatLasts) {
   Session session(lesson(), 1);

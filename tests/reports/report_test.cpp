@@ -96,6 +96,13 @@ TEST(ReportPage, ShowsTheScoreWithEveryComponentAndTheirSum) {
   EXPECT_NE(page.find(">Passed<"), std::string::npos);
 }
 
+TEST(ReportPage, SaysWhatWasNotRecorded) {
+  reports::Report r = report();
+  EXPECT_EQ(reports::report_html(r).find("were not recorded"), std::string::npos);
+  r.result["not_recorded"] = {"Some events were not recorded: there were <many>."};
+  EXPECT_NE(reports::report_html(r).find("Some events were not recorded: there were &lt;many&gt;."), std::string::npos);
+}
+
 TEST(ReportPage, EscapesWhatPeopleWrote) {
   reports::Report r = report();
   r.names = true;

@@ -57,7 +57,7 @@ TEST(CutRecords, AnOrganAndTwoClosedWallsCutAtOnceAreThreeEvents) {
   for (const Event& e : t.events) {
     if (e.kind != Event::cut) continue;
     ++events;
-    cut.insert(name_of(stacked(), t.state.cuts[size_t(e.index)].body()));
+    cut.insert(name_of(stacked(), e.body));
   }
   EXPECT_EQ(cut, (std::set<std::string>{"bar", "upper", "lower"}));
   EXPECT_EQ(events, 3);

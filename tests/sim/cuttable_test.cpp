@@ -82,7 +82,7 @@ TEST(CuttableOrgan, HangsAsDrawn) {
 TEST(CuttableOrgan, BladesThatCloseAroundABarPartItInTwo) {
   const Story& s = story();
   ASSERT_EQ(s.cuts.size(), 2u) << "the tube and the bar";
-  const interactions::Cut& cut = s.after.cuts[size_t(s.cuts[1].index)];
+  const interactions::Cut& cut = s.after.cuts[size_t(s.cuts[1].record)];
   EXPECT_EQ(cut.solid, small::kBar);
   EXPECT_EQ(cut.strand, -1);
   EXPECT_NE(s.after.cuttables[0].version, 0u);

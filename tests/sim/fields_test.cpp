@@ -520,7 +520,7 @@ TEST(Fields, PoisonReachesEveryArrayOfWork) {
   }
   EXPECT_GT(spoilt.arrays.size(), 150u);
   // these have no cells, and so neither guard nor volume force
-  for (const std::string without : {"Work.membrane_work.network.", "Work.objects.fat.list.fat.network."})
+  for (const std::string without : {"Work.membranes.sheet.network.", "Work.fat.fat.network."})
     for (const char* of_cells : {"open_tets", "below", "volume.places", "volume.answers", "volume.forces",
                                  "volume.bounds", "volume.node_answer"})
       EXPECT_EQ(spoilt.arrays.erase(without + of_cells), 1u) << without << of_cells;

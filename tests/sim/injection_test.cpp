@@ -237,7 +237,7 @@ TEST(Injection, AHundredMillilitresAtOnceComeBackAlongTheNeedleAndNothingIsLostO
   EXPECT_GT(highest, 5.0 / 6 * 20e3 + 50e3) << "it takes more than to open a cavity";
   for (const Event& e : w.events) {
     if (e.kind != Event::torn) continue;
-    EXPECT_EQ(e.tool, kNeedle) << "whose needle it is";
+    EXPECT_EQ(e.hand, kNeedle) << "whose needle it is";
   }
 }
 

@@ -33,6 +33,7 @@ class NeedleDriver {
   sim::StepReport step() {
     const sim::StepReport report = sim::step(m_model, input, state, work);
     flags |= report.flags;
+    events.insert(events.end(), report.events, report.events + report.event_count);
     if (suture().bite_count == 0) before_entry = suture().peak;
     return report;
   }
@@ -103,7 +104,8 @@ class NeedleDriver {
   sim::Work work;
   sim::Input input;
   std::uint32_t flags = 0;
-  double before_entry = 0;  ///< the most that the needle did to tissue until it was pierced first [N]
+  std::vector<sim::Event> events;  ///< of all ticks
+  double before_entry = 0;         ///< the most that the needle did to tissue until it was pierced first [N]
 };
 
 }  // namespace trocar

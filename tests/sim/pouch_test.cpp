@@ -93,7 +93,7 @@ Way poke() { return {kGrasper, {-0.030, 0.070, -0.070}, {-0.022, 0.112, -0.110},
 
 bool told_of(const Story& story, Event::Kind kind, BodyId body) {
   return std::any_of(story.events.begin(), story.events.end(),
-                     [&](const Event& e) { return e.kind == kind && (!body.exists() || e.body() == body); });
+                     [&](const Event& e) { return e.kind == kind && (!body.exists() || e.body == body); });
 }
 std::ptrdiff_t torn_triangles(const State& s, size_t membrane) {
   return std::count(s.torn[membrane].begin(), s.torn[membrane].end(), 1);

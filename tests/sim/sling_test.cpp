@@ -213,8 +213,8 @@ TEST(Sling, TheHandWhoseBladesCutTheTailIsTheEventsHand) {
       if (report.events[i].kind == sim::Event::thread_cut) cuts.push_back(report.events[i]);
   }
   ASSERT_EQ(cuts.size(), 1u);
-  EXPECT_EQ(cuts[0].tool, blades);
-  EXPECT_EQ(cuts[0].body(), BodyId(BodyKind::suture, 0));
+  EXPECT_EQ(cuts[0].hand, blades);
+  EXPECT_EQ(cuts[0].body, BodyId(BodyKind::suture, 0));
   EXPECT_EQ(d.sling().stage, interactions::SlingState::left);
   EXPECT_EQ(d.told(sim::Event::thread_broken), 0);
 }

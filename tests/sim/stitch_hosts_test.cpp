@@ -169,6 +169,14 @@ TEST_P(StitchHost, IsHarmedAndThenCutThroughByAThreadThatIsPulledAtHarderThanItB
   EXPECT_GT(way, 0.001);
   EXPECT_EQ(d.suture().torn, 1);
   EXPECT_EQ(d.suture().hole_count, 0);
+  int torn = 0;
+  for (const sim::Event& e : d.events) {
+    if (e.kind != sim::Event::torn) continue;
+    ++torn;
+    EXPECT_EQ(e.hand, model.hand_index("left")) << "it holds the tail; the right hand has let go";
+    EXPECT_EQ(e.body, GetParam().body);
+  }
+  EXPECT_EQ(torn, 1);
   std::printf("%s: harmed at %.2f N, cut through at %.2f N, %.1f mm\n", GetParam().name, harmed_at, double(bite.peak),
               1e3 * way);
 }

@@ -74,14 +74,14 @@ const Pull& plain() {
 }
 
 bool has_torn(const Pull& p, BodyKind kind) {
-  return std::any_of(p.torn.begin(), p.torn.end(), [&](const Event& e) { return e.body().is(kind); });
+  return std::any_of(p.torn.begin(), p.torn.end(), [&](const Event& e) { return e.body.is(kind); });
 }
 
 TEST(Tearing, ATubeThatIsLiftedTooFarTearsAndItsFoldTears) {
   const Pull& p = plain();
   EXPECT_TRUE(has_torn(p, BodyKind::strand)) << "the tube";
   EXPECT_TRUE(has_torn(p, BodyKind::membrane)) << "its fold";
-  for (const Event& e : p.torn) EXPECT_EQ(e.tool, small::kGrasper) << "the hand that did it";
+  for (const Event& e : p.torn) EXPECT_EQ(e.hand, small::kGrasper) << "the hand that did it";
   const std::vector<std::uint8_t>& alive = p.end.strands[small::kTube].alive;
   EXPECT_GT(std::count(alive.begin(), alive.end(), 0), 0);
   const std::vector<std::uint8_t>& torn = p.end.torn[0];

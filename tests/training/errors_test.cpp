@@ -106,8 +106,9 @@ const Mistake kMistakes[] = {
      "other tissue"},
     {"E1.2",
      [](Attempt& a) {
-       a.event(sim::Event::torn, two_sides::kGrasper, kLeft);
-       a.event(sim::Event::torn, two_sides::kGrasper, kLeft);  // the same tear goes on
+       a.event(sim::Event::on_body(sim::Event::torn, two_sides::kGrasper, BodyId::strand(kLeft)));
+       a.event(
+           sim::Event::on_body(sim::Event::torn, two_sides::kGrasper, BodyId::strand(kLeft)));  // the same tear goes on
      },
      ""},
     {"E2",
@@ -126,7 +127,7 @@ const Mistake kMistakes[] = {
        a.seconds(0.1);
      },
      "force and time"},
-    {"E3", [](Attempt& a) { a.event(sim::Event::slipped, two_sides::kGrasper, -1); }},
+    {"E3", [](Attempt& a) { a.event(sim::Event::of_hand(sim::Event::slipped, two_sides::kGrasper)); }},
     {"E4.1",
      [](Attempt& a) {
        a.look(a.model.hands[1].name, false);
@@ -166,7 +167,7 @@ const Mistake kMistakes[] = {
     {"E13",
      [](Attempt& a) {
        a.state.tools[1].depth = 0.012;
-       a.event(sim::Event::exchanged, 1, 0);
+       a.event(sim::Event::exchange(1, 0));
        a.look(a.model.hands[1].name, false);
        for (int i = 0; i < 900; ++i) {
          a.state.tools[1].depth += 0.05e-3;
@@ -293,11 +294,11 @@ TEST(Errors, EveryCodeThatTheExercisePricesIsMadeHere) {
 
 TEST(Errors, ASlipBelongsToTheSideThatWasHeld) {
   Attempt a;
-  a.event(sim::Event::slipped, two_sides::kGrasper, -1);
+  a.event(sim::Event::of_hand(sim::Event::slipped, two_sides::kGrasper));
   a.hold_tube(kLeft, 0.055, 1);
   a.seconds(0.1);
   a.let_go();
-  a.event(sim::Event::slipped, two_sides::kGrasper, -1);
+  a.event(sim::Event::of_hand(sim::Event::slipped, two_sides::kGrasper));
   ASSERT_EQ(a.monitor.errors().size(), 2u);
   EXPECT_EQ(a.monitor.errors()[0].side, "") << "nothing was ever held";
   EXPECT_EQ(a.monitor.errors()[1].side, "left");
@@ -356,7 +357,7 @@ TEST(Errors, AnInstrumentBroughtInUnderTheCamerasEyeIsNotBlind) {
   for (const char* seen : {".jaw_a", ".shaft"}) {
     Attempt a;
     a.state.tools[1].depth = 0.012;
-    a.event(sim::Event::exchanged, 1, 0);
+    a.event(sim::Event::exchange(1, 0));
     a.look(a.model.hands[1].name, false);
     a.look(a.model.hands[1].name + seen, true);
     for (int i = 0; i < 500; ++i) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <trocar/training/events/catalogue.hpp>
+#include <trocar/training/events/incidents.hpp>
 #include <trocar/training/events/registry.hpp>
 #include <trocar/training/facts/registry.hpp>
 #include <trocar/training/facts/unit.hpp>
@@ -496,9 +497,9 @@ struct Noticed : World {
     }
     return seen.count;
   }
-  int report(sim::Event::Kind kind, int tool, int index) {
+  int report(const sim::Event& event) {
     sim::StepReport r;
-    r.events[0] = {kind, tool, index};
+    r.events[0] = event;
     r.event_count = 1;
     return tick(1, r);
   }
@@ -510,46 +511,65 @@ struct Noticed : World {
   }
 };
 
+sim::Event torn_by(int hand) { return sim::Event::on_body(sim::Event::torn, hand, BodyId::strand(kCord)); }
+
 TEST(Events, OfHandsAreWhatTheStepReports) {
+  using sim::Event;
+  const BodyId cord = BodyId::strand(kCord);
   const struct {
     const EventKind& kind;
-    sim::Event::Kind reported;
-  } all[] = {{*find_event("grasped"), sim::Event::grasped},
-             {*find_event("released"), sim::Event::released},
-             {*find_event("slipped"), sim::Event::slipped},
-             {*find_event("exchanged"), sim::Event::exchanged},
-             {*find_event("parted"), sim::Event::parted},
-             {*find_event("declared"), sim::Event::declared},
-             {kTorn, sim::Event::torn}};
+    Event reported;
+  } all[] = {{*find_event("grasped"), Event::on_body(Event::grasped, kGrasper, cord)},
+             {*find_event("released"), Event::of_hand(Event::released, kGrasper)},
+             {*find_event("slipped"), Event::of_hand(Event::slipped, kGrasper)},
+             {*find_event("exchanged"), Event::exchange(kGrasper, 1)},
+             {*find_event("parted"), Event::on_body(Event::parted, kGrasper, cord)},
+             {*find_event("declared"), Event::of_hand(Event::declared, kGrasper)},
+             {kTorn, torn_by(kGrasper)}};
   for (const auto& one : all) {
     Noticed n;
     n.watch(one.kind);
     EXPECT_EQ(n.tick(), 0) << one.kind.name;
-    EXPECT_EQ(n.report(one.reported, kGrasper, kCord), 1) << one.kind.name;
+    EXPECT_EQ(n.report(one.reported), 1) << one.kind.name;
     EXPECT_EQ(n.seen.list[0].hand, kGrasper);
+    EXPECT_EQ(n.seen.list[0].body.exists(), one.kind.has_body) << one.kind.name;
     if (one.kind.has_body) {
       EXPECT_EQ(*n.seen.list[0].name, "cord");
     }
-    EXPECT_EQ(n.report(sim::Event::none, kGrasper, 0), 0) << one.kind.name;
+    EXPECT_EQ(n.report({}), 0) << one.kind.name;
   }
 }
 
 TEST(Events, TearingIsToldOnceABodyForAsLongAsItGoesOn) {
   Noticed n;
   n.watch(kTorn);
-  EXPECT_EQ(n.report(sim::Event::torn, kGrasper, kCord), 1);
-  EXPECT_EQ(n.report(sim::Event::torn, kGrasper, kCord), 0);
+  EXPECT_EQ(n.report(torn_by(kGrasper)), 1);
+  EXPECT_EQ(n.report(torn_by(kGrasper)), 0);
   n.tick(1500);
-  EXPECT_EQ(n.report(sim::Event::torn, kGrasper, kCord), 1);
+  EXPECT_EQ(n.report(torn_by(kGrasper)), 1);
 }
 
 TEST(Events, WhatTearsOrBreaksByItselfIsNobodysAndATearByAHandAfterItCounts) {
   Noticed torn, broken;
   torn.watch(kTorn);
   broken.watch(*find_event("thread_broken"));
-  EXPECT_EQ(torn.report(sim::Event::torn, -1, kCord), 0);
-  EXPECT_EQ(torn.report(sim::Event::torn, kGrasper, kCord), 1);
-  EXPECT_EQ(broken.report(sim::Event::thread_broken, -1, kCord), 0);
+  EXPECT_EQ(torn.report(torn_by(-1)), 0);
+  EXPECT_EQ(torn.report(torn_by(kGrasper)), 1);
+  EXPECT_EQ(broken.report(sim::Event::on_body(sim::Event::thread_broken, -1, BodyId(BodyKind::suture, 0))), 0);
+}
+
+TEST(Events, BeyondTheRoomOfATickAreReportedAsLost) {
+  Incidents incidents;
+  EventInstances instances;
+  for (std::size_t i = 0; i < incidents.list.size(); ++i) incidents.add({Incident::torn, kGrasper, {}, ""});
+  pass(incidents, Incident::torn, instances);
+  EXPECT_FALSE(instances.lost);
+  incidents.add({Incident::torn, kGrasper, {}, ""});
+  pass(incidents, Incident::overpulled, instances);
+  EXPECT_TRUE(instances.lost);
+  EventInstances many;
+  for (std::size_t i = 0; i <= many.list.size(); ++i) many.add({});
+  EXPECT_TRUE(many.lost);
 }
 
 TEST(Events, AClipHasAPlaceAndAMannerOrIsLost) {

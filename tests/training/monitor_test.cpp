@@ -345,7 +345,7 @@ TEST(Monitor, WhatComesAfterTheLastStepIsJudgedNoMore) {
   interactions::Clip late = a.good_clip(kLeft, 0.05);
   late.tips_visible = 0;
   a.clip(late);
-  a.event(sim::Event::slipped, 0, -1);
+  a.event(sim::Event::of_hand(sim::Event::slipped, 0));
   a.seconds(1);
   EXPECT_EQ(a.codes(), std::vector<std::string>{});
   EXPECT_DOUBLE_EQ(a.monitor.score().total, 100);
@@ -419,7 +419,7 @@ TEST(Score, AnUnfinishedAttemptEarnsItsStepsByTheirWeightAndNoTime) {
 TEST(Score, PenaltiesAddUpAndCannotMakeItNegative) {
   const auto after_slips = [](int slips) {
     Attempt a;
-    for (int i = 0; i < slips; ++i) a.event(sim::Event::slipped, two_sides::kGrasper, -1);
+    for (int i = 0; i < slips; ++i) a.event(sim::Event::of_hand(sim::Event::slipped, two_sides::kGrasper));
     a.all();
     return a.monitor.score();
   };
@@ -443,7 +443,7 @@ TEST(Score, AnErrorThatFailsFailsWhateverThePoints) {
 
 TEST(Score, FamiliarisationTellsStepsAndErrorsAndScoresNothing) {
   Attempt a(Mode::familiarisation);
-  a.event(sim::Event::slipped, two_sides::kGrasper, -1);
+  a.event(sim::Event::of_hand(sim::Event::slipped, two_sides::kGrasper));
   a.all();
   EXPECT_TRUE(a.monitor.finished());
   EXPECT_EQ(a.codes(), std::vector<std::string>{"E3"});
@@ -456,7 +456,7 @@ TEST(Score, FamiliarisationTellsStepsAndErrorsAndScoresNothing) {
 
 TEST(Monitor, ResultIsJsonThatSaysTheSame) {
   Attempt a;
-  a.event(sim::Event::slipped, two_sides::kGrasper, -1);
+  a.event(sim::Event::of_hand(sim::Event::slipped, two_sides::kGrasper));
   a.all();
   const nlohmann::json j = nlohmann::json::parse(a.monitor.result_json());
   EXPECT_EQ(j["exercise"], "sterilisation");

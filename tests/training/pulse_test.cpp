@@ -95,7 +95,7 @@ TEST(PulsePalpation, WhatIsSaidWhereNothingBeatsAndWhatIsPressedTooHardAreErrors
   sim::State state = sim::initial_state(model);
   Monitor monitor(palpation(), model);
   sim::StepReport report;
-  report.events[0] = {sim::Event::declared, 0, -1};
+  report.events[0] = sim::Event::of_hand(sim::Event::declared, 0);
   report.event_count = 1;
   state.declaring = 1;
   monitor.update(model, state, report);

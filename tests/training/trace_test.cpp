@@ -169,6 +169,21 @@ TEST(Trace, CsvFaultsAreLocated) {
   EXPECT_EQ(with("# rate_hz 50.000000", "# rate_hz nan").substr(0, 18), "a.csv:2:1: expecte");
 }
 
+TEST(TraceRecorder, SaysThatMarksFoundNoRoom) {
+  const sim::Model& model = small::model();
+  sim::State state = sim::initial_state(model);
+  state.tick = 1;  // between two samples
+  TraceRecorder recorder(model);
+  sim::StepReport report;
+  report.events[0] = sim::Event::of_hand(sim::Event::slipped, 1);
+  report.event_count = 1;
+  for (std::size_t i = 0; i < kMaxTraceMarks; ++i) recorder.update(model, state, report);
+  EXPECT_FALSE(recorder.marks_lost());
+  recorder.update(model, state, report);
+  EXPECT_TRUE(recorder.marks_lost());
+  EXPECT_EQ(recorder.trace().marks.size(), kMaxTraceMarks);
+}
+
 TEST(TraceRecorder, TakesFiftySamplesASecondFromTheState) {
   const sim::Model& model = small::model();
   sim::State state = sim::initial_state(model);
@@ -179,7 +194,7 @@ TEST(TraceRecorder, TakesFiftySamplesASecondFromTheState) {
     state.tools[1].pull[2] = 1.5;
     sim::StepReport report;
     if (i == 499) {
-      report.events[0] = {sim::Event::clipped, 1, 0};
+      report.events[0] = sim::Event::recorded(sim::Event::clipped, 1, 0, {});
       report.event_count = 1;
     }
     recorder.update(model, state, report);

@@ -104,9 +104,9 @@ struct Attempt {
     hand.current.now = {};
     tick();
   }
-  void event(sim::Event::Kind kind, int tool, int index) {
+  void event(const sim::Event& event) {
     sim::StepReport report;
-    report.events[0] = {kind, tool, index};
+    report.events[0] = event;
     report.event_count = 1;
     tick(report);
   }
@@ -156,7 +156,9 @@ struct Attempt {
   }
   void clip(const interactions::Clip& c) {
     state.clips[size_t(state.clip_count++)] = c;
-    event(c.strand < 0 ? sim::Event::dropped_clip : sim::Event::clipped, kApplier, state.clip_count - 1);
+    const int number = state.clip_count - 1;
+    event(c.strand < 0 ? sim::Event::recorded(sim::Event::dropped_clip, kApplier, number, {})
+                       : sim::Event::recorded(sim::Event::clipped, kApplier, number, c.body()));
   }
   void both_clips(int tube) {
     clip(good_clip(tube, 0.016));
@@ -178,7 +180,7 @@ struct Attempt {
       tissue::cut_element(state.strands[size_t(c.strand)], place.element);
     }
     state.cuts[size_t(state.cut_count++)] = c;
-    event(sim::Event::cut, kScissors, state.cut_count - 1);
+    event(sim::Event::recorded(sim::Event::cut, kScissors, state.cut_count - 1, c.body()));
   }
   void up_to_clips(int tube) {
     survey();

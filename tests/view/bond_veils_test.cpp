@@ -59,7 +59,7 @@ TEST(BondVeils, WhereBothBondsHavePartedNothingSpansTheGap) {
   BondVeils veils(model, 0, *backend);
   sim::State state = sim::initial_state(model);
   for (interactions::BondState& bond : state.bonds[0]) bond.damage = 1;
-  const std::size_t wall = std::size_t(model.bonds[0].membrane);
+  const std::size_t wall = std::size_t(model.bonds[0].membrane());
   const tissue::NetworkModel& network = model.membranes[wall].sheet.network;
   for (int n = 0; n < int(network.rest.size()); ++n)  // carried away
     set_position(network, state.membranes[wall].network, n, network.rest[std::size_t(n)] + Vec3d{0.1, 0, 0});

@@ -108,7 +108,7 @@ TEST(RawBed, ItsBorderLiesBelowTheSkin) {
 }
 
 TEST(Peeled, AWallIsRawWhereItWasTiedAndHasAPaleRimAroundThat) {
-  const auto membrane = std::size_t(bedded().bonds[0].membrane);
+  const auto membrane = std::size_t(bedded().bonds[0].membrane());
   const std::vector<Vec3d>& places = bedded().membranes[membrane].sheet.network.rest;
   Peeled wall(bedded(), int(membrane), places);
   sim::State state = sim::initial_state(bedded());

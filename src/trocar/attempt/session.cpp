@@ -24,6 +24,7 @@ struct FlagName {
   std::uint32_t bit;
   const char* name;
   const char* warning = nullptr;  ///< what it means for who practises; null: nothing, or the result says it
+  const char* missing = nullptr;  ///< what the result lacks since; null: nothing
 };
 constexpr FlagName kFlags[] = {
     {tissue::StepReport::kNonFinite, "non_finite"},
@@ -35,8 +36,10 @@ constexpr FlagName kFlags[] = {
      "An input device sent a value that is not finite, or chose an instrument that is not in the rack. "
      "That hand did not move."},
     {sim::StepReport::kRecordsFull, "book_full",
-     "No more clips, cuts or wounds can be recorded: further clips are lost, blades do not cut, tears stop growing. "
-     "Restart the exercise."},
+     "No more clips, cuts, wounds or stitches can be recorded: further clips are lost, blades do not cut, tears stop "
+     "growing. Restart the exercise.",
+     "Some clips, cuts, wounds, seals or stitches were not recorded: the list of their kind was full. They are not "
+     "assessed."},
     {sim::StepReport::kHeatFull, "heat_full",
      "No more heated tissue can be computed. The author can raise bricks or awake under energy in the scene."},
     {sim::StepReport::kDropsFull, "drops_full",
@@ -45,7 +48,8 @@ constexpr FlagName kFlags[] = {
     {tissue::StepReport::kBeyondLinear, "beyond_linear",
      "An organ has turned further than its model allows: its forces and its shape are inaccurate."},
     {sim::StepReport::kEventsFull, "events_full",
-     "More happened at one moment than can be counted: some of its events are not assessed."},
+     "More happened at one moment than can be counted: some of its events are not assessed.",
+     "Some events were not recorded: more happened in one millisecond than can be counted. They are not assessed."},
 };
 
 }  // namespace
@@ -192,8 +196,9 @@ std::vector<std::uint8_t> Session::trace_bytes() const { return training::to_byt
 
 void Session::keep_moments() {
   for (const Moment& m : m_moments) {
-    if (m_kept.size() >= kMaxKept) return;
     if (m.what == "closed-empty") continue;
+    m_moments_lost = m_moments_lost || m_kept.size() >= kMaxKept;
+    if (m_moments_lost) return;
     m_kept.push_back({m, {}});
     if (m_kept.size() <= kMaxLooks) m_kept.back().display = sim::display_bytes(m_lesson.model, m_state);
   }
@@ -212,21 +217,14 @@ void Session::add_moment(const char* what, int tool, std::string text) {
 
 namespace {
 
-/// The body that an event is about: clips and cuts are in the State's buffers.
-BodyId body_of(const sim::Event& e, const sim::State& s) {
-  if (e.kind == sim::Event::clipped) return s.clips[size_t(e.index)].body();
-  if (e.kind == sim::Event::cut) return s.cuts[size_t(e.index)].body();
-  return e.body();
-}
-
 /// A scene without hands has no instrument to name: a declaration happens there, too.
 std::string in_words(const sim::Event& e, const sim::Model& model, const sim::State& s) {
   const sim::EventWords& words = sim::words_of(e.kind);
-  const bool by_hand = e.tool >= 0 && size_t(e.tool) < model.hands.size();
-  const std::string tool = by_hand ? model.tool(s, size_t(e.tool)).name : "endoscope";
+  const bool by_hand = e.hand >= 0 && size_t(e.hand) < model.hands.size();
+  const std::string tool = by_hand ? model.tool(s, size_t(e.hand)).name : "endoscope";
   return fmt::format(fmt::runtime(words.text), fmt::arg("tool", tool),
-                     fmt::arg("hand", by_hand ? model.hands[size_t(e.tool)].name : tool),
-                     fmt::arg("body", words.has_body ? sim::name_of(model, body_of(e, s)) : std::string()));
+                     fmt::arg("hand", by_hand ? model.hands[size_t(e.hand)].name : tool),
+                     fmt::arg("body", words.has_body ? sim::name_of(model, e.body) : std::string()));
 }
 
 }  // namespace
@@ -236,7 +234,7 @@ void Session::collect_moments() {
   for (int i = 0; i < m_report.event_count; ++i) {
     const sim::Event& e = m_report.events[i];
     ++m_counts[size_t(e.kind)];
-    if (e.kind != sim::Event::none) add_moment(sim::words_of(e.kind).name, e.tool, in_words(e, model, m_state));
+    if (e.kind != sim::Event::none) add_moment(sim::words_of(e.kind).name, e.hand, in_words(e, model, m_state));
   }
   for (size_t t = 0; t < model.hands.size(); ++t) {
     const interactions::ToolState& tool = m_state.tools[t];
@@ -258,6 +256,18 @@ void Session::collect_moments() {
     m_moments.back().code = error.code;
     m_moments.back().hint = error.hint;
   }
+}
+
+Json Session::not_recorded() const {
+  Json all = Json::array();
+  for (const FlagName& f : kFlags)
+    if ((m_flags & f.bit) && f.missing) all.push_back(tr(f.missing));
+  if (m_moments_lost) all.push_back(tr("Some events were not recorded: the list of moments ends after {}.", kMaxKept));
+  if (m_trace.marks_lost())
+    all.push_back(
+        tr("Some events were not recorded: the motion plots mark only the first {}.", training::kMaxTraceMarks));
+  if (m_trace.full()) all.push_back(tr("The end of the motion was not recorded: there is room for four hours."));
+  return all;
 }
 
 Json Session::result(bool interrupted) const {
@@ -296,6 +306,7 @@ Json Session::result(bool interrupted) const {
     moments.push_back({{"tick", k.moment.tick}, {"what", k.moment.what}, {"text", k.moment.text}});
   r["moments"] = moments;
   r["flags"] = flag_names(m_flags);
+  if (Json missing = not_recorded(); !missing.empty()) r["not_recorded"] = std::move(missing);
   r["tissue_survived"] = !failed;
   r["ticks"] = m_state.tick;
   r["state_hash"] = core::hex(sim::hash_of(m_state));

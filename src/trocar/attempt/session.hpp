@@ -65,6 +65,8 @@ class Session {
   std::uint64_t mark() const;
   double path_length(int tool) const { return m_path[size_t(tool)]; }  ///< of its tip [m]
 
+  /// What the result lacks because a list was full, in sentences; usually empty.
+  Json not_recorded() const;
   /// The whole result as it stands; `interrupted` attempts have not passed.
   Json result(bool interrupted) const;
   /// Ends the recording with the result, on the disk when this returns. Empty, or why that is not so.
@@ -118,6 +120,7 @@ class Session {
   std::array<double, sim::kMaxTools> m_path{};
   std::array<int, std::size(sim::kEventWords) + 1> m_counts{};  ///< by sim::Event::Kind
   std::uint32_t m_flags = 0;
+  bool m_moments_lost = false;       ///< more than kMaxKept
   std::uint64_t m_inverted_for = 0;  ///< ticks in a row in which cells have been pushed open
   std::uint64_t m_inputs_hash = 0;
   std::string m_broken;

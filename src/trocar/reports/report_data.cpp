@@ -319,6 +319,15 @@ Json notices(const Json& result) {
                                      : tr("There were {} messages about storing this attempt.", list.size())}};
 }
 
+/// What was not recorded because a list was full.
+Json missing(const Json& result) {
+  const Json& list = part_of(result, "not_recorded");
+  Json lines = Json::array();
+  for (const Json& line : list)
+    if (line.is_string()) lines.push_back({{"text", line}});
+  return lines;
+}
+
 Json foot(const Report& r) {
   return {{"uuid", r.attempt.uuid},
           {"version", r.attempt.program_version},
@@ -343,6 +352,7 @@ Json page_data(const Report& r) {
           {"verdict", verdict(r)},
           {"interrupted", interrupted ? minutes(r.attempt.seconds) : ""},
           {"failure", text_in(r.result, "failure")},
+          {"missing", missing(r.result)},
           {"score", score(r)},
           {"timeline", timeline(r, part_of(a, "steps"), part_of(a, "errors"))},
           {"steps", steps(r, part_of(a, "steps"))},

@@ -262,4 +262,30 @@ TEST(ThreadKnots, AKnottedThreadIsOverloadedAtItsKnotPullAndInItsKnotAStraightOn
   EXPECT_GT(straight.beside, 4 * stuff.diameter);
 }
 
+/// A straight thread, tied to itself near its beginning, that is held at two places beyond and drawn apart there.
+TEST(ThreadKnots, AKnotOutsideOfThePulledStretchWeakensNothing) {  // [knot pull]
+  const ThreadStuff stuff = find_thread("3-0", "PDS")->stuff;
+  const ThreadModel m = build({.stuff = stuff, .length = 0.15, .gravity = {0, 0, 0}, .most_solves = 32});
+  const std::vector<Vec3d> path{{0, 0, 0}, {0.15, 0, 0}};
+  const auto overloads_at = [&](double held_from) {
+    ThreadState s = laid(m, path);
+    ThreadWork w = make_work(m);
+    tie(m, s, 0, 0.010, 0.012);
+    take_hold(m, s, 0, held_from), take_hold(m, s, 1, m.length);
+    Hold holds[2];
+    HoldReaction pulls[2];
+    holds[0].x = {held_from, 0, 0}, holds[1].x = s.x.back();
+    for (int k = 0; k < 12000; ++k) {
+      holds[1].x.x += 2e-5;
+      const ThreadReport report = advance(m, {.holds = holds}, {.holds = pulls}, s, w);
+      if (report.flags & ThreadReport::kOverloaded) return std::fabs(pulls[1].force.x);
+    }
+    return 0.0;
+  };
+  expect_ratio("pull that overloads it beyond its knot, over its breaking force", overloads_at(0.05), stuff.break_force,
+               0.05);
+  expect_ratio("pull that overloads it with the knot in the pulled stretch, over the knot pull", overloads_at(0),
+               stuff.knotted_break_force, 0.05);
+}
+
 }  // namespace

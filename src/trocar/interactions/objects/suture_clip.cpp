@@ -67,19 +67,20 @@ void gather_thread(const SutureModel& m, const SutureState& s, const ToolModel& 
   });
 }
 
-bool clip_thread(const SutureModels& models, const ToolModel& tool, const ToolShape& shape, std::int32_t number,
-                 Suture::States& states, Clip& clip) noexcept {
+ThreadClipping clip_thread(const SutureModels& models, const ToolModel& tool, const ToolShape& shape,
+                           std::int32_t number, Suture::States& states, Clip& clip) noexcept {
   Legs most;
   size_t on = 0;
   for (size_t i = 0; i < states.size(); ++i) {
     const Legs legs = between_legs(models.list[i], states[i], tool, shape);
     if (legs.count > most.count) most = legs, on = i;
   }
-  if (most.count == 0) return false;
+  if (most.count == 0) return ThreadClipping::no_thread;
   const suture::ThreadModel& thread = models.list[on].thread;
   suture::ThreadState& state = states[on].thread;
   const Vec3d axis = shape.frame.axis(), open = shape.frame.opening();
-  if (!suture::set_clip(thread, state, number, {most.s.data(), size_t(most.count)}, axis, open)) return false;
+  if (!suture::set_clip(thread, state, number, {most.s.data(), size_t(most.count)}, axis, open))
+    return ThreadClipping::no_room;
   const size_t e = size_t(suture::place_at(thread, most.s[0]).element);
   const Vec3d along = normalised(state.x[e + 1] - state.x[e]);
   clip.vessel = -std::int32_t(on) - 1;
@@ -87,7 +88,7 @@ bool clip_thread(const SutureModels& models, const ToolModel& tool, const ToolSh
   clip.cover = 1;
   clip.theta = portable::acos(std::min(1.0, std::fabs(dot(shape.frame.normal(), along))));
   clip.reach = from_bend(tool, 0.5 * (most.along[0] + most.along[size_t(most.count) - 1]));
-  return true;
+  return ThreadClipping::set;
 }
 
 const suture::ThreadClip* thread_clip(const Suture::States& states, const Clip& clip, std::int32_t number) noexcept {

@@ -105,8 +105,14 @@ class Sewing {
     const double pulled_apart = looped ? m_state.sling.knot : r.weakest;
     suture::cut(m_model.thread, m_state.thread, crushed ? (hardest->a + 0.5) * m_model.thread.spacing : pulled_apart);
     m_state.broken = 1;
-    m_report.broken = id();
+    m_report.add(BrokenThread{id(), crushed ? hand_of_obstacle(hardest->b) : -1});
     m_state.strained = m_state.crushed = 0;
+  }
+
+  /// Whose instrument that is; -1: the needle.
+  std::int32_t hand_of_obstacle(std::int32_t slot) const noexcept {
+    const std::int32_t hand = slot / kRodSlots;
+    return size_t(hand) < m_all.pinches.size() ? hand : -1;
   }
 
   double drag(const SutureHole& h) const noexcept { return m_models.of(h.at.body).drag * kTrackApart; }
@@ -215,7 +221,7 @@ class Sewing {
 
   bool add_hole(SutureHole::Kind kind, const MaterialPoint& at) noexcept {
     if (m_state.hole_count == kMostHoles) {
-      m_report.overflowed = true;
+      m_report.records_full = true;
       return false;
     }
     SutureHole& h = m_state.holes[size_t(m_state.hole_count++)];
@@ -230,7 +236,7 @@ class Sewing {
     SutureTouch& t = m_state.touch;
     if (t.kind == SutureTouch::outside) {
       if (m_state.bite_count == kMostBites || m_state.hole_count == kMostHoles) {
-        m_report.overflowed = true;
+        m_report.records_full = true;
         return;
       }
       SutureBite& bite = m_state.bites[size_t(m_state.bite_count++)];
@@ -427,7 +433,7 @@ class Sewing {
     const NearSkin skin = nearest_skin(m_bodies, h.at.body, to, kSkinNear);
     h.at = attach(m_bodies, h.at.body, in_fold && skin.there() ? skin.point : to);
     h.way += float(way);
-    if (in_fold ? !skin.there() || skin.distance > kOffEdge : is_out(h)) tear_out(h.bite);
+    if (in_fold ? !skin.there() || skin.distance > kOffEdge : is_out(h)) tear_out(h);
   }
   /// Of a body: by a place on the bite's way in it. Between entry and exit, where it is too short to have one.
   bool is_out(const SutureHole& h) const noexcept {
@@ -447,11 +453,10 @@ class Sewing {
     const NearSkin skin = nearest_skin(m_bodies, h.at.body, way, kSkinNear);
     return !skin.there() || skin.distance > 0;
   }
-  void tear_out(std::int32_t number) noexcept {
-    SutureBite& bite = m_state.bites[size_t(number)];
+  void tear_out(const SutureHole& h) noexcept {
+    SutureBite& bite = m_state.bites[size_t(h.bite)];
     bite.stage = SutureBite::torn;
-    m_report.torn = bite.body;
-    m_report.torn_by = id();
+    m_report.add(TornStitch{bite.body, id(), place_of(m_bodies, h.at), length(vector_of(h.force))});
     ++m_state.torn;
   }
   void end_bites() noexcept {

@@ -6,6 +6,8 @@
 // thread's: a few of each bite, as the thread's own friction makes up for the others.
 #pragma once
 
+#include <array>
+
 #include <trocar/interactions/objects/suture.hpp>
 
 namespace trocar::interactions {
@@ -24,12 +26,36 @@ inline std::array<float, 3> array_of(Vec3d v) noexcept { return {float(v.x), flo
 /// Does that part of the needle, or of the thread, lie in the body, by the holes that it goes through?
 bool goes_through(const SutureModel& m, const SutureState& s, BodyId body, double arc, bool needle) noexcept;
 
-/// What needs telling of a tick.
+/// A stitch that was torn out of a body.
+struct TornStitch {
+  BodyId body, suture;
+  Vec3d at;         ///< the hole that was cut out [m]
+  double pull = 0;  ///< of the thread there [N]
+};
+/// A thread that was pulled apart, or crushed between instruments.
+struct BrokenThread {
+  BodyId suture;
+  std::int32_t crushed_by = -1;  ///< a hand; -1: it was pulled apart
+};
+inline constexpr int kMostSewn = 8;  ///< stitches, and threads, that a tick reports
+
+/// What happened in a tick.
 struct SewnReport {
-  BodyId bad;            ///< a suture that is not finite any more
-  BodyId torn, torn_by;  ///< a body that a stitch was torn out of, and the suture
-  BodyId broken;         ///< a suture whose thread was pulled apart or crushed
-  bool overflowed = false;
+  BodyId bad;  ///< a suture that is not finite any more
+  std::array<TornStitch, kMostSewn> torn;
+  std::array<BrokenThread, kMostSewn> broken;
+  std::int32_t torn_count = 0, broken_count = 0;
+  bool records_full = false;  ///< no room for another hole or bite: the needle does not go in
+  bool events_lost = false;   ///< more than kMostSewn
+
+  void add(const TornStitch& stitch) noexcept {
+    events_lost = events_lost || torn_count == kMostSewn;
+    if (torn_count < kMostSewn) torn[size_t(torn_count++)] = stitch;
+  }
+  void add(const BrokenThread& thread) noexcept {
+    events_lost = events_lost || broken_count == kMostSewn;
+    if (broken_count < kMostSewn) broken[size_t(broken_count++)] = thread;
+  }
 };
 SewnReport sew(const SutureModels& models, const Bodies& bodies, Vec3d gravity, double dt, const tissue::Box& cavity,
                Suture::States& states, SutureWorks& work) noexcept;

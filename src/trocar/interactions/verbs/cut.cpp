@@ -25,7 +25,11 @@ int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_ind
     const StrandBody& body = bodies.strand(s);
     tissue::StrandState& state = strand_states[s];
     const auto [element, where, fraction] = between_blades(model, shape, body, state);
-    if (element < 0 || book.count == kMaxCuts) continue;
+    if (element < 0) continue;
+    if (book.count == kMaxCuts) {  // what cannot be recorded is not cut
+      if (book.refused) *book.refused = true;
+      continue;
+    }
     Cut& cut = book.cuts[size_t(book.count++)];
     cut = {};
     cut.strand = std::int32_t(s);

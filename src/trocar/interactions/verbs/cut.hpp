@@ -14,6 +14,7 @@ namespace trocar::interactions {
 struct CutBook {
   std::span<Cut> cuts;  ///< kMaxCuts
   std::int32_t& count;
+  bool* refused = nullptr;  ///< becomes true where a strand was not cut because there was no room for its record
 };
 
 /// A cross-section counts as cut through from this fraction on.

@@ -78,7 +78,7 @@ void cut_through(StepContext& c, SlingState& g, SlingAround& a) noexcept {
   a.cutting = 0;
   if (!c.state.strands[strand.index].alive[std::size_t(a.element)]) return;
   open_vessels(c, strand.id(), cut(c, strand, a.element), g.hand);
-  emit_event(c, Event::loop_cut, std::max(0, g.hand), strand.id());
+  emit_event(c, Event::on_body(Event::loop_cut, g.hand, strand.id()));
   g.was_closed = 0;
 }
 
@@ -89,16 +89,16 @@ void watch(StepContext& c, SlingState& g) noexcept {
     if (a.squeeze > kTightFrom && has_sunk_in(c.model.strand_bodies[std::size_t(a.strand)], a)) is |= kWasTight;
     if (cover_at(c, a) >= kLoopCloses) {
       if (!(g.was_closed & kWasClosed))
-        emit_event(c, Event::loop_tightened, std::max(0, g.hand), BodyId::strand(std::size_t(a.strand)));
+        emit_event(c, Event::on_body(Event::loop_tightened, g.hand, BodyId::strand(std::size_t(a.strand))));
       is |= kWasClosed;
     }
     g.last = a.strand;
     if (a.cutting >= kCutsAfter) return cut_through(c, g, a);
   }
   if (g.was_closed != 0 && g.around_count == 0 && g.last >= 0)
-    emit_event(c, Event::loop_slipped, std::max(0, g.hand), BodyId::strand(std::size_t(g.last)));
+    emit_event(c, Event::on_body(Event::loop_slipped, g.hand, BodyId::strand(std::size_t(g.last))));
   if ((g.was_closed & kWasClosed) && !(is & kWasClosed) && g.around_count > 0)
-    emit_event(c, Event::loop_loosened, std::max(0, g.hand), BodyId::strand(std::size_t(g.last)));
+    emit_event(c, Event::on_body(Event::loop_loosened, g.hand, BodyId::strand(std::size_t(g.last))));
   g.was_closed = is;
 }
 

@@ -20,10 +20,19 @@ void see_again(StepContext& c) noexcept {
     c.work.membranes[i].sheet.surface.nodes = view_of(c.model.membranes[i].sheet.network, c.state.membranes[i].network);
 }
 
-/// Whose pull it was: of a loop at the end of its tube that of the hand that has it.
-int breaker(const StepContext& c, BodyId broken) noexcept {
-  const std::int32_t leads = interactions::part_of<Suture>(c.state)[broken.index()].sling.hand;
-  return leads >= 0 ? leads : culprit(c.model, c.state, {broken});
+/// Stitches that were torn out, threads that broke.
+void emit_sewn(StepContext& c, const interactions::SewnReport& r) noexcept {
+  for (int i = 0; i < r.torn_count; ++i) {
+    const interactions::TornStitch& t = r.torn[size_t(i)];
+    emit_event(c, Event::on_body(Event::torn, culprit(c, {t.body, t.at, t.suture, t.pull}), t.body));
+  }
+  for (int i = 0; i < r.broken_count; ++i) {
+    const interactions::BrokenThread& b = r.broken[size_t(i)];
+    const int hand = b.crushed_by >= 0 ? b.crushed_by : breaker_of(c, b.suture);
+    emit_event(c, Event::on_body(Event::thread_broken, hand, b.suture));
+  }
+  if (r.events_lost) c.report.flags |= StepReport::kEventsFull;
+  if (r.records_full) c.report.flags |= StepReport::kRecordsFull;
 }
 
 }  // namespace
@@ -42,9 +51,7 @@ void step_sutures(StepContext& c) noexcept {
   const interactions::SewnReport r =
       interactions::sew(interactions::part_of<Suture>(c.model), bodies_of(c), c.model.gravity, kTick, c.model.cavity,
                         interactions::part_of<Suture>(c.state), interactions::part_of<Suture>(c.work));
-  if (r.overflowed) c.report.flags |= StepReport::kTooManyLoads;
-  if (r.torn.exists()) emit_torn(c, culprit(c.model, c.state, {r.torn_by, r.torn}), r.torn);
-  if (r.broken.exists()) emit_event(c, Event::thread_broken, breaker(c, r.broken), r.broken);
+  emit_sewn(c, r);
   watch_slings(c);
   if (!r.bad.exists() || c.report.first_bad_body.exists()) return;
   c.report.flags |= tissue::StepReport::kNonFinite;
@@ -57,13 +64,15 @@ void cut_threads(StepContext& c, std::size_t hand) noexcept {
   Suture::States& states = interactions::part_of<Suture>(c.state);
   for (std::size_t i = 0; i < states.size(); ++i)
     if (interactions::cut_thread(list[i], c.model.tool(c.state, hand), c.work.shapes[hand], states[i]))
-      emit_event(c, Event::thread_cut, int(hand), BodyId(BodyKind::suture, i));
+      emit_event(c, Event::on_body(Event::thread_cut, int(hand), BodyId(BodyKind::suture, i)));
 }
 
 void clip_threads(StepContext& c, std::size_t hand, int clip) noexcept {
   if (!has_sutures(c)) return;
-  interactions::clip_thread(interactions::part_of<Suture>(c.model), c.model.tool(c.state, hand), c.work.shapes[hand],
-                            clip, interactions::part_of<Suture>(c.state), c.state.clips[std::size_t(clip)]);
+  const auto clipped = interactions::clip_thread(interactions::part_of<Suture>(c.model), c.model.tool(c.state, hand),
+                                                 c.work.shapes[hand], clip, interactions::part_of<Suture>(c.state),
+                                                 c.state.clips[std::size_t(clip)]);
+  if (clipped == interactions::ThreadClipping::no_room) c.report.flags |= StepReport::kRecordsFull;
 }
 
 void slip_in_jaws(StepContext& c, std::size_t hand) noexcept {

@@ -69,6 +69,7 @@ void open_bleeder(StepContext& c) noexcept {
   const Bleeder& b = c.model.vessels.bleeder;
   if (b.vessel < 0 || c.state.tick != b.tick) return;
   interactions::VesselOpening* o = opening_at(c, b.vessel, b.s);
+  if (!o) c.report.flags |= StepReport::kRecordsFull;
   if (!o || o->through) return;
   o->area = std::max(o->area, b.area);
   o->tool = -1;

@@ -1,6 +1,7 @@
 // Report of a tick: its events, and flags for what went wrong.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -10,7 +11,10 @@
 
 namespace trocar::sim {
 
-struct Event {
+/// Something that happened in a tick. Each field has one meaning; a field that this kind of event does not have keeps
+/// its default. An Event is made by the maker of its kind's content: a kind of another content does not compile.
+class Event {
+ public:
   enum Kind : std::int32_t {
     none,
     grasped,
@@ -32,17 +36,58 @@ struct Event {
     thread_cut,
     thread_broken,
     clip_blocked
-  } kind = none;
-  std::int32_t tool = 0;  ///< the hand; of torn and thread_broken -1: no hand caused it
-  /// The clip's or the cut's number in the State's buffer; grasped: the body held (BodyId::code);
-  /// parted: the body that current has cut, likewise; torn, thread_broken: the body that gave way, likewise, under the
-  /// hand that pulls or presses most (culprit.hpp); exchanged: the new instrument's number in the rack;
-  /// released, slipped, declared and clip_blocked: -1; pierced, injected: the organ that a needle has gone into or is
-  /// about to fill.
-  std::int32_t index = 0;
+  };
+  /// What an event of a kind holds beside its hand.
+  enum class Content { hand_only, body, record, instrument };
+  static constexpr Content content_of(Kind kind) noexcept {
+    switch (kind) {
+      case clipped:
+      case dropped_clip:
+      case cut:
+        return Content::record;
+      case exchanged:
+        return Content::instrument;
+      case none:
+      case released:
+      case slipped:
+      case declared:
+      case clip_blocked:
+        return Content::hand_only;
+      default:
+        return Content::body;
+    }
+  }
 
-  /// The body that `index` says, of a kind of event that says one.
-  BodyId body() const noexcept { return BodyId::of_code(index); }
+  /// A kind with that content: a constant of any other kind does not convert to it.
+  template <Content content>
+  struct KindWith {
+    Kind kind;
+    consteval KindWith(Kind k) : kind(k) {
+      if (k == none || content_of(k) != content) throw "an event of this kind has another content";
+    }
+  };
+
+  Event() = default;
+  static Event of_hand(KindWith<Content::hand_only> kind, int hand) noexcept { return {kind.kind, hand, {}, -1, -1}; }
+  /// @param hand  -1: no hand caused it  @param body  that it happened to
+  static Event on_body(KindWith<Content::body> kind, int hand, BodyId body) noexcept {
+    return {kind.kind, hand, body, -1, -1};
+  }
+  /// @param record  the clip's or the cut's number in the State's buffer  @param body  that it is on; none: dropped
+  static Event recorded(KindWith<Content::record> kind, int hand, int record, BodyId body) noexcept {
+    return {kind.kind, hand, body, record, -1};
+  }
+  /// @param instrument  the new instrument's number in the hand's rack
+  static Event exchange(int hand, int instrument) noexcept { return {exchanged, hand, {}, -1, instrument}; }
+
+  Kind kind = none;
+  std::int32_t hand = -1;        ///< that did it; -1: no hand caused it (torn, thread_broken, loops)
+  BodyId body;                   ///< that it happened to; of injected the organ that a needle is about to fill
+  std::int32_t record = -1;      ///< a clip's or a cut's number in the State's buffer
+  std::int32_t instrument = -1;  ///< a number in the hand's rack
+
+ private:
+  Event(Kind k, int h, BodyId b, int r, int i) noexcept : kind(k), hand(h), body(b), record(r), instrument(i) {}
 };
 
 /// A kind of event in words. A new kind of event is one line above and one here.
@@ -89,6 +134,11 @@ inline constexpr EventWords kEventWords[] = {
 };
 /// Of a kind that is not Event::none.
 constexpr const EventWords& words_of(Event::Kind kind) noexcept { return kEventWords[std::size_t(kind) - 1]; }
+static_assert(std::all_of(std::begin(kEventWords), std::end(kEventWords), [](const EventWords& e) {
+  const Event::Content content = Event::content_of(e.kind);
+  return &words_of(e.kind) == &e &&
+         (content == Event::Content::body ? e.has_body : content == Event::Content::record || !e.has_body);
+}));
 inline constexpr int kMaxEvents = 24, kRoomForTears = 8;  ///< all; of those, only for tears
 
 /// Report of a tick. Flags of tissue::StepReport keep their meaning; the others are the step's own.
@@ -97,8 +147,8 @@ struct StepReport {
     kTooManyLoads = 1u << 16,  ///< contacts did not fit the reserved capacity: some were left out this tick
     kBadInput =
         1u << 17,  ///< an input was not finite (that hand stayed), or its instrument not in the rack (not exchanged)
-    kRecordsFull = 1u << 18,  ///< the buffer of clips or cuts, or an organ's own for cuts, is full: clips are lost,
-                              ///< blades no longer cut, tears open no further
+    kRecordsFull = 1u << 18,  ///< a record found no room (clips, cuts, openings, seals, stitches, an organ's own for
+                              ///< cuts): clips are lost, blades no longer cut, tears open no further
     kBloodFlow = 1u << 19,    ///< blood flow found no solution and was not advanced; restore a State
     kHeatFull = 1u << 22,     ///< no room for more heated tissue: raise "bricks" or "awake" of the scene's energy
     kEventsFull = 1u << 21,   ///< more happened in a tick than a report holds: some events are missing

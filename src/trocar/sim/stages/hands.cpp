@@ -49,7 +49,7 @@ void change_instrument(StepContext& c, size_t t, std::int32_t wanted) noexcept {
   const size_t each = c.state.sheet_side.size() / c.model.hands.size(), membranes = c.model.membranes.size();
   std::fill_n(c.state.sheet_side.begin() + std::ptrdiff_t(t * each), each, Vec3f{});
   std::fill_n(c.state.sheet_bond.begin() + std::ptrdiff_t(t * membranes), membranes, interactions::SheetBond::none);
-  emit_event(c, Event::exchanged, int(t), wanted);
+  emit_event(c, Event::exchange(int(t), wanted));
 }
 
 /// What would go into walls stays at them.
@@ -124,7 +124,7 @@ void move_hand(StepContext& c, size_t t) noexcept {
 /// Once for as long as the key is held.
 void hear_declaration(StepContext& c) noexcept {
   const bool declares = (c.input.pedals & kDeclare) != 0;
-  if (declares && !c.state.declaring) emit_event(c, Event::declared, 0, -1);
+  if (declares && !c.state.declaring) emit_event(c, Event::of_hand(Event::declared, 0));
   c.state.declaring = declares;
 }
 

@@ -120,7 +120,7 @@ void go_in(StepContext& c, size_t hand, NeedleHand& n) noexcept {
   n.here = n.blood = 0;
   n.drawn_for = 0;
   ++n.punctures;
-  emit_event(c, Event::pierced, int(hand), n.entry.body);
+  emit_event(c, Event::on_body(Event::pierced, int(hand), n.entry.body));
 }
 
 /// The point at a skin that it has not pierced.
@@ -229,7 +229,7 @@ void push(StepContext& c, size_t hand, const interactions::NeedleModel& needle, 
   n.plunger = p.force;
   const std::int64_t out = std::min(n.left, fluids::whole_picolitres(p.flow, kTick, n.carry));
   book(c, hand, out, p.back > 0 ? std::int64_t(double(out) * (p.back / p.flow)) : 0, needle, n);
-  if (n.in() && p.flow > 0 && !n.pushing) emit_event(c, Event::injected, int(hand), n.entry.body);
+  if (n.in() && p.flow > 0 && !n.pushing) emit_event(c, Event::on_body(Event::injected, int(hand), n.entry.body));
   n.pushing = p.flow > 0 ? 1 : 0;
 }
 

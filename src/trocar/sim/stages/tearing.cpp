@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <trocar/sim/bodies/bodies.hpp>
 #include <trocar/sim/model/culprit.hpp>
 #include <trocar/sim/stages/circulation.hpp>
@@ -13,9 +15,19 @@ void let_go(StepContext& c, BodyId body) noexcept {
     if (tool.holds == 0 || tool.hold[0].body != body) continue;
     tool.holds = 0;
     for (double& p : tool.pull) p = 0;
-    if (c.report.event_count < kMaxEvents)
-      c.report.events[c.report.event_count++] = {Event::released, std::int32_t(t), -1};
+    emit_event(c, Event::of_hand(Event::released, int(t)));
   }
+}
+
+/// The middle of what has opened.
+Vec3d middle_of(const StepContext& c, BodyId body, const Parting& tear) noexcept {
+  if (body.is(BodyKind::strand)) {
+    const std::vector<Vec3d>& x = c.state.strands[body.index()].x;
+    return 0.5 * (x[size_t(tear.element)] + x[size_t(tear.element) + 1]);
+  }
+  Vec3d sum;
+  for (int i = 0; i < tear.blade.corners; ++i) sum += tear.blade.corner[size_t(i)];
+  return sum / std::max(1, tear.blade.corners);
 }
 
 /// @return whether it tore
@@ -25,7 +37,8 @@ bool tear_body(StepContext& c, Body body) noexcept {
   const Parting tear_of_it = tear(c, body);
   if (!tear_of_it.parted) return false;
   open_vessels(c, body.id(), tear_of_it, -1);
-  emit_torn(c, culprit(c.model, c.state, {body.id()}), body.id());
+  const int hand = culprit(c, {body.id(), middle_of(c, body.id(), tear_of_it)});
+  emit_event(c, Event::on_body(Event::torn, hand, body.id()));
   return true;
 }
 

@@ -65,7 +65,7 @@ void stop_at_clips(StepContext& c, std::size_t t) noexcept {
   if (tool.aperture >= stop) return;
   tool.aperture = stop;
   c.work.shapes[t] = shape_of(c.model, c.state, t);
-  if (tool.armed == kArmed) emit_event(c, Event::clip_blocked, int(t), -1);
+  if (tool.armed == kArmed) emit_event(c, Event::of_hand(Event::clip_blocked, int(t)));
   tool.armed = kBlocked;
 }
 
@@ -79,10 +79,12 @@ void Clipping::work(StepContext& c, std::size_t t) noexcept {
   const bool fired = update_clip_applier(c.model.tool(s, t), c.work.shapes[t], int(t), bodies_of(c), s.strands,
                                          jaw_tips_visible(c.model, s, int(t)), s.tick, tool, {s.clips, s.clip_count});
   if (fired) {
-    const int clip = s.clip_count - 1;
-    clip_vessels(c, t, clip);
-    if (s.clips[size_t(clip)].dropped()) clip_threads(c, t, clip);
-    emit_event(c, s.clips[size_t(clip)].dropped() ? Event::dropped_clip : Event::clipped, int(t), clip);
+    const int number = s.clip_count - 1;
+    const interactions::Clip& clip = s.clips[size_t(number)];
+    clip_vessels(c, t, number);
+    if (clip.dropped()) clip_threads(c, t, number);
+    emit_event(c, clip.dropped() ? Event::recorded(Event::dropped_clip, int(t), number, {})
+                                 : Event::recorded(Event::clipped, int(t), number, clip.body()));
   } else if (tool.clips_left < clips) {
     c.report.flags |= StepReport::kRecordsFull;
   }

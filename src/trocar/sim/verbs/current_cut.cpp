@@ -79,7 +79,7 @@ void part_tissue(StepContext& c, size_t t, const ElectrodeTouch& touch) noexcept
   hand.parted_body = body;
   hand.parted = touch.contact.a;
   if (visit(c.model, body, false, [&](auto ref) { return part(c, t, touch, ref); }))
-    emit_event(c, Event::parted, int(t), body);
+    emit_event(c, Event::on_body(Event::parted, int(t), body));
 }
 
 }  // namespace trocar::sim

@@ -30,14 +30,18 @@ bool blades_near(const StepContext& c, size_t t, size_t organ, double margin) no
   return c.work.organs[organ].pose.bounds.near_segment(shape.pivot, shape.frame.tip, margin);
 }
 
-/// What cannot be recorded is not cut.
-bool book_is_full(const StepContext& c) noexcept { return c.state.cut_count == interactions::kMaxCuts; }
+/// What cannot be recorded is not cut, and reported: blades are at something that they would cut.
+bool has_no_room(StepContext& c, int place) noexcept {
+  if (place < interactions::kMaxCuts) return false;
+  c.report.flags |= StepReport::kRecordsFull;
+  return true;
+}
 
 /// Blades that have just closed sever springs of lattices.
 void cut_lattices(StepContext& c, size_t t) noexcept {
   const geometry::Blade blade = interactions::closed_blades(c.model.tool(c.state, t), c.work.shapes[t]);
   visit_solids(c.model, [&](SolidRef solid) {
-    if (book_is_full(c) || !blades_near(c, t, solid.organ(), 0.005)) return;
+    if (!blades_near(c, t, solid.organ(), 0.005) || has_no_room(c, c.state.cut_count)) return;
     if (cut(c, solid, blade).parted) record_organ_cut(c, t, solid.organ());
   });
 }
@@ -45,7 +49,8 @@ void cut_lattices(StepContext& c, size_t t) noexcept {
 /// Closing blades part the cells of organs that can be cut.
 void cut_cuttables(StepContext& c, size_t t, const geometry::Blade& blade) noexcept {
   visit_cuttables(c.model, [&](CuttableRef organ) {
-    if (book_is_full(c) || !blades_near(c, t, organ.organ(), c.model.tool(c.state, t).jaw_length)) return;
+    if (!blades_near(c, t, organ.organ(), c.model.tool(c.state, t).jaw_length)) return;
+    if (has_no_room(c, c.state.cut_count)) return;
     const Parting parting = cut(c, organ, blade);
     if (parting.moved > 0) pose_again(c, organ);  // nodes have moved to the blade
     if (!parting.parted) return;
@@ -74,7 +79,7 @@ void cut_folds(StepContext& c, size_t t, const geometry::Blade& blade, bool clos
     if (m.sheet.closed() != closed_walls) return;
     if (!m.cuttable || !c.work.membranes[r.index].pose.bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) return;
     const int place = place_in_buffer(s, t, m.strand);
-    if (place == interactions::kMaxCuts) return;  // what cannot be recorded is not cut
+    if (has_no_room(c, place)) return;
     const Parting fold = cut(c, r, blade);
     if (!fold.parted) return;
     if (closed_walls) open_vessels(c, r.id(), fold, int(t));
@@ -123,8 +128,10 @@ void Cutting::work(StepContext& c, std::size_t t) noexcept {
   const int before = s.cut_count;
   cut_flesh(c, t);
   const bool armed = tool.armed != 0;
+  bool refused = false;
   update_scissors(model, c.work.shapes[t], int(t), bodies_of(c), s.strands, jaw_tips_visible(c.model, s, int(t)),
-                  s.tick, tool, {s.cuts, s.cut_count});
+                  s.tick, tool, {s.cuts, s.cut_count, &refused});
+  if (refused) c.report.flags |= StepReport::kRecordsFull;
   if (armed && !tool.armed) {
     cut_threads(c, t);
     cut_lattices(c, t);
@@ -132,9 +139,9 @@ void Cutting::work(StepContext& c, std::size_t t) noexcept {
     cut_folds(c, t, blade, false);
     open_with_strands(c, t, before);
     open_vessels(c, blade, {}, int(t));
-    if (s.cut_count == interactions::kMaxCuts) c.report.flags |= StepReport::kRecordsFull;
   }
-  for (int cut = before; cut < s.cut_count; ++cut) emit_event(c, Event::cut, int(t), cut);
+  for (int cut = before; cut < s.cut_count; ++cut)
+    emit_event(c, Event::recorded(Event::cut, int(t), cut, s.cuts[size_t(cut)].body()));
 }
 
 bool Cutting::sound(const Model& model, const interactions::Cut& cut) noexcept {

@@ -1,8 +1,10 @@
 // Figures by United States Pharmacopeia size. Diameters are the middle of the permitted range; mass, EA and EI of the
 // makes are those of the solid (PDS, E = 1.5 GPa) or of a braid (9 GPa along it, a thirtieth of a solid's bending).
-// A knotted thread bears at least the pharmacopeia's knot pull; a straight one about 1/0.6 of it. PDS yields at 5 % of
-// strain on its outside; in a braid fibres slide from a third of that curvature on. Friction: Johanns et al. 2023 for
-// thread on thread; braid rubs more than monofilament.
+// A knotted thread bears the pharmacopeia's knot pull: the least mean of its monograph for synthetic absorbable sutures
+// (3-0: 1.77 kgf = 17.4 N), measured as in its chapter 881. The same figures for silk and polyester are our estimate:
+// the monograph for nonabsorbable sutures asks for less. A straight thread bears about 1/0.6 of it. PDS yields at 5 %
+// of strain on its outside; in a braid fibres slide from a third of that curvature on. Friction: Johanns et al. 2023
+// for thread on thread; braid rubs more than monofilament.
 #include <trocar/suture/thread/sizes.hpp>
 
 namespace trocar::suture {

@@ -16,7 +16,9 @@ constexpr int kCalmTicks = 200;       ///< after which a thread that is still sl
 constexpr double kStillSpeed = 1e-6;  ///< [m/s]
 constexpr double kForgotten = 0.02;   ///< share of a tick that is not worth another solve
 constexpr double kKnotPress =
-    0.25;  ///< of its pull: where thread presses harder on itself, it is knotted. Our estimate
+    0.25;                           ///< of its pull: where thread presses harder on itself, it is knotted. Our estimate
+constexpr double kBesideKnot = 20;  ///< [diameters] of thread to each side of a knot's middle: the pull on the knot is
+                                    ///< the greatest there. Longer than a knot of four throws. Our estimate
 
 /// The share of what is left that the next solve takes.
 void choose_part(Tick& t) {
@@ -119,9 +121,18 @@ void clear(const ThreadReactions& out) {
   std::fill(out.passages.begin(), out.passages.end(), PassageReaction{});
 }
 
+/// The greatest tension beside a place of the thread [N]. @param s  of the place [m]
+double pull_beside(const Tick& t, double s) {
+  const int at = place_at(t.m, s).element, reach = int(kBesideKnot * t.m.stuff.diameter / t.m.spacing) + 1;
+  double most = 0;
+  for (int e = std::max(0, at - reach); e < std::min(t.m.nodes - 1, at + reach + 1); ++e)
+    most = std::max(most, tension(t.m, t.s, e));
+  return most;
+}
+
 /// Where it is knotted: two of its places are tied, or it is bent about itself and pressed there; below 0: nowhere.
 /// Stretches that lie on each other without a load weaken neither.                                              [m]
-double knot_of(const Tick& t, double pull) {
+double knot_at(const Tick& t, double pull) {
   for (const TieState& tie : t.s.ties)
     if (tie.active) return tie.t;
   const auto end = t.w.self.begin() + t.self;
@@ -130,10 +141,17 @@ double knot_of(const Tick& t, double pull) {
   return hardest != end && hardest->press > kKnotPress * pull ? (hardest->a + 0.5) * t.m.spacing : -1;
 }
 
+/// A knot that is pulled with more than its thread bears there, knotted; below 0: none. A knot elsewhere along the
+/// thread weakens nothing. [m]
+double overloaded_knot(const Tick& t, double pull) {
+  const double knot = knot_at(t, pull);
+  return knot >= 0 && pull_beside(t, knot) > t.m.stuff.knotted_break_force ? knot : -1;
+}
+
 /// A straight thread bears its breaking force, a knotted one its knot pull strength, and parts at the knot. [knot pull]
 void report_weakest(const Tick& t, ThreadReport& report) {
   if (!(report.tension > t.m.stuff.knotted_break_force)) return;
-  const double knot = knot_of(t, report.tension);
+  const double knot = overloaded_knot(t, report.tension);
   if (knot < 0 && !(report.tension > t.m.stuff.break_force)) return;
   report.flags |= ThreadReport::kOverloaded;
   if (knot >= 0) report.weakest = knot;

@@ -20,7 +20,7 @@ class Blind final : public EventDetector {
   }
   void tick(const Snapshot&, const sim::StepReport& report, EventInstances&) override {
     for (int i = 0; i < report.event_count; ++i)
-      if (report.events[i].kind == sim::Event::exchanged) m_watch.exchanged(report.events[i].tool);
+      if (report.events[i].kind == sim::Event::exchanged) m_watch.exchanged(report.events[i].hand);
   }
   void sample(const Snapshot& snapshot, double dt, EventInstances& out) override {
     std::array<Vec3d, sim::kMaxTools> now{};

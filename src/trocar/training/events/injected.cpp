@@ -13,9 +13,9 @@ class Injected final : public EventDetector {
     for (int i = 0; i < report.event_count; ++i) {
       const sim::Event& e = report.events[i];
       if (e.kind != sim::Event::injected) continue;
-      const sim::NeedleHand& n = snapshot.state.injection.hands[size_t(e.tool)];
-      out.add({e.tool, e.body(), -1, name_of_body(snapshot.model, e.body()),
-               tip_of(snapshot.model, snapshot.state, size_t(e.tool)), n.at});
+      const sim::NeedleHand& n = snapshot.state.injection.hands[size_t(e.hand)];
+      out.add({e.hand, e.body, -1, name_of_body(snapshot.model, e.body),
+               tip_of(snapshot.model, snapshot.state, size_t(e.hand)), n.at});
     }
   }
 };

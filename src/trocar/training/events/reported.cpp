@@ -11,17 +11,16 @@
 namespace trocar::training {
 namespace {
 
-template <sim::Event::Kind kind, bool has_body>
+template <sim::Event::Kind kind>
 class Reported final : public EventDetector {
  public:
   Reported(const sim::Model&, const Arguments&) {}
   void tick(const Snapshot& snapshot, const sim::StepReport& report, EventInstances& out) override {
     for (int i = 0; i < report.event_count; ++i) {
       const sim::Event& e = report.events[i];
-      if (e.kind != kind || e.tool < 0) continue;  // no hand did it
-      const Vec3d tip = tip_of(snapshot.model, snapshot.state, size_t(e.tool));
-      const BodyId body = has_body ? e.body() : kNoBody;
-      out.add({e.tool, body, -1, name_of_body(snapshot.model, body), tip, tip});
+      if (e.kind != kind || e.hand < 0) continue;  // no hand did it
+      const Vec3d tip = tip_of(snapshot.model, snapshot.state, size_t(e.hand));
+      out.add({e.hand, e.body, -1, name_of_body(snapshot.model, e.body), tip, tip});
     }
   }
 };
@@ -34,6 +33,7 @@ class Torn final : public EventDetector {
     if (report.event_count == 0) return;
     Incidents incidents;
     m_watch.update(snapshot.model, snapshot.state, report, incidents);
+    out.lost = out.lost || incidents.lost;
     for (int i = 0; i < incidents.count; ++i) {
       const Incident& m = incidents.list[size_t(i)];
       out.add({m.hand, kNoBody, -1, nullptr, m.where, m.where});
@@ -85,7 +85,7 @@ std::vector<EventKind> reported(std::index_sequence<i...>) {
     const EventKind::Hold of_hold = e.kind == Event::slipped ? EventKind::Hold::before : EventKind::Hold::none;
     out.push_back({e.name, {}, {}, e.meaning, lacks_for(e.needs), watch, e.has_body, of_hold});
   };
-  (add(sim::kEventWords[i], &make_detector<Reported<sim::kEventWords[i].kind, sim::kEventWords[i].has_body>>), ...);
+  (add(sim::kEventWords[i], &make_detector<Reported<sim::kEventWords[i].kind>>), ...);
   return out;
 }
 

@@ -83,10 +83,12 @@ TraceRecorder::TraceRecorder(const sim::Model& model) {
 
 void TraceRecorder::update(const sim::Model& model, const sim::State& state, const sim::StepReport& report) {
   if (m_full) return;
-  for (int e = 0; e < report.event_count && m_trace.marks.size() < kMaxTraceMarks; ++e) {
+  for (int e = 0; e < report.event_count; ++e) {
     const TraceMark::Kind kind = mark_of(report.events[e].kind);
-    const std::int32_t hand = report.events[e].tool;
-    if (kind != TraceMark::kinds && hand >= 0) m_trace.marks.push_back({kind, hand, std::uint32_t(m_trace.size())});
+    const std::int32_t hand = report.events[e].hand;
+    if (kind == TraceMark::kinds || hand < 0) continue;
+    m_marks_lost = m_marks_lost || m_trace.marks.size() == kMaxTraceMarks;
+    if (!m_marks_lost) m_trace.marks.push_back({kind, hand, std::uint32_t(m_trace.size())});
   }
   if (state.tick % kTraceEvery != 0) return;
   const bool first = m_trace.size() == 0;

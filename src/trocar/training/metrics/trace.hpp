@@ -87,13 +87,14 @@ class TraceRecorder {
   void update(const sim::Model& model, const sim::State& state, const sim::StepReport& report);
 
   const Trace& trace() const { return m_trace; }
+  bool marks_lost() const { return m_marks_lost; }  ///< there were more than kMaxTraceMarks
   bool full() const { return m_full; }  ///< four hours are over, or a tick was left out: nothing is added any more
 
  private:
   Trace m_trace;
   std::vector<std::vector<std::int32_t>> m_numbers;  ///< of each hand's rack in Trace::instruments
   std::uint64_t m_next = 0;                          ///< tick of the next sample
-  bool m_full = false;
+  bool m_full = false, m_marks_lost = false;
 };
 
 /// Version, names, columns of differences of integers, checksum: about 1.5 kB a second for three hands.

@@ -48,14 +48,14 @@ void TearWatch::update(const sim::Model& model, const sim::State& state, const s
       core::kTicksPerSecond;  // [ticks] without a tear, after which the next one is another
   for (int i = 0; i < report.event_count; ++i) {
     const sim::Event& e = report.events[i];
-    if (e.kind != sim::Event::torn || e.tool < 0) continue;  // what tears by itself is nobody's
-    const auto known = std::find_if(m_torn.begin(), m_torn.end(), [&e](const Torn& t) { return t.body == e.body(); });
+    if (e.kind != sim::Event::torn || e.hand < 0) continue;  // what tears by itself is nobody's
+    const auto known = std::find_if(m_torn.begin(), m_torn.end(), [&e](const Torn& t) { return t.body == e.body; });
     const bool goes_on = known != m_torn.end() && state.tick - known->tick < kGoesOn;
     if (known == m_torn.end())
-      m_torn.push_back({e.body(), state.tick});
+      m_torn.push_back({e.body, state.tick});
     else
       known->tick = state.tick;
-    if (!goes_on) out.add({Incident::torn, e.tool, tip_of(model, state, size_t(e.tool)), ""});
+    if (!goes_on) out.add({Incident::torn, e.hand, tip_of(model, state, size_t(e.hand)), ""});
   }
 }
 

@@ -38,11 +38,13 @@ struct Incident {
   const char* detail = "";
 };
 
-/// Incidents of one tick; those that do not fit are not reported.
+/// Incidents of one tick.
 struct Incidents {
   std::array<Incident, 16> list;
   int count = 0;
+  bool lost = false;  ///< some did not fit
   void add(const Incident& m) {
+    lost = lost || count == int(list.size());
     if (count < int(list.size())) list[size_t(count++)] = m;
   }
 };
