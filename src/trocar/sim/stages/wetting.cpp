@@ -200,8 +200,7 @@ void apply_drop_impacts(StepContext& c) noexcept {
     const fluids::Impact& hit = c.state.impacts[size_t(i)];
     const interactions::MaterialPoint at = film_point(bodies, c.model.wet.film, order, hit.body, hit.film);
     const Push push(hit);
-    put_load(bodies, at, {.f0 = push.force(velocity_of(bodies, at)), .d = push.drag(), .dir = push.dir},
-             {interactions::Owner::anchor, 0, 0});
+    put_load(bodies, at, {.f0 = push.force(velocity_of(bodies, at)), .d = push.drag(), .dir = push.dir}, {});
   }
 }
 
