@@ -23,10 +23,10 @@
 
 #include <trocar/core/body_id.hpp>
 #include <trocar/core/fields.hpp>
-#include <trocar/interactions/objects/object_hand.hpp>
-#include <trocar/interactions/objects/suture_sling.hpp>
 #include <trocar/interactions/bodies/bodies.hpp>
 #include <trocar/interactions/bodies/material_point.hpp>
+#include <trocar/interactions/objects/object_hand.hpp>
+#include <trocar/interactions/objects/suture_sling.hpp>
 #include <trocar/interactions/objects/wall_grid.hpp>
 #include <trocar/suture/needle/needle_step.hpp>
 #include <trocar/suture/thread/thread.hpp>
@@ -125,8 +125,8 @@ struct SutureBite {
   enum Stage : std::int32_t { open, through, torn, gone };  ///< the tip is in it; it has come out; cut out; drawn out
   BodyId body;
   std::int32_t stage = open;
-  std::int32_t harmed = 0;  ///< 1: pulled at with more than the tissue bears unharmed
-  float peak = 0;           ///< the most that it was pulled at with [N]
+  std::int32_t harmed = 0;    ///< 1: pulled at with more than the tissue bears unharmed
+  float peak = 0;             ///< the most that it was pulled at with [N]
   MaterialPoint entry, exit;  ///< where it went in, and came out
 
   static constexpr bool kAsBytes = true;

@@ -3,6 +3,7 @@
 
 #include <trocar/interactions/objects/suture_stitch.hpp>
 #include <trocar/interactions/verbs/held.hpp>
+#include <trocar/sim/model/attached.hpp>
 #include <trocar/sim/model/culprit.hpp>
 
 namespace trocar::sim {
@@ -132,23 +133,11 @@ LoadSums on_torn_body(const StepContext& c, const TornPlace& place) noexcept {
   return sums;
 }
 
-/// Is a fold held, or does a strand end, at the other?
-bool ends_on(const Model& model, BodyId body, BodyId other) noexcept {
-  const auto rides = [other](const interactions::Attachment& on) { return on.point.body == other; };
-  if (body.is(BodyKind::membrane)) {
-    const interactions::MembraneBody& m = model.membranes[body.index()];
-    if (other.is(BodyKind::strand) && (m.strand == int(other.index()) || m.duct == int(other.index()))) return true;
-    return std::any_of(m.holds.begin(), m.holds.end(), rides);
-  }
-  if (!body.is(BodyKind::strand)) return false;
-  const interactions::StrandAnatomy& s = model.strands[body.index()];
-  return rides(s.start.on) || rides(s.end.on);
-}
-
 /// Does a load on another body there pass on to the torn place?
 bool passes_on(const StepContext& c, const TornPlace& place, BodyId body, Vec3d at) noexcept {
   if (!body.exists() || body == place.body || body == place.thread) return false;
-  return length(at - place.at) < kBeside || ends_on(c.model, body, place.body) || ends_on(c.model, place.body, body);
+  return length(at - place.at) < kBeside || is_attached(c.model, body, place.body) ||
+         is_attached(c.model, place.body, body);
 }
 
 /// Loads of hands on what is attached to the torn body, or lies beside the torn place.

@@ -247,8 +247,8 @@ struct Model : interactions::BodyModels {
   std::vector<interactions::SurfacePair> surface_pairs;
   std::vector<interactions::StrandPair> strand_pairs;
   std::vector<interactions::CarriedPair> carried_pairs;  ///< bodies that may be carried to each other
-  std::vector<interactions::SelfPair> self_pairs;  ///< of organs that can be folded onto themselves
-  std::vector<std::int32_t> nearest_at_start;      ///< initial State::nearest
+  std::vector<interactions::SelfPair> self_pairs;        ///< of organs that can be folded onto themselves
+  std::vector<std::int32_t> nearest_at_start;            ///< initial State::nearest
   std::vector<MarkModel> marks;
   std::vector<VisibilityTarget> targets;
   std::vector<VisibilitySample> samples;
@@ -283,7 +283,8 @@ struct Model : interactions::BodyModels {
         v("strands", s.strands), v("walls", s.walls), v("membranes", s.membranes),
         v("fat", s.fat, core::only_if(!s.fat.empty())), v("rows", s.rows), v("hands", s.hands), v("scope", s.scope),
         v("start", s.start), v("cavity", s.cavity), v("surface_pairs", s.surface_pairs),
-        v("strand_pairs", s.strand_pairs), v("carried_pairs", s.carried_pairs, core::only_if(!s.carried_pairs.empty())), v("self_pairs", s.self_pairs), v("samples", s.samples), v("marks", s.marks),
+        v("strand_pairs", s.strand_pairs), v("carried_pairs", s.carried_pairs, core::only_if(!s.carried_pairs.empty())),
+        v("self_pairs", s.self_pairs), v("samples", s.samples), v("marks", s.marks),
         v("vessels", s.vessels, core::only_if(s.vessels.there())), v("wet", s.wet, core::only_if(s.wet.there)),
         v("energy", s.energy, core::only_if(s.energy.there)),
         v("injection", s.injection, core::only_if(s.injection.there())),

@@ -69,8 +69,8 @@ struct State : interactions::BodyStates {
   std::int32_t clip_count = 0, cut_count = 0;
   std::vector<std::int32_t> nearest;  ///< contact caches: one per sample of each pair, in the Model's order
   std::vector<std::vector<std::int32_t>> carried;  ///< (carried pairs)(samples) vertex next to it, -1: none is near
-  std::vector<Vec3f> strand_side;     ///< per element of each strand pair's first strand
-  std::vector<Vec3f> tool_side;       ///< (tools x elements of all strands x kToolParts; kMostParts if it bends())
+  std::vector<Vec3f> strand_side;                  ///< per element of each strand pair's first strand
+  std::vector<Vec3f> tool_side;  ///< (tools x elements of all strands x kToolParts; kMostParts if it bends())
   std::vector<std::vector<std::uint8_t>> parted;  ///< (solids) per triangle of the drawn skin: 1 = cut open
   std::vector<Vec3f> sheet_side;                  ///< (hands x triangles of all membranes x kSheetParts or kMostParts)
   std::vector<interactions::SheetBond> sheet_bond;  ///< (hands x membranes)
@@ -110,13 +110,14 @@ struct State : interactions::BodyStates {
     const bool wet = !s.fluids.droplets.x.empty(), irrigates = !s.impacts.empty();
     v("tick", s.tick), v("solids", s.solids), v("cuttables", s.cuttables), v("strands", s.strands), v("tools", s.tools),
         v("magazine", s.magazine), v("scope", s.scope), v("clips", s.clips), v("cuts", s.cuts),
-        v("clip_count", s.clip_count), v("cut_count", s.cut_count), v("nearest", s.nearest), v("carried", s.carried, core::only_if(!s.carried.empty())),
-        v("strand_side", s.strand_side), v("tool_side", s.tool_side), v("touches", s.touches), v("seen", s.seen),
-        v("membranes", s.membranes), v("fat", s.fat, core::only_if(!s.fat.empty())), v("sheet_side", s.sheet_side),
-        v("sheet_bond", s.sheet_bond), v("overstretched_organs", s.overstretched_organs),
-        v("overstretched_membranes", s.overstretched_membranes), v("overstretched_strands", s.overstretched_strands),
-        v("torn", s.torn), v("parted", s.parted), v("flow", s.flow, core::only_if(bleeds)),
-        v("openings", s.openings, core::only_if(bleeds)), v("vessel_clips", s.vessel_clips, core::only_if(bleeds)),
+        v("clip_count", s.clip_count), v("cut_count", s.cut_count), v("nearest", s.nearest),
+        v("carried", s.carried, core::only_if(!s.carried.empty())), v("strand_side", s.strand_side),
+        v("tool_side", s.tool_side), v("touches", s.touches), v("seen", s.seen), v("membranes", s.membranes),
+        v("fat", s.fat, core::only_if(!s.fat.empty())), v("sheet_side", s.sheet_side), v("sheet_bond", s.sheet_bond),
+        v("overstretched_organs", s.overstretched_organs), v("overstretched_membranes", s.overstretched_membranes),
+        v("overstretched_strands", s.overstretched_strands), v("torn", s.torn), v("parted", s.parted),
+        v("flow", s.flow, core::only_if(bleeds)), v("openings", s.openings, core::only_if(bleeds)),
+        v("vessel_clips", s.vessel_clips, core::only_if(bleeds)),
         v("opening_count", s.opening_count, core::only_if(bleeds)),
         v("vessel_clip_count", s.vessel_clip_count, core::only_if(bleeds)), v("heat", s.heat, core::only_if(heats)),
         v("panel", s.panel, core::only_if(heats)), v("electrodes", s.electrodes, core::only_if(heats)),
