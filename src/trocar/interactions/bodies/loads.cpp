@@ -11,6 +11,7 @@ namespace {
 void merge(const tissue::NodeLoad& load, tissue::NodeLoad& into) noexcept {
   const float k = into.k + load.k;
   if (k > 0) into.x0 = (into.k / k) * into.x0 + (load.k / k) * load.x0;
+  if (k > 0) into.u = (into.k / k) * into.u + (load.k / k) * load.u;
   into.f0 += load.f0;
   into.k = k;
   into.d += load.d;

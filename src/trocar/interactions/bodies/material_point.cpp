@@ -189,7 +189,7 @@ Vec3d along(Vec3d v, Vec3d dir) noexcept { return dir.x == 0 && dir.y == 0 && di
 
 /// All of a load as it is now.
 Vec3d force_of(const PointLoad& load, Vec3d x, Vec3d v) noexcept {
-  return load.f0 + along(load.k * (load.target - x) - load.d * v, load.dir);
+  return load.f0 + along(load.k * (load.target - x) + load.d * (load.u - v), load.dir);
 }
 
 void put_on_rod(const Bodies& bodies, const MaterialPoint& p, const PointLoad& load, Tag tag) noexcept {
@@ -205,9 +205,9 @@ void put_on_rod(const Bodies& bodies, const MaterialPoint& p, const PointLoad& l
   tissue::StrandLoad at;
   at.element = int(on.element);
   at.w = on.w;
-  at.f0 = load.f0 - along(load.d * swings, load.dir);
+  at.f0 = load.f0 + along(load.d * (load.u - swings), load.dir);
   at.k = load.k;
-  at.x0 = load.target - off;
+  at.x0 = load.target + body.model.tick * load.u - off;
   at.dir = load.dir;
   at.d = load.d;
   loads.add(at, tag);
@@ -241,7 +241,7 @@ void put_on_nodes(const Bodies& bodies, const MaterialPoint& p, const PointLoad&
   v = counted_on(v);
   // Each node bears a share of k and d as if it were alone: more than they are together, so that what is stable for
   // one point is for its row. Weights beyond 1, of points outside of their nodes, count for the coupling between them.
-  // d holds the nodes to their mean velocity, so that it calms what they do against each other.
+  // Both hold the nodes to their mean velocity, so that they calm what the nodes do against each other.
   const double magnitude = row.magnitude();
   Vec3d together;
   for (std::size_t i = 0; i < std::size_t(row.count); ++i)
@@ -249,7 +249,7 @@ void put_on_nodes(const Bodies& bodies, const MaterialPoint& p, const PointLoad&
   bool another = false;
   for (std::size_t i = 0; i < std::size_t(row.count); ++i) {
     const double share = row.weight[i], counts = std::fabs(share) * magnitude;
-    Vec3d f0 = share * (load.f0 - along(load.d * v, load.dir));
+    Vec3d f0 = share * (load.f0 + along(load.d * (load.u - v), load.dir));
     if (p.frame == MaterialPoint::triangle && i < 3) f0 += couple[i] + turns * counted_on(row.v[i]);
     if (share == 0 && f0.x == 0 && f0.y == 0 && f0.z == 0) continue;
     tissue::NodeLoad node;
@@ -258,7 +258,10 @@ void put_on_nodes(const Bodies& bodies, const MaterialPoint& p, const PointLoad&
     node.d = float(counts * load.d + (i < 3 ? turns : 0));
     node.dir = vec_cast<float>(load.dir);
     node.f0 = vec_cast<float>(f0 + along((counts * load.d) * together, load.dir));
-    if (counts > 0) node.x0 = vec_cast<float>(row.x[i] + (share / counts) * (load.target - x));
+    if (counts > 0) {
+      node.x0 = vec_cast<float>(row.x[i] + (share / counts) * (load.target - x));
+      node.u = vec_cast<float>(together + (share / counts) * (load.u - v));
+    }
     loads.add(node, tag, another);
     another = true;
   }
@@ -276,9 +279,12 @@ void put_on_long_row(const Bodies& bodies, const MaterialPoint& p, const PointLo
     node.k = float(counts * load.k);
     node.d = float(counts * load.d);
     node.dir = vec_cast<float>(load.dir);
-    node.f0 = vec_cast<float>(share * (load.f0 - along(load.d * v, load.dir)) +
+    node.f0 = vec_cast<float>(share * (load.f0 + along(load.d * (load.u - v), load.dir)) +
                               along((counts * load.d) * counted_on(vi), load.dir));
-    if (counts > 0) node.x0 = vec_cast<float>(xi + (share / counts) * (load.target - x));
+    if (counts > 0) {
+      node.x0 = vec_cast<float>(xi + (share / counts) * (load.target - x));
+      node.u = vec_cast<float>(counted_on(vi) + (share / counts) * (load.u - v));
+    }
     loads.add(node, tag, another);
     another = true;
   });
@@ -303,13 +309,18 @@ struct RowNodes {
 /// Puts three corners first that lie in no line, if there are such. @return are there?
 bool begin_with_triangle(RowNodes& corners) noexcept {
   constexpr double kInLine = 0.2;  // sine of the least angle
-  for (int i = 2; i < corners.count; ++i) {
-    const Vec3d ab = corners.x[1] - corners.x[0], ac = corners.x[std::size_t(i)] - corners.x[0];
-    if (length(cross(ab, ac)) < kInLine * length(ab) * length(ac)) continue;
-    std::swap(corners.x[2], corners.x[std::size_t(i)]);
-    std::swap(corners.node[2], corners.node[std::size_t(i)]);
-    return true;
-  }
+  const auto begins_with = [&corners](int place, int corner) {
+    std::swap(corners.x[std::size_t(place)], corners.x[std::size_t(corner)]);
+    std::swap(corners.node[std::size_t(place)], corners.node[std::size_t(corner)]);
+  };
+  for (int b = 1; b + 1 < corners.count; ++b)
+    for (int c = b + 1; c < corners.count; ++c) {
+      const Vec3d to_b = corners.x[std::size_t(b)] - corners.x[0], to_c = corners.x[std::size_t(c)] - corners.x[0];
+      if (!(length(cross(to_b, to_c)) > kInLine * length(to_b) * length(to_c))) continue;
+      begins_with(1, b);
+      begins_with(2, c);
+      return true;
+    }
   return false;
 }
 

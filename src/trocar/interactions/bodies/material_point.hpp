@@ -95,12 +95,14 @@ StrandPlace place_on_rod(const MaterialPoint& point) noexcept;
 /// As it is stored: in its frame, of a rod in the drawn shape's axes [m].
 Vec3d offset_of(const MaterialPoint& point) noexcept;
 
-/// f0 + k (target - x) - d v, of all directions or of one. k and d act on the row's nodes, implicitly.
+/// f0 + k (target + t u - x) + d (u - v) with t since the tick began, of all directions or of one. k and d act on the
+/// row's nodes, implicitly.
 struct PointLoad {
   Vec3d f0{0, 0, 0};
   double k = 0;
   Vec3d target{0, 0, 0};
   double d = 0;
+  Vec3d u{0, 0, 0};    ///< how fast the target goes [m/s]
   Vec3d dir{0, 0, 0};  ///< zero: of all; else of this, unit
 };
 /// Nothing to a point of space. Only in a tick.

@@ -14,15 +14,15 @@ Coupled::Coupled(const Bodies& bodies, const MaterialPoint& n, const MaterialPoi
       apart(x - at) {}
 
 void couple(const Bodies& bodies, const Coupled& ends, const SpringDamper& law, double dt, Tag tag) noexcept {
-  const PointLoad near{law.d * ends.moves - law.whole * law.drawn, law.k, ends.at + 0.5 * dt * ends.moves, law.d};
-  put_load(bodies, ends.near, near, tag);
+  const Vec3d drawn = -law.whole * law.drawn;
+  put_load(bodies, ends.near, {.f0 = drawn, .k = law.k, .target = ends.at, .d = law.d, .u = ends.moves}, tag);
   const Vec3d pull = law.k * ends.apart + law.d * (ends.v - ends.moves) - (1 - law.whole) * law.drawn;
   bear(bodies, ends.far, pull, resistance_of(law.k, law.d, dt), tag);
 }
 
 void bear(const Bodies& bodies, const MaterialPoint& far, Vec3d pull, double resists, Tag tag) noexcept {
   if (far.in_space()) return;
-  put_load(bodies, far, {.f0 = pull + resists * velocity_of(bodies, far), .d = resists}, tag);
+  put_load(bodies, far, {.f0 = pull, .d = resists, .u = velocity_of(bodies, far)}, tag);
 }
 
 void end_load(const Bodies& bodies, const Attachment& on, const tissue::StrandReaction& reaction, double dt) noexcept {

@@ -1,10 +1,10 @@
 // Two material points that a law couples: the one way in which stiff couplings between bodies are integrated.
 //
 // Bodies advance one after the other, each in its own way, so that neither knows where the other will be. The near
-// point bears the coupling implicitly, whatever its stiffness, from where the far one is about to be on the average of
-// the tick. The far point bears the force as it is when the tick begins, and a resistance r to changes of its speed.
-// With a near point so light that it is each time where the far one was about to be a tick before, a far body of mass m
-// that resists with r dt is stable from m + r dt >= k dt^2 + 2 d dt on; so [coupling-stable]
+// point bears the coupling implicitly, whatever its stiffness, as if the far one kept its velocity: what moves along
+// together bears nothing. The far point bears the force as it is when the tick begins, and a resistance r to changes of
+// its velocity. With a near point so light that it is each time where the far one was about to be a tick before, a far
+// body of mass m that resists with r dt is stable from m + r dt >= k dt^2 + 2 d dt on; so [coupling-stable]
 //
 //   r = k dt + 2 d
 //
@@ -31,13 +31,13 @@ struct SpringDamper {
   double whole = 1;      ///< ... of which so much is left
 };
 
-/// What a far end resists changes of its speed with [N s/m].
+/// What a far end resists changes of its velocity with [N s/m].
 constexpr double resistance_of(double k, double d, double dt) noexcept { return k * dt + 2 * d; }
 
 void couple(const Bodies& bodies, const Coupled& ends, const SpringDamper& law, double dt, Tag tag) noexcept;
 
 /// The far end's half of it, for couplings that the near body itself solves: a pull on it, and what it resists changes
-/// of its speed with [N s/m].
+/// of its velocity with [N s/m].
 void bear(const Bodies& bodies, const MaterialPoint& far, Vec3d pull, double resists, Tag tag) noexcept;
 
 /// A rod's end that grows out of a body gives it the rod's pull. That was found for a body that flies on freely; where

@@ -19,7 +19,8 @@ struct LoadedNode {
   std::uint8_t held;  ///< Held bits
   bool plain;
   double mass;        ///< m (1 + dt gamma) [kg]
-  Vec3d impulse;      ///< dt (f0 + K x0) [N s]
+  Vec3d impulse;      ///< dt (f0 + K (x0 + t u)), t when the sub-step ends [N s]
+  Vec3d drift;        ///< by so much it grows from one sub-step to the next: dt^2 K u [N s]
   Vec3d places;       ///< sum over sub-steps [m]
   Vec3d velocities;   ///< the same [m/s]
   Matrix6 inverse;    ///< of mass + dt D + dt^2 K on the axes that are free [1/kg]

@@ -171,13 +171,15 @@ struct NetworkWork {
   }
 };
 
-/// A force on one node during one tick, taken implicitly: f0 - k P (x - x0) - d P v with P = 1, or dir dir^T where dir
-/// is not zero (a unit vector then). Several loads per node add up, in order.
+/// A force on one node during one tick, taken implicitly: f0 - k P (x - x0 - t u) - d P v with P = 1, or dir dir^T
+/// where dir is not zero (a unit vector then), and t the time since the tick began. Several loads per node add up, in
+/// order.
 struct NodeLoad {
   int node = 0;  ///< Description's numbering
   Vec3f f0{};    ///< constant part [N]
   float k = 0;   ///< [N/m] >= 0
-  Vec3f x0{};    ///< rest point, world frame [m]
+  Vec3f x0{};    ///< rest point when the tick begins, world frame [m]
+  Vec3f u{};     ///< how fast that goes [m/s]
   Vec3f dir{};   ///< zero, or unit
   float d = 0;   ///< [N s/m] >= 0
 };

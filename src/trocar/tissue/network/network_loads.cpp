@@ -9,6 +9,7 @@ namespace {
 bool usable(const LoadedBody& m, const NodeLoad& l) {
   const float sum = ((std::fabs(l.f0.x) + std::fabs(l.f0.y)) + std::fabs(l.f0.z)) +
                     ((std::fabs(l.x0.x) + std::fabs(l.x0.y)) + std::fabs(l.x0.z)) +
+                    ((std::fabs(l.u.x) + std::fabs(l.u.y)) + std::fabs(l.u.z)) +
                     ((std::fabs(l.dir.x) + std::fabs(l.dir.y)) + std::fabs(l.dir.z));
   return l.node >= 0 && l.node < m.nodes && l.k >= 0 && l.d >= 0 && l.k < 1e12f && l.d < 1e12f && sum < 1e12f;
 }
@@ -96,7 +97,7 @@ ImplicitLoads::ImplicitLoads(const LoadedBody& body, std::span<const NodeLoad> l
   m_nodes = scratch.first(count);
 }
 
-/// (m (1 + dt gamma) + dt D + dt^2 K) v = m (1 + dt gamma) v_free + dt (f0 + K (x0 - x)), held axes left out.
+/// (m (1 + dt gamma) + dt D + dt^2 K) v = m (1 + dt gamma) v_free + dt (f0 + K (x0 + t u - x)), held axes left out.
 void ImplicitLoads::add(int first, int last, LoadedNode& n) const noexcept {
   const std::size_t node = std::size_t(m_loads[std::size_t(first)].node);
   n.row = m.row_of_node[node];
@@ -104,7 +105,7 @@ void ImplicitLoads::add(int first, int last, LoadedNode& n) const noexcept {
   n.held = m.fixed[node];
   n.plain = n.held == kFree;
   n.mass = m.mass[node] * (1 + m.dt * m.gamma);
-  n.impulse = n.places = n.velocities = {};
+  n.impulse = n.drift = n.places = n.velocities = {};
   for (int i = first; i < last; ++i) n.plain = n.plain && is_zero(m_loads[std::size_t(i)].dir);
   if (n.plain)
     add_plain(n);
@@ -119,7 +120,9 @@ void ImplicitLoads::add_plain(LoadedNode& n) const noexcept {
     const double k = double(l.k);
     a += m.dt * (double(l.d) + m.dt * k);
     stiffness += m.dt * k;
-    n.impulse += m.dt * (vec_cast<double>(l.f0) + k * (vec_cast<double>(l.x0) - m.origin));
+    const Vec3d u = vec_cast<double>(l.u);
+    n.impulse += m.dt * (vec_cast<double>(l.f0) + k * ((vec_cast<double>(l.x0) + m.dt * u) - m.origin));
+    n.drift += (m.dt * m.dt * k) * u;
   }
   n.inverse.xx = 1 / a;
   n.stiffness.xx = stiffness;
@@ -133,7 +136,9 @@ void ImplicitLoads::add_matrices(LoadedNode& n) const noexcept {
     const double k = double(l.k);
     add_along(l, m.dt * (double(l.d) + m.dt * k), a);
     add_along(l, m.dt * k, n.stiffness);
-    n.impulse += m.dt * (vec_cast<double>(l.f0) + k * projected(l, vec_cast<double>(l.x0) - m.origin));
+    const Vec3d u = vec_cast<double>(l.u);
+    n.impulse += m.dt * (vec_cast<double>(l.f0) + k * projected(l, (vec_cast<double>(l.x0) + m.dt * u) - m.origin));
+    n.drift += (m.dt * m.dt * k) * projected(l, u);
   }
   if (n.held != kFree) hold(n.held, a, n.coupling);
   n.inverse = inverse(a);
@@ -146,6 +151,7 @@ bool ImplicitLoads::apply(const NodeState* in, NodeState* out) noexcept {
     const Vec3d v =
         n.plain ? n.inverse.xx * (n.mass * free_v + (n.impulse - n.stiffness.xx * x)) : loaded_speed(n, x, free_v);
     move_to(out[n.row], in[n.row], vec_cast<float>(v), float(m.dt));
+    n.impulse += n.drift;
     n.places += x + m.dt * v;
     n.velocities += v;
     fine = fine && std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z) < 1e6;
@@ -156,12 +162,12 @@ bool ImplicitLoads::apply(const NodeState* in, NodeState* out) noexcept {
 void ImplicitLoads::report(std::span<Vec3f> reactions) const noexcept {
   for (Vec3f& r : reactions) r = {};
   if (reactions.empty()) return;
-  const double share = 1.0 / m.substeps;
+  const double share = 1.0 / m.substeps, mean_time = 0.5 * m.dt * (m.substeps + 1);
   for (const LoadedNode& n : m_nodes) {
     const Vec3d x = share * n.places, v = share * n.velocities;
     for (int i = n.first; i < n.last; ++i) {
       const NodeLoad& l = m_loads[std::size_t(i)];
-      const Vec3d reach = (vec_cast<double>(l.x0) - m.origin) - x;
+      const Vec3d reach = ((vec_cast<double>(l.x0) + mean_time * vec_cast<double>(l.u)) - m.origin) - x;
       reactions[std::size_t(i)] =
           vec_cast<float>(vec_cast<double>(l.f0) + projected(l, double(l.k) * reach - double(l.d) * v));
     }

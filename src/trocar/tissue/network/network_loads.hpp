@@ -38,9 +38,9 @@ inline LoadedBody loaded_body(const NetworkModel& m) noexcept {
 /// kBadLoad with the first load that is unsound or out of order.
 StepReport check_loads(const LoadedBody& body, std::span<const NodeLoad> loads) noexcept;
 
-/// The loads of one tick. Those of a node are linear in its place and velocity: their sum does not change from sub-step
-/// to sub-step, nor does the matrix that it is solved with, and each load's mean force follows from the node's mean
-/// place and velocity.
+/// The loads of one tick. Those of a node are linear in its place and velocity and in time: neither what their sum
+/// grows by changes from sub-step to sub-step, nor the matrix that it is solved with, and each load's mean force
+/// follows from the node's mean place and velocity.
 class ImplicitLoads {
  public:
   /// @param scratch  (nodes)
