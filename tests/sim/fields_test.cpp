@@ -46,6 +46,19 @@ struct BaseOf<fluids::PoolModel> {
   using type = fluids::PoolDescription;
 };
 
+template <>
+struct BaseOf<Model> {
+  using type = interactions::BodyModels;
+};
+template <>
+struct BaseOf<State> {
+  using type = interactions::BodyStates;
+};
+template <>
+struct BaseOf<Work> {
+  using type = interactions::BodyWork;
+};
+
 template <class F>
 constexpr std::size_t items_of = std::is_array_v<F> ? std::extent_v<F> : 1;
 
@@ -282,7 +295,9 @@ Lively lively_everything() {
   const auto heated = [&] { return l.state.heat.listed > 0 && l.state.heat.empties > 0; };
   while (l.state.tick < 1000 && !(l.state.tick > 300 && heated())) step(m, hands.at(l.state.tick), l.state, l.work);
   EXPECT_TRUE(heated());
-  l.state.scarred_count = std::max(l.state.scarred_count, 1);
+  for (const BodyId body : {BodyId::organ(0), BodyId::membrane(0)})
+    l.state.scarred[size_t(l.state.scarred_count++)] = {body, 0, 0.9f, 1.2f};
+  step(m, hands.at(l.state.tick), l.state, l.work);
   l.state.impact_count = std::max(l.state.impact_count, 1);
   return l;
 }
@@ -520,7 +535,7 @@ TEST(Fields, PoisonReachesEveryArrayOfWork) {
   }
   EXPECT_GT(spoilt.arrays.size(), 150u);
   // these have no cells, and so neither guard nor volume force
-  for (const std::string without : {"Work.membranes.sheet.network.", "Work.fat.fat.network."})
+  for (const std::string without : {"Work.membranes.body.network.", "Work.fat.fat.network."})
     for (const char* of_cells : {"open_tets", "below", "volume.places", "volume.answers", "volume.forces",
                                  "volume.bounds", "volume.node_answer"})
       EXPECT_EQ(spoilt.arrays.erase(without + of_cells), 1u) << without << of_cells;
