@@ -559,8 +559,19 @@ MaterialPoint at_vertex(const Bodies& bodies, std::size_t organ, std::int32_t ve
 }
 
 MaterialPoint along_with_vertex(const Bodies& bodies, std::size_t organ, std::int32_t vertex, Vec3d place) noexcept {
-  if (is_tetrahedral(bodies, BodyId::organ(organ))) return at_vertex(bodies, organ, vertex, place);
-  MaterialPoint p = on_vertex(bodies, organ, vertex);
+  MaterialPoint p;
+  if (is_tetrahedral(bodies, BodyId::organ(organ))) {  // its skin's vertices are its nodes
+    p = at_vertex(bodies, organ, vertex, place);
+    if (p.element < 0) return {};
+    const geometry::Tet& cell = tets_of(bodies, p.body).cells[std::size_t(p.element)];
+    p.count = 1;
+    p.frame = MaterialPoint::space;
+    p.node = {std::int32_t(std::find(cell.begin(), cell.end(), vertex) - cell.begin())};
+    p.weight = {1};
+    p.offset = {};
+  } else {
+    p = on_vertex(bodies, organ, vertex);
+  }
   set_offset(p, place - place_of(bodies, p));
   return p;
 }

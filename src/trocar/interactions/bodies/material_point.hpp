@@ -75,7 +75,7 @@ MaterialPoint on_vertex(const Bodies& bodies, std::size_t organ, std::int32_t ve
 /// At a vertex of an organ's skin, or beside it: carried by the nodes that carry that.
 MaterialPoint at_vertex(const Bodies& bodies, std::size_t organ, std::int32_t vertex, Vec3d place) noexcept;
 /// Beside a vertex of an organ's skin, as bonds are: it goes with the vertex in parallel, and no weight of its row is
-/// negative, so that what is stable for the nodes is so for any number of bonds. Of tetrahedra as at_vertex().
+/// negative, so that what is stable for the nodes is so for any number of bonds.
 MaterialPoint along_with_vertex(const Bodies& bodies, std::size_t organ, std::int32_t vertex, Vec3d place) noexcept;
 /// The point of that body that is at `place` now. It looks at all of the body's nodes.
 MaterialPoint attach(const Bodies& bodies, BodyId body, Vec3d place) noexcept;
