@@ -53,14 +53,15 @@ scene::Description with_fold() {
 }
 
 scene::Description with_cuttable() {
+  constexpr double kMiddle = kLies + 0.0005;  // the bite is so much deeper
   scene::Description d = bare();
   scene::Solid s;
   s.name = "bar", s.tissue = "suture_pad";
   for (const double x : {-0.018, -0.006, 0.006, 0.018})
-    s.sections.push_back({{x, 0.070, kLies}, {0, 0.003, 0}, {0, 0, 0.003}, 2});
+    s.sections.push_back({{x, 0.070, kMiddle}, {0, 0.003, 0}, {0, 0, 0.003}, 2});
   s.cell = 0.003;
   s.cuttable = true;
-  for (const double x : {-0.021, 0.021}) s.anchors.push_back({{x, 0.070, kLies}, 0.009, 0, {}});
+  for (const double x : {-0.021, 0.021}) s.anchors.push_back({{x, 0.070, kMiddle}, 0.009, 0, {}});
   d.solids = {s};
   return d;
 }
@@ -92,7 +93,7 @@ class Sewn : public NeedleDriver {
   void draw(Vec3d way, int ticks) {
     for (int i = 0; i < ticks; ++i) m_x += (1.0 / ticks) * way, led();
   }
-  /// The tail is laid straight between the other holder's open jaws and across them, and they close.
+  /// The tail is held straight between the other holder's open jaws and across them, until they have closed.
   void take_tail() {
     input.tools[left].handle = 0;
     for (int i = 0; i < 200; ++i) led();
@@ -102,12 +103,15 @@ class Sewn : public NeedleDriver {
     const double entry = last_hole();
     const Vec3d from = suture::point_at(model().thread, suture().thread, entry), before = grip - 0.008 * across;
     suture::ThreadState& t = own().thread;
-    for (int n = suture::place_at(model().thread, entry).element + 1; n < model().thread.nodes; ++n) {
-      const double s = kSlack * (n * model().thread.spacing - entry), way = length(before - from);
-      t.x[size_t(n)] = s < way ? from + (s / way) * (before - from) : before + (s - way) * across;
-      t.v[size_t(n)] = {};
+    for (int i = 0; i < 300; ++i) {
+      for (int n = suture::place_at(model().thread, entry).element + 1; i < 130 && n < model().thread.nodes; ++n) {
+        const double s = kSlack * (n * model().thread.spacing - entry), way = length(before - from);
+        t.x[size_t(n)] = s < way ? from + (s / way) * (before - from) : before + (s - way) * across;
+        t.v[size_t(n)] = {};
+      }
+      input.tools[left].handle = float(std::min(1.0, i / 100.0));
+      led();
     }
-    for (int i = 0; i < 300; ++i) input.tools[left].handle = float(std::min(1.0, i / 100.0)), led();
   }
   /// Of the thread's, the farthest from its needle [m].
   double last_hole() const {

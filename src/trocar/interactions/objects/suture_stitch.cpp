@@ -2,6 +2,7 @@
 #include <cmath>
 #include <span>
 
+#include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/interactions/objects/suture_on_tissue.hpp>
 #include <trocar/interactions/objects/suture_sling_step.hpp>
 #include <trocar/interactions/objects/suture_stitch.hpp>
@@ -36,6 +37,19 @@ constexpr double kTautAbove = 0.002;  // [N]
 constexpr double kTailWay = 1e-4, kMostTail = 2000;  // [m], [N/m] secant of the thread's pull at the swage
 
 Vec3d across_of(Vec3d v, Vec3d n) noexcept { return v - dot(v, n) * n; }
+
+bool is_outside_as_drawn(const tissue::Skin& skin, Vec3d p) noexcept {
+  double least = 1e30;
+  bool outside = true;
+  for (const auto& t : skin.triangles) {
+    const auto x = [&](size_t k) { return vec_cast<double>(skin.rest[size_t(t[k])]); };
+    const auto at = geometry::closest_on_triangle(p, x(0), x(1), x(2));
+    if (!(at.distance2 < least)) continue;
+    least = at.distance2;
+    outside = dot(p - at.point, cross(x(1) - x(0), x(2) - x(0))) > 0;
+  }
+  return outside;
+}
 
 class Sewing {
  public:
@@ -422,7 +436,7 @@ class Sewing {
     bite.peak = std::max(bite.peak, float(pulled));
     if (pulled > harms) bite.harmed = 1;
     const double most = kCutsThrough * harms;
-    if (pulled > most) cut_on(h, (1 / pulled) * force, (pulled - most) / kThreadHole);
+    if (pulled > most && bite.stage != SutureBite::torn) cut_on(h, (1 / pulled) * force, (pulled - most) / kThreadHole);
   }
   /// The thread cuts its way on, in a fold along it, until it is out.
   void cut_on(SutureHole& h, Vec3d towards, double way) noexcept {
@@ -435,9 +449,14 @@ class Sewing {
     h.way += float(way);
     if (in_fold ? !skin.there() || skin.distance > kOffEdge : is_out(h)) tear_out(h);
   }
-  /// Of a body: by a place on the bite's way in it. Between entry and exit, where it is too short to have one.
+  /// Of a body: by a place on the bite's way in it. Between entry and exit, where it is too short to have one. An organ
+  /// is looked at as it was drawn: drawn out to a tent, it would leave the straight line between both.
   bool is_out(const SutureHole& h) const noexcept {
-    Vec3d way = place_of(m_bodies, h.at);
+    const bool organ = h.at.body.is(BodyKind::organ);
+    const auto place = [&](const SutureHole& of) {
+      return organ ? drawn_place(m_bodies, of.at) : place_of(m_bodies, of.at);
+    };
+    Vec3d way = place(h);
     if (h.kind != SutureHole::track) {
       Vec3d middle;
       int ends = 0;
@@ -445,11 +464,12 @@ class Sewing {
         const SutureHole& other = m_state.holes[size_t(i)];
         if (other.bite != h.bite) continue;
         if (other.kind == SutureHole::track) return false;
-        middle += place_of(m_bodies, other.at), ++ends;
+        middle += place(other), ++ends;
       }
       if (ends < 2) return false;
       way = (1.0 / ends) * middle;
     }
+    if (organ) return is_outside_as_drawn(skin_of(m_bodies, h.at.body.index()), way);
     const NearSkin skin = nearest_skin(m_bodies, h.at.body, way, kSkinNear);
     return !skin.there() || skin.distance > 0;
   }
