@@ -87,7 +87,7 @@ class AtSecondArtery {
   }
 
   sim::Input next(const sim::State& s, int t, const std::vector<double>& clips, double cut_at) {
-    for (std::size_t i = 0; i < clips.size(); ++i) work(s, kApplier, t - 1500 * int(i), clips[i], 0.0155);
+    for (std::size_t i = 0; i < clips.size(); ++i) work(s, kApplier, t - 1500 * int(i), clips[i], 0.0137);
     work(s, kScissors, t - 1500 * int(clips.size()), cut_at, 0.010);
     for (std::size_t i = 0; i < m_model.hands.size(); ++i) {
       const kinematics::FulcrumPose pose = kinematics::inverse(m_model.hands[i].port, m_tip[i], roll(s, i));

@@ -20,21 +20,37 @@ struct Catch {
   double cover = 0;
 };
 
-Catch caught(const ToolModel& model, const ToolShape& shape, const Bodies& bodies) noexcept {
+/// Where a strand crosses the middle of the jaws, as far as the clip's legs are beside it there.
+Catch crossing(const ToolModel& model, const ToolShape& shape, const Bodies& bodies, size_t strand) noexcept {
+  const StrandBody& body = bodies.strand(strand);
+  const tissue::StrandState& state = bodies.strand_state(strand);
   Catch best;
   double nearest = 1e9;
+  for (int e = 0; e + 1 < body.nodes(); ++e) {
+    if (!state.alive[size_t(e)]) continue;
+    const BetweenJaws where = between_jaws(model, shape, body, state, e);
+    if (!where.inside) continue;
+    const double off = std::fabs(where.local.y);
+    const double cover = leg_cover(from_bend(model, where.local.z), body.model.radius[size_t(e)], model.clip_length);
+    if (cover <= 0 || off >= nearest) continue;
+    nearest = off;
+    best = {int(strand), {e, where.w}, where.local, cover};
+  }
+  return best;
+}
+
+/// Of several strands between the jaws the one of which the legs cover most; where they cover as much, the one nearest
+/// to the legs' middle.
+Catch caught(const ToolModel& model, const ToolShape& shape, const Bodies& bodies) noexcept {
+  constexpr double kAsMuch = 0.01;  // of covers
+  const auto from_middle = [&](const Catch& c) {
+    return std::fabs(from_bend(model, c.local.z) - 0.5 * model.clip_length);
+  };
+  Catch best;
   for (size_t s = 0; s < bodies.strand_count(); ++s) {
-    const StrandBody& body = bodies.strand(s);
-    for (int e = 0; e + 1 < body.nodes(); ++e) {
-      if (!bodies.strand_state(s).alive[size_t(e)]) continue;
-      const BetweenJaws where = between_jaws(model, shape, body, bodies.strand_state(s), e);
-      if (!where.inside) continue;
-      const double off = std::fabs(where.local.y);
-      const double cover = leg_cover(from_bend(model, where.local.z), body.model.radius[size_t(e)], model.clip_length);
-      if (cover <= 0 || off >= nearest) continue;
-      nearest = off;
-      best = {int(s), {e, where.w}, where.local, cover};
-    }
+    const Catch next = crossing(model, shape, bodies, s);
+    if (next.strand < 0 || next.cover < best.cover - kAsMuch) continue;
+    if (next.cover > best.cover + kAsMuch || from_middle(next) < from_middle(best)) best = next;
   }
   return best;
 }
