@@ -97,7 +97,7 @@ TEST(Abuse, HandsThatJumpWithAnyBitsOfPedalsLeaveNumbersFiniteAndTheAccountExact
 TEST(Abuse, AFilledGallbladderBearsItAndKeepsItsContents) {
   const sim::Model model = abuse::untearable(shipped("gallbladder"));
   abuse::Attack attack(model, 6);
-  const abuse::Round r = attack.round(abuse::number_of(model, "gallbladder"), 4, 2500);
+  const abuse::Round r = attack.round(abuse::number_of(model, "gallbladder"), 4, 5000);
   EXPECT_EQ(r.organ, "gallbladder");
   std::printf("%d grasps, at most %.3f J and %.1f N, %.2f %% off after the rest\n", r.grasps, r.most_energy,
               r.most_force, 100 * r.worst().share);

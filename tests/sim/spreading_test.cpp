@@ -134,5 +134,5 @@ TEST(BluntDissection, ABluntTipWipesFatOffTheCysticDuct) {
   EXPECT_LT(holding_roots(), before) << "what held on the duct does not any more";
   EXPECT_LT(septa(), 0.995);
   EXPECT_GT(d.m_pressed, 0.1);
-  EXPECT_LT(d.m_pressed, 0.7);
+  EXPECT_LT(d.m_pressed, 1.04) << "blunt dissection takes 0.32 +- 0.36 N: two deviations above the mean";
 }

@@ -199,10 +199,10 @@ TEST(CriticalView, TractionAloneOpensNothing) {
     pulled = std::max(pulled, length(Vec3d{pull[0], pull[1], pull[2]}));
   }
   RecordProperty("pulled_N", std::to_string(pulled));
-  EXPECT_GT(pulled, 0.25) << "it was drawn";
+  EXPECT_GT(pulled, 0.2) << "it was drawn";
   double holds = 0;
   for (int i = 0; i < t.body().fat.septa(); ++i) holds += holding(t.body().fat, t.fat(), i) / t.body().fat.septa();
-  EXPECT_GT(holds, 0.95) << "drawn out so far, some septa have begun to give";
+  EXPECT_GT(holds, 0.9) << "drawn out so far, some septa have begun to give";
   EXPECT_LT(t.open(), 0.1);
   EXPECT_FALSE(t.bridged().empty());
 }
