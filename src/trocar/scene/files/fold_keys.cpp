@@ -120,16 +120,6 @@ void check_membrane(const JsonObject& o, Membrane& m, Context& c) {
   c.reading->ends_on(m.strand, m.to, o.at("to_mm"));
 }
 
-const Table<Anchor>& held_place() {
-  using R = Rows<Anchor>;
-  static const Table<Anchor> table{
-      "held place",
-      "Where a pouch's wall is held.",
-      {needed(R::vec3("centre_mm", units::mm, &Anchor::centre, -kFar, kFar, "centre of a ball")),
-       needed(R::number("radius_mm", units::mm, &Anchor::radius, 0.1, 500, "radius of the ball"))}};
-  return table;
-}
-
 constexpr double kWater = 1000;  // [kg/m^3]
 
 void check_contents(const JsonObject& o, Contents& c, Context&) {
@@ -172,6 +162,16 @@ void check_pouch(const JsonObject& o, Pouch& p, Context&) {
 }
 
 }  // namespace
+
+const Table<Anchor>& held_place() {
+  using R = Rows<Anchor>;
+  static const Table<Anchor> table{
+      "held place",
+      "Where a pouch's wall is held.",
+      {needed(R::vec3("centre_mm", units::mm, &Anchor::centre, -kFar, kFar, "centre of a ball")),
+       needed(R::number("radius_mm", units::mm, &Anchor::radius, 0.1, 500, "radius of the ball"))}};
+  return table;
+}
 
 double curve_length(const std::vector<Vec3d>& p) {
   double sum = 0;
