@@ -238,8 +238,12 @@ sim::Model compile(const Description& d, CompileReport* report) {
     const Tissue* tissue = find_tissue(d, pouch.tissue);
     if (tissue) compile_pouch(pouch, *tissue, d, model, faults, report);
   }
+  const size_t membranes = model.membranes.size();
   ObjectScenes::for_each([&](auto kind) { kind.compile(settings_of(kind, d.objects), d, model, faults); });
-  if (report) report_fat(model, *report);
+  if (report) {
+    for (size_t i = membranes; i < model.membranes.size(); ++i) add_report(model.membranes[i], *report);  // leaves
+    report_fat(model, *report);
+  }
   for (const Sheet& sheet : d.sheets) model.drawn_folds.push_back(compile_sheet(sheet, model));
   compile_vessels(d, model, faults, report);
   compile_fluids(d, model, faults);
