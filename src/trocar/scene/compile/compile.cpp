@@ -30,12 +30,6 @@ namespace {
 
 using Faults = std::vector<core::Fault>;
 
-const Tissue* find_tissue(const Description& d, const std::string& name) {
-  for (const Tissue& t : d.tissues)
-    if (t.name == name) return &t;
-  return nullptr;
-}
-
 /// Linear interpolation of the stations at arc length s.
 StrandStation station_at(const std::vector<StrandStation>& stations, double s) {
   if (s <= stations.front().s) return stations.front();
@@ -210,6 +204,12 @@ void note_anatomy(const Description& d, sim::Model& model) {
 
 }  // namespace
 
+const Tissue* find_tissue(const Description& d, const std::string& name) {
+  for (const Tissue& t : d.tissues)
+    if (t.name == name) return &t;
+  return nullptr;
+}
+
 sim::Model compile(const Description& d, CompileReport* report) {
   Faults faults;
   check_capacity(d, faults);
@@ -238,8 +238,12 @@ sim::Model compile(const Description& d, CompileReport* report) {
     const Tissue* tissue = find_tissue(d, pouch.tissue);
     if (tissue) compile_pouch(pouch, *tissue, d, model, faults, report);
   }
-  ObjectScenes::for_each([&](auto kind) { kind.compile(settings_of(kind, d.objects), model, faults); });
-  if (report) report_fat(model, *report);
+  const size_t membranes = model.membranes.size();
+  ObjectScenes::for_each([&](auto kind) { kind.compile(settings_of(kind, d.objects), d, model, faults); });
+  if (report) {
+    for (size_t i = membranes; i < model.membranes.size(); ++i) add_report(model.membranes[i], *report);  // leaves
+    report_fat(model, *report);
+  }
   for (const Sheet& sheet : d.sheets) model.drawn_folds.push_back(compile_sheet(sheet, model));
   compile_vessels(d, model, faults, report);
   compile_fluids(d, model, faults);

@@ -15,8 +15,6 @@ namespace {
 constexpr double kStretchDamping = 0.0004;      // [s] times stiffness; a fold is wet, but sub-steps pay for more
 constexpr double kFoldBendingDamping = 0.0005;  // [s] times stiffness
 
-constexpr int kMostFoldNodes = 20'000;
-
 struct Grid {
   int columns = 0, rows = 0;
   std::vector<Vec3d> top, base;  // (columns) both borders
@@ -42,6 +40,19 @@ Grid grid_of(const Membrane& membrane, const interactions::StrandBody& body) {
 }
 
 }  // namespace
+
+tissue::MembraneDescription fold_of(const Tissue& tissue, double thickness, Vec3d gravity) {
+  tissue::MembraneDescription d;
+  d.thickness = thickness;
+  d.youngs_modulus = tissue.young;
+  d.law = {tissue.p1, tissue.p2, tissue.strain_cap};
+  d.density = tissue.density;
+  d.damping_time = kStretchDamping;
+  d.bending_damping_time = kFoldBendingDamping;
+  d.global_damping = kFoldDrag;
+  d.gravity = gravity;
+  return d;
+}
 
 tissue::Skin skin_of(const tissue::MembraneModel& sheet) {
   tissue::Skin skin;
@@ -124,7 +135,7 @@ void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d grav
   }
   out.from = g.arc.front();
   out.to = g.arc.back();
-  tissue::MembraneDescription d;
+  tissue::MembraneDescription d = fold_of(tissue, membrane.thickness, gravity);
   d.columns = g.columns;
   d.rows = g.rows;
   for (int r = 0; r < g.rows; ++r)
@@ -133,14 +144,6 @@ void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d grav
       d.positions.push_back(g.top[size_t(c)] + v * (g.base[size_t(c)] - g.top[size_t(c)]));
       d.held.push_back(r == 0 || r + 1 == g.rows);
     }
-  d.thickness = membrane.thickness;
-  d.youngs_modulus = tissue.young;
-  d.law = {tissue.p1, tissue.p2, tissue.strain_cap};
-  d.density = tissue.density;
-  d.damping_time = kStretchDamping;
-  d.bending_damping_time = kFoldBendingDamping;
-  d.global_damping = kFoldDrag;
-  d.gravity = gravity;
   try {
     out.sheet = tissue::build(d, sim::kTick);
   } catch (const std::invalid_argument& e) {

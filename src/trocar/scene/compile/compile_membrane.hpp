@@ -9,6 +9,8 @@
 namespace trocar::scene {
 
 inline constexpr double kFoldDrag = 1;  ///< [1/s] against space, as solids: more would be honey
+inline constexpr int kMostFoldNodes = 20'000;
+inline constexpr double kPinchReach = 0.5;  ///< of the spacing of nodes: so far before them jaws take up what lies flat
 
 /// Appends to Model::membranes. Solids and strands must be compiled before.
 void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d gravity, sim::Model& model,
@@ -18,6 +20,9 @@ void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d grav
 /// @param scene  that it is of: its gravity, and what its bonds tie it to, which may be weaker than they are
 void compile_pouch(const Pouch& pouch, const Tissue& tissue, const Description& scene, sim::Model& model,
                    std::vector<core::Fault>& faults, CompileReport* report);
+
+/// What a fold is made of; its nodes are yet to come.
+tissue::MembraneDescription fold_of(const Tissue& tissue, double thickness, Vec3d gravity);
 
 /// The sheet's nodes as a skin: one vertex a node.
 tissue::Skin skin_of(const tissue::MembraneModel& sheet);

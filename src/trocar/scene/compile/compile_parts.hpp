@@ -10,6 +10,9 @@
 
 namespace trocar::scene {
 
+/// Null: there is none of that name.
+const Tissue* find_tissue(const Description& d, const std::string& name);
+
 /// The points' numbers along a Morton curve: what is near each other in this order is near in space.
 std::vector<int> along_curve(const std::vector<Vec3d>& points);
 

@@ -15,6 +15,7 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/numerics/vec3.hpp>
 #include <trocar/scene/description/body_shape.hpp>
+#include <trocar/scene/description/bond_setting.hpp>
 #include <trocar/scene/description/instrument_mechanism.hpp>
 #include <trocar/scene/description/stiffness_region.hpp>
 #include <trocar/scene/description/vessel_tree.hpp>
@@ -66,14 +67,6 @@ inline constexpr std::array<TissueFigure, 12> kTissueFigures{{{"density_kg_m3", 
 struct Section {
   Vec3d centre, across, deep;
   double squareness = 2;  ///< 2 = ellipse
-};
-
-/// A place on a body: the nodes within `radius` of `centre` are fixed (stiffness 0) or sprung to space.
-struct Anchor {
-  Vec3d centre;
-  double radius = 0;
-  double stiffness = 0;  ///< total [N/m]; 0 = rigidly fixed
-  core::Location at;
 };
 
 /// Tetrahedra from a file: a mesh, or what fills a label of a voxel volume.
@@ -207,20 +200,6 @@ struct Membrane {
   double spacing = 0.0025;           ///< of its nodes [m]
   bool cuttable = true;
   core::Location at, spacing_at;
-};
-
-/// Loose tissue between a pouch's wall and what it lies on, that can be parted (interactions/couplings/bonds.hpp): at
-/// the wall's nodes in `places` that are within `reach` of one of the bodies `on`.
-struct BondSetting {
-  std::string name;
-  std::vector<Anchor> places;   ///< centre and radius
-  std::vector<std::string> on;  ///< solids and strands
-  double reach = 0.006;         ///< [m]
-  double toughness = 50;        ///< [J/m^2]
-  double opens = 0.005;         ///< [m]
-  double oozes = 0;             ///< [mL/min/cm^2] where it has parted
-  double bleeds = 0;            ///< [mL/min/cm^2] where what it is tied to has torn instead
-  core::Location at;
 };
 
 /// What a pouch is filled with.

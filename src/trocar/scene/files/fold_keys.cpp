@@ -120,16 +120,6 @@ void check_membrane(const JsonObject& o, Membrane& m, Context& c) {
   c.reading->ends_on(m.strand, m.to, o.at("to_mm"));
 }
 
-const Table<Anchor>& held_place() {
-  using R = Rows<Anchor>;
-  static const Table<Anchor> table{
-      "held place",
-      "Where a pouch's wall is held.",
-      {needed(R::vec3("centre_mm", units::mm, &Anchor::centre, -kFar, kFar, "centre of a ball")),
-       needed(R::number("radius_mm", units::mm, &Anchor::radius, 0.1, 500, "radius of the ball"))}};
-  return table;
-}
-
 constexpr double kWater = 1000;  // [kg/m^3]
 
 void check_contents(const JsonObject& o, Contents& c, Context&) {
@@ -172,6 +162,16 @@ void check_pouch(const JsonObject& o, Pouch& p, Context&) {
 }
 
 }  // namespace
+
+const Table<Anchor>& held_place() {
+  using R = Rows<Anchor>;
+  static const Table<Anchor> table{
+      "held place",
+      "Where a membrane is held or tied.",
+      {needed(R::vec3("centre_mm", units::mm, &Anchor::centre, -kFar, kFar, "centre of a ball")),
+       needed(R::number("radius_mm", units::mm, &Anchor::radius, 0.1, 500, "radius of the ball"))}};
+  return table;
+}
 
 double curve_length(const std::vector<Vec3d>& p) {
   double sum = 0;
@@ -252,12 +252,12 @@ const Table<BondSetting>& bond_setting() {
   using R = Rows<BondSetting>;
   static const Table<BondSetting> table{
       "bonds",
-      "Loose tissue between a pouch's wall and other bodies: it attaches the wall, and separates when it is pulled, "
+      "Loose tissue between a membrane and other bodies: it attaches the membrane, and separates when it is pulled, "
       "pushed or cut.",
       {needed(R::name("name", &BondSetting::name, "its name in exercises")),
-       needed(R::objects("places", held_place, &BondSetting::places, 1, "where the wall is tied")),
-       needed(R::refs("on", Reference::To::solid_or_strand, &BondSetting::on,
-                      "solids and strands that it is tied to, where they are near")),
+       needed(R::objects("places", held_place, &BondSetting::places, 1, "where the membrane is tied")),
+       needed(R::refs("on", Reference::To::tied, &BondSetting::on,
+                      "solids, strands, membranes, pouches and fat that it is tied to, where they are near")),
        R::number("reach_mm", units::mm, &BondSetting::reach, 0.1, 100,
                  "how near that is, from a strand's surface or a skin, default {}"),
        R::number("toughness_J_m2", units::one, &BondSetting::toughness, 0.1, 1e5,

@@ -31,6 +31,8 @@ const Table<DetailSetting>& detail();
 const Table<VariationSetting>& variation();
 const Table<VariationSetting::Variant>& variant_keys();
 const Table<MarkSetting>& mark();
+const Table<Anchor>& held_place();  ///< of a membrane
+const Table<BondSetting>& bond_setting();
 
 const Table<StiffnessRegion>& stiffness_region();  ///< of a solid, of a pouch
 const Table<Section>& section();

@@ -26,6 +26,8 @@ const char* noun(Reference::To to) {
       return "solid or strand";
     case Reference::To::carrier:
       return "solid, strand, membrane or pouch";
+    case Reference::To::tied:
+      return "solid, strand, membrane, pouch or fat";
     case Reference::To::vessel:
       return "vessel";
     case Reference::To::port:
@@ -144,7 +146,8 @@ bool Reading::crowded() {
 std::vector<std::string> Reading::names(Reference::To to) const {
   std::vector<std::string> all;
   using To = Reference::To;
-  if (to == To::carrier) {
+  if (to == To::tied) add_names(settings_of(FatScene{}, description.objects), all);
+  if (to == To::carrier || to == To::tied) {
     add_names(description.solids, all), add_names(description.strands, all);
     add_names(description.membranes, all), add_names(description.pouches, all);
   }

@@ -77,6 +77,7 @@ struct Reference {
     strand,
     solid_or_strand,
     carrier,
+    tied,  ///< what bonds tie to
     vessel,
     port,
     instrument,

@@ -234,8 +234,13 @@ template <class Kind>
 Row<Description> objects_row(Kind kind) {
   return Rows<Description>::own(
       kind.row(),
-      [kind](const JsonObject& o, Description& d, Context&) {
-        for (const JsonObject& one : o.objects(kind.kKey)) settings_of(kind, d.objects).push_back(kind.read(one));
+      [kind](const JsonObject& o, Description& d, Context& c) {
+        for (const JsonObject& one : o.objects(kind.kKey)) {
+          if constexpr (requires { kind.read(one, c); })  // it names other things
+            settings_of(kind, d.objects).push_back(kind.read(one, c));
+          else
+            settings_of(kind, d.objects).push_back(kind.read(one));
+        }
       },
       [kind](const Description& d, bool) {
         const auto& all = settings_of(kind, d.objects);

@@ -67,7 +67,8 @@ BagSetting BagScene::read(const JsonObject& o) {
   return s;
 }
 
-void BagScene::compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>&) {
+void BagScene::compile(const std::vector<Setting>& settings, const Description&, sim::Model& model,
+                       std::vector<core::Fault>&) {
   for (const BagSetting& s : settings) {
     interactions::BagDescription d;
     d.hoop = 0.5 * s.mouth;

@@ -14,6 +14,8 @@ struct Model;
 
 namespace trocar::scene {
 
+struct Description;
+
 struct BagSetting {
   std::string name, look;
   double mouth = 0.060;   ///< diameter of its open hoop [m]
@@ -32,7 +34,8 @@ struct BagScene {
   static Setting read(const JsonObject& o);
   static JsonValue written(const Setting& setting) { return setting.text; }
   static void bend(std::vector<Setting>&, const std::function<Vec3d(Vec3d)>&) {}  ///< no part of the anatomy
-  static void compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>& faults);
+  static void compile(const std::vector<Setting>& settings, const Description& scene, sim::Model& model,
+                      std::vector<core::Fault>& faults);
   /// Once hands are known: one of them has to be able to bring it in.
   static void expect_hand(const std::vector<Setting>& settings, const sim::Model& model,
                           std::vector<core::Fault>& faults);

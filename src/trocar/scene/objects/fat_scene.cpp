@@ -174,7 +174,8 @@ void FatScene::bend(std::vector<Setting>& settings, const std::function<Vec3d(Ve
       for (Vec3d& p : n.in.line) p = warp(p);
 }
 
-void FatScene::compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>& faults) {
+void FatScene::compile(const std::vector<Setting>& settings, const Description&, sim::Model& model,
+                       std::vector<core::Fault>& faults) {
   for (const FatSetting& s : settings) compile_one(s, model, faults);
 }
 

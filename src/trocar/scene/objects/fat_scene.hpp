@@ -15,6 +15,8 @@ struct Model;
 
 namespace trocar::scene {
 
+struct Description;
+
 struct FatSetting {
   struct Fill {
     std::vector<Vec3d> line;  ///< middles of a thick line [m]
@@ -47,7 +49,8 @@ struct FatScene {
   static Setting read(const JsonObject& o);
   static JsonValue written(const Setting& setting) { return setting.text; }
   static void bend(std::vector<Setting>& settings, const std::function<Vec3d(Vec3d)>& warp);
-  static void compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>& faults);
+  static void compile(const std::vector<Setting>& settings, const Description& scene, sim::Model& model,
+                      std::vector<core::Fault>& faults);
 };
 
 }  // namespace trocar::scene

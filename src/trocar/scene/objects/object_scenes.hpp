@@ -8,12 +8,13 @@
 #include <trocar/core/kind_list.hpp>
 #include <trocar/scene/objects/bag_scene.hpp>
 #include <trocar/scene/objects/fat_scene.hpp>
+#include <trocar/scene/objects/leaf_scene.hpp>
 #include <trocar/scene/objects/rigid_scene.hpp>
 #include <trocar/scene/objects/suture_scene.hpp>
 
 namespace trocar::scene {
 
-using ObjectScenes = core::KindList<RigidScene, FatScene, BagScene, SutureScene>;
+using ObjectScenes = core::KindList<RigidScene, FatScene, LeafScene, BagScene, SutureScene>;
 
 namespace objects {
 template <class K>

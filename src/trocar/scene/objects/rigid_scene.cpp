@@ -170,7 +170,8 @@ void RigidScene::bend(std::vector<Setting>& settings, const std::function<Vec3d(
     if (s.pebble.x > 0) s.place = warp(s.place);
 }
 
-void RigidScene::compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>& faults) {
+void RigidScene::compile(const std::vector<Setting>& settings, const Description&, sim::Model& model,
+                         std::vector<core::Fault>& faults) {
   if (settings.empty()) return;
   interactions::RigidModels& out = interactions::part_of<interactions::Rigid>(model);
   double thickest = 0;

@@ -14,6 +14,8 @@ struct Model;
 
 namespace trocar::scene {
 
+struct Description;
+
 struct RigidSetting {
   std::string name, look;
   double outer = 0;          ///< a ring's outer diameter [m]; 0: a chain
@@ -39,7 +41,8 @@ struct RigidScene {
   static JsonValue written(const Setting& setting) { return setting.text; }
   /// Pebbles lie where the anatomy leaves room for them; the rest is no part of it.
   static void bend(std::vector<Setting>& settings, const std::function<Vec3d(Vec3d)>& warp);
-  static void compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>& faults);
+  static void compile(const std::vector<Setting>& settings, const Description& scene, sim::Model& model,
+                      std::vector<core::Fault>& faults);
 };
 
 }  // namespace trocar::scene

@@ -99,7 +99,8 @@ SutureSetting SutureScene::read(const JsonObject& o) {
   return s;
 }
 
-void SutureScene::compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>&) {
+void SutureScene::compile(const std::vector<Setting>& settings, const Description&, sim::Model& model,
+                          std::vector<core::Fault>&) {
   for (const SutureSetting& s : settings) {
     SutureModel m;
     m.name = s.name;

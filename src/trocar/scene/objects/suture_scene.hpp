@@ -16,6 +16,8 @@ struct Model;
 
 namespace trocar::scene {
 
+struct Description;
+
 struct SutureSetting {
   std::string name, look, needle_look;
   std::string size, make;   ///< of the thread; empty: there is none
@@ -46,7 +48,8 @@ struct SutureScene {
   static Setting read(const JsonObject& o);
   static JsonValue written(const Setting& setting) { return setting.text; }
   static void bend(std::vector<Setting>&, const std::function<Vec3d(Vec3d)>&) {}  ///< no part of the anatomy
-  static void compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>& faults);
+  static void compile(const std::vector<Setting>& settings, const Description& scene, sim::Model& model,
+                      std::vector<core::Fault>& faults);
 };
 
 }  // namespace trocar::scene

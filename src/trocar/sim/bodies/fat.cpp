@@ -18,6 +18,18 @@ void for_roots(StepContext& c, size_t body, F&& f) noexcept {
   }
 }
 
+/// What is tied to lobules that are gone hangs free.
+void part_from_gone(StepContext& c, BodyId fat) noexcept {
+  const auto is_gone = [&](const interactions::MaterialPoint& at) {
+    return at.body == fat && c.state.fat[fat.index()].lobules[size_t(at.node[0])].gone();
+  };
+  for (size_t set = 0; set < c.model.bonds.size(); ++set)
+    for (size_t i = 0; i < c.state.bonds[set].size(); ++i) {
+      const interactions::Bond& bond = c.model.bonds[set].bonds[i];
+      if (is_gone(bond.near) || is_gone(bond.far)) c.state.bonds[set][i] = {1, interactions::BondState::burnt};
+    }
+}
+
 }  // namespace
 
 // What holds a coagulated lobule parts at a fifth of its opening.
@@ -70,10 +82,10 @@ tissue::HeatContact fat_contact(const StepContext& c, const FatTouch& touch) noe
 
 double warm_fat(StepContext& c, const FatTouch& touch, double joules) noexcept {
   const size_t body = size_t(touch.body);
-  const double boiled = interactions::warm_fat(c.model.fat[body], touch.lobule, joules, c.state.fat[body]);
-  for_roots(c, body, [](const interactions::Bond&, interactions::BondState& state, const tissue::Lobule& lobule) {
-    if (lobule.gone()) state = {1, interactions::BondState::burnt};
-  });
+  tissue::FatState& state = c.state.fat[body];
+  const std::int32_t gone = state.gone;
+  const double boiled = interactions::warm_fat(c.model.fat[body], touch.lobule, joules, state);
+  if (state.gone > gone) part_from_gone(c, BodyId(BodyKind::fat, body));
   return boiled;
 }
 

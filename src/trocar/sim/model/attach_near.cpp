@@ -39,6 +39,15 @@ void look_at_membrane(const interactions::Bodies& bodies, size_t i, Vec3d p, Nea
   if (distance < best.distance) best = {{point}, distance};
 }
 
+void look_at_fat(const interactions::Bodies& bodies, size_t i, Vec3d p, Nearest& best) {
+  const std::vector<Vec3d>& lobules = bodies.models.fat[i].fat.network.rest;
+  for (size_t n = 0; n < lobules.size(); ++n) {
+    const double distance = length(p - lobules[n]);
+    if (distance >= best.distance) continue;
+    best = {{at_node(bodies, BodyId(BodyKind::fat, i), std::int32_t(n), p - lobules[n])}, distance};
+  }
+}
+
 }  // namespace
 
 Attached attach_near(const DrawnBodies& drawn, const std::vector<std::string>& names, double reach, Vec3d p) {
@@ -48,6 +57,8 @@ Attached attach_near(const DrawnBodies& drawn, const std::vector<std::string>& n
     if (const int i = drawn.model().strand_index(name); i >= 0) look_at_rod(bodies, size_t(i), p, best);
     if (const int i = drawn.model().organ_index(name); i >= 0) look_at_organ(bodies, size_t(i), p, best);
     if (const int i = drawn.model().membrane_index(name); i >= 0) look_at_membrane(bodies, size_t(i), p, best);
+    for (size_t i = 0; i < bodies.models.fat.size(); ++i)
+      if (bodies.models.fat[i].name == name) look_at_fat(bodies, i, p, best);
   }
   return best;
 }

@@ -26,8 +26,8 @@ struct Attached {
   interactions::MaterialPoint point;
   std::int32_t vertex = -1;  ///< of an organ's skin, nearest to it
 };
-/// The point at p of the rod, organ or membrane of those named that is nearest to p and within reach of its surface
-/// [m]; else of space.
+/// The point at p of the rod, organ, membrane or fat of those named that is nearest to p and within reach of its
+/// surface [m], of fat of a lobule's middle; else of space.
 Attached attach_near(const DrawnBodies& bodies, const std::vector<std::string>& names, double reach, Vec3d p);
 
 }  // namespace trocar::sim
