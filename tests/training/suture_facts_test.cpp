@@ -85,8 +85,8 @@ struct Sewn {
   void hold(int hand, int place) {
     interactions::ToolState& tool = state.tools[size_t(hand)];
     tool.holds = 1;
-    tool.hold[0].body = BodyId(BodyKind::suture, 0);
-    tool.hold[0].element = place;
+    tool.hold[0].at.body = BodyId(BodyKind::suture, 0);
+    tool.hold[0].at.element = place;
   }
   /// Throws of the whole thread, with the tissue in the loop below them.
   void tie(const std::vector<suture::Throw>& throws_) {
@@ -123,7 +123,7 @@ int told_too_hard(Vec3d left, Vec3d right) {
   const Vec3d pull[] = {left, right};
   for (std::size_t h = 0; h < 2; ++h) {
     interactions::ToolState& tool = sewn.state.tools[h];
-    tool.holds = 1, tool.hold[0].body = BodyId{BodyKind::suture, 0};
+    tool.holds = 1, tool.hold[0].at.body = BodyId{BodyKind::suture, 0};
     tool.pull[0] = pull[h].x, tool.pull[1] = pull[h].y, tool.pull[2] = pull[h].z;
   }
   PullWatch watch;

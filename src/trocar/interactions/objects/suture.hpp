@@ -284,11 +284,10 @@ struct Suture {
                       const ToolShape& shape, Add&& add) noexcept;
   /// Of the needle, or of the thread.
   static Vec3d middle(const Models& models, const States& states, size_t i) noexcept;
-  static Vec3d point(const Models& models, const States& states, const Hold& hold) noexcept;
-  static double thickness(const Models& models, const Hold& hold) noexcept;
-  static bool is_attached(const States&, const Hold&) noexcept { return true; }
-  static void pull(const Models& models, const States& states, const Hold& hold, Vec3d target, HoldLaw law, Tag tag,
-                   Work& work) noexcept;
+  static Vec3d point(const Models& models, const States& states, const MaterialPoint& at) noexcept;
+  static double thickness(const Models& models, const MaterialPoint& at) noexcept;
+  static void pull(const Models& models, const States& states, const MaterialPoint& at, Vec3d target, HoldLaw law,
+                   Tag tag, Work& work) noexcept;
   /// It moves after tissue has (suture_stitch.hpp).
   static tissue::StepReport advance(const Models&, Vec3d, double, const tissue::Box&, States&, Work&) noexcept {
     return {};

@@ -20,7 +20,7 @@ constexpr double kPinchBulge = 0.2, kGathers = 0.1, kPinchSpreads = 0.42, kStump
 
 bool holds(const interactions::ToolState& tool, BodyId body) {
   const int n = std::min(tool.holds, interactions::kMaxHolds);
-  return std::any_of(tool.hold, tool.hold + std::max(0, n), [body](const auto& h) { return h.body == body; });
+  return std::any_of(tool.hold, tool.hold + std::max(0, n), [body](const auto& h) { return h.at.body == body; });
 }
 
 sim::ClipSeat seat_of(const Clip& clip, const sim::Model& model, const sim::State& state) {
