@@ -303,8 +303,8 @@ TEST(LoopFacts, SayWhereALoopLiesAndWhatItLeavesOfTheLumen) {
   g.around_count = 1;
   g.tension = 3, g.pulled = 1.5;
   interactions::SlingAround& around = g.around[0];
-  around.strand = 0;
-  around.element = place.element, around.w = place.w;
+  around.at.body = BodyId::strand(0);
+  around.at.element = place.element, around.at.weight[0] = float(place.w);
   const double radius = body.model.radius[size_t(place.element)], lumen = body.model.lumen[size_t(place.element)];
   around.radius = radius - 0.5 * lumen;
   expect_told(w.value(kLoopAt, on), 0.020);

@@ -253,9 +253,7 @@ class Resting {
   }
 
   /// Its own law says what a loop meets there (suture_strangle.hpp).
-  bool strangled(BodyId body) const noexcept {
-    return body.is(BodyKind::strand) && m_state.sling.lies_around(std::int32_t(body.index()));
-  }
+  bool strangled(BodyId body) const noexcept { return m_state.sling.lies_around(body); }
 
   Vec3d tip() const noexcept { return suture::needle_point(m_model.needle, m_state.needle, 0); }
   Vec3d drives() const noexcept { return suture::needle_direction(m_model.needle, m_state.needle, 0); }

@@ -107,8 +107,7 @@ void add_threads(const StepContext& c, BodyId body, LoadSums& sums) noexcept {
     }
     for (int k = 0; k < s.sling.around_count; ++k) {
       const interactions::SlingAround& a = s.sling.around[std::size_t(k)];
-      if (BodyId::maybe(BodyKind::strand, a.strand) != body) continue;
-      sums.pull_by_thread(puller, on_strand(c, body.index(), a.element, a.w), length(a.pull));
+      if (a.at.body == body) sums.pull_by_thread(puller, place_of(bodies, a.at), length(a.pull));
     }
   }
 }

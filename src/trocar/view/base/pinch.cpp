@@ -82,9 +82,9 @@ std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::
 std::vector<LoopPress> loops_on(int strand, const sim::Model& model, const sim::State& state) {
   std::vector<LoopPress> presses;
   sim::visit_loops(model, state, [&](const sim::LoopClosure& loop) {
-    if (loop.strand != strand) return;
+    if (loop.at.body != BodyId::strand(std::size_t(strand))) return;
     const interactions::StrandBody& body = model.strand_bodies[std::size_t(strand)];
-    const interactions::StrandPlace place = place_at(body, loop.s);
+    const interactions::StrandPlace place = place_on_rod(loop.at);
     LoopPress press;
     press.radius = body.model.radius[std::size_t(place.element)];
     if (!(loop.radius < press.radius)) return;
