@@ -50,7 +50,8 @@ FatTouch fat_at(const StepContext& c, std::size_t hand) noexcept {
       if (lobule < 0) return;
       const Vec3d place = tissue::position(bodies[i].fat, states[i], lobule);
       const double apart = length(place - collision::nearest_on_axis(wire, place)) - wire.radius - bodies[i].fat.radius;
-      if (!best.there() || apart < best.apart) best = {int(i), lobule, place, apart};
+      if (!best.there() || apart < best.apart)
+        best = {at_node(bodies_of(c), BodyId(BodyKind::fat, i), lobule), place, apart};
     };
     interactions::Capsule wire = shape.part[interactions::kJawA];
     wire.a = wire.b - interactions::kBareWire * normalised(wire.b - wire.a, shape.frame.axis());
@@ -61,16 +62,18 @@ FatTouch fat_at(const StepContext& c, std::size_t hand) noexcept {
 }
 
 tissue::HeatContact fat_contact(const StepContext& c, const FatTouch& touch) noexcept {
-  const tissue::FatModel& m = c.model.fat[std::size_t(touch.body)].fat;
-  const tissue::FatState& s = c.state.fat[std::size_t(touch.body)];
-  const double wet = 1 - s.lobules[std::size_t(touch.lobule)].boiled / (m.material.water * m.mass);
-  const double celsius = tissue::temperature(m, s, touch.lobule);
+  const std::size_t body = touch.at.body.index();
+  const tissue::FatModel& m = c.model.fat[body].fat;
+  const tissue::FatState& s = c.state.fat[body];
+  const int lobule = touch.at.node[0];
+  const double wet = 1 - s.lobules[std::size_t(lobule)].boiled / (m.material.water * m.mass);
+  const double celsius = tissue::temperature(m, s, lobule);
   return {m.volume, kFatConducts * (kDryConducts + (1 - kDryConducts) * wet), celsius, celsius};
 }
 
 double warm_fat(StepContext& c, const FatTouch& touch, double joules) noexcept {
-  const size_t body = size_t(touch.body);
-  const double boiled = interactions::warm_fat(c.model.fat[body], touch.lobule, joules, c.state.fat[body]);
+  const size_t body = touch.at.body.index();
+  const double boiled = interactions::warm_fat(c.model.fat[body], touch.at.node[0], joules, c.state.fat[body]);
   for_roots(c, body, [](const interactions::Bond&, interactions::BondState& state, const tissue::Lobule& lobule) {
     if (lobule.gone()) state = {1, interactions::BondState::burnt};
   });
