@@ -172,7 +172,7 @@ TEST(Cut, AcrossItNothingPulls) {
   }
   ASSERT_EQ(t.state.cut_count, 2) << "the tube, then the bar";
   ASSERT_GT(t.tool(small::kGrasper).holds, 0);
-  ASSERT_EQ(t.tool(small::kGrasper).hold[0].body, BodyId::strand(small::kTube));
+  ASSERT_EQ(t.tool(small::kGrasper).hold[0].at.body, BodyId::strand(small::kTube));
   t.steps(2000);
   const int cut = place_at(t.model.strand_bodies[small::kTube], t.state.cuts[0].s).element;
   const std::vector<Vec3d> before = t.state.strands[small::kTube].x;

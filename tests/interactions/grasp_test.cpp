@@ -79,11 +79,11 @@ TEST(Grasp, ClosingJawsHoldWhatLiesBetweenThem) {
   const Grip g;
   const ToolState& tool = g.tool(kGrasper);
   ASSERT_GT(tool.holds, 0);
-  for (int i = 0; i < tool.holds; ++i) EXPECT_EQ(tool.hold[i].body, BodyId::strand(kTube));
+  for (int i = 0; i < tool.holds; ++i) EXPECT_EQ(tool.hold[i].at.body, BodyId::strand(kTube));
   EXPECT_EQ(g.count(sim::Event::grasped), 1);
   EXPECT_EQ(g.count(sim::Event::released), 0);
   // At 56 mm of arc length: the strand begins at x = -1 mm.
-  const double s = arc_at(g.model.strand_bodies[kTube], {tool.hold[0].element, double(tool.hold[0].weight)});
+  const double s = arc_at(g.model.strand_bodies[kTube], place_on_rod(tool.hold[0].at));
   EXPECT_NEAR(s, 0.056, 0.003);
 }
 
@@ -149,7 +149,7 @@ TEST(Grasp, AGripMovesWithTheInstrument) {
       const Hold& h = tool.hold[i];
       const Vec3d place = from_jaw(g.work.shapes[kGrasper], {h.local[0], h.local[1], h.local[2]});
       const double force = length(Vec3d{h.force[0], h.force[1], h.force[2]});
-      EXPECT_LT(length(held_point(g.bodies(), h) - place), 1.1 * force / kHoldStiffness + 2e-5);
+      EXPECT_LT(length(held_point(g.bodies(), h.at) - place), 1.1 * force / kHoldStiffness + 2e-5);
     }
   }
 }
@@ -305,8 +305,8 @@ TEST(Grasp, AFoldOfAnOrganIsHeldAndFollows) {
   t.close_slowly(kGrasper, 1, 500);
   const ToolState& tool = t.tool(kGrasper);
   ASSERT_GT(tool.holds, 0);
-  ASSERT_TRUE(tool.hold[0].body.is(BodyKind::organ));
-  const int solid = int(tool.hold[0].body.index()), vertex = tool.hold[0].element;
+  ASSERT_TRUE(tool.hold[0].at.body.is(BodyKind::organ));
+  const int solid = int(tool.hold[0].at.body.index()), vertex = vertex_of(sim::bodies_of(t.model, t.state), tool.hold[0].at);
   const Vec3d before = t.work.surfaces[size_t(solid)].position(vertex);
   t.carry(kGrasper, in, in + Vec3d{0, 0, 0.010}, 0.05);
   t.steps(500);

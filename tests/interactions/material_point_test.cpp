@@ -234,6 +234,56 @@ TEST(MaterialPoint, InTetrahedraStaysOnItsSideOfACut) {
   EXPECT_LT(length(place_of(k.all(), right) - right_was - Vec3d{0.01, 0, 0}), 1e-7);
 }
 
+TEST(MaterialPoint, AVertexOfTetrahedraStaysOnItsSideOfACutAndKeepsItsNumberThere) {
+  EachKind k;
+  tissue::CuttableModel& body = k.models.cuttables[0].body;
+  tissue::CuttableWork scratch = make_work(body);
+  std::vector<std::int32_t> cut_open;
+  for (std::int32_t n = 0; n < k.count(k.tetrahedra); ++n)
+    if (std::fabs(k.node(k.tetrahedra, n).x - 0.015) < 1e-6) cut_open.push_back(n);
+  ASSERT_GT(cut_open.size(), 4u);
+  std::vector<MaterialPoint> held;
+  for (const std::int32_t n : cut_open) held.push_back(on_vertex(k.all(), 1, n));
+  for (std::size_t i = 0; i < held.size(); ++i) EXPECT_EQ(vertex_of(k.all(), held[i]), cut_open[i]);
+  ASSERT_GT(
+      tissue::cut(body, geometry::square_blade({0.015, 0.005, 0.005}, {1, 0, 0}, 0.02), k.states.cuttables[0], scratch)
+          .doubled,
+      0);
+  tissue::make_current(body, k.states.cuttables[0], scratch);
+  for (const MaterialPoint& p : held) {
+    const geometry::Tet& cell = k.states.cuttables[0].tets.cells[std::size_t(p.element)];
+    const std::int32_t vertex = vertex_of(k.all(), p);
+    EXPECT_NE(std::find(cell.begin(), cell.end(), vertex), cell.end());
+    EXPECT_EQ(scratch.part[std::size_t(vertex)], scratch.part[std::size_t(cell[0])]);
+    EXPECT_LT(length(place_of(k.all(), p) - k.node(k.tetrahedra, vertex)), 1e-9);
+  }
+}
+
+TEST(MaterialPoint, OfAFileNamesOnlyWhatIsThere) {
+  EachKind k;
+  core::Random random(7);
+  for (const BodyId body : k.all_kinds)
+    for (const MaterialPoint& good : k.points(body, random, 5)) {
+      ASSERT_TRUE(is_valid(k.models, good));
+      MaterialPoint p = good;
+      p.body = BodyId(body.kind(), 7);
+      EXPECT_FALSE(is_valid(k.models, p)) << "no such body";
+      p = good, p.element = 1 << 20;
+      EXPECT_FALSE(is_valid(k.models, p)) << "no such element";
+      p = good, p.count = 1000;
+      EXPECT_EQ(is_valid(k.models, p), body == k.rod) << "a rod has no count";
+      p = good, p.count = 0;
+      EXPECT_EQ(is_valid(k.models, p), body == k.rod);
+      p = good, p.node[0] = -3;
+      EXPECT_EQ(is_valid(k.models, p), body == k.rod);
+      p = good, p.frame = MaterialPoint::skin_row;
+      EXPECT_FALSE(is_valid(k.models, p)) << "its row is of no vertex";
+      p = good, p.frame = MaterialPoint::long_row;
+      EXPECT_FALSE(is_valid(k.models, p)) << "long rows are the Model's";
+    }
+  EXPECT_FALSE(is_valid(k.models, on_object(BodyId(BodyKind::suture, 0), 0)));
+}
+
 TEST(MaterialPoint, OnATornTriangleGoesWithItsNearestCorner) {
   EachKind k;
   const MaterialPoint p = attach(k.all(), k.sheet, {0.0052, 0.0051, 0});

@@ -263,8 +263,8 @@ TEST(Fold, IsGraspedBesideTheTubeAndFollowsTheJaws) {
   ASSERT_GE(tool.holds, 2);
   EXPECT_GT(tool.pinch, 0.5 * grasper.model.pinch_max);
   for (int h = 0; h < tool.holds; ++h) {
-    ASSERT_EQ(tool.hold[h].body, BodyId::membrane(0));
-    EXPECT_NE(t.model.membranes[0].sheet.network.fixed[size_t(tool.hold[h].element)], tissue::kHeld);
+    ASSERT_EQ(tool.hold[h].at.body, BodyId::membrane(0));
+    EXPECT_NE(t.model.membranes[0].sheet.network.fixed[size_t(tool.hold[h].at.node[0])], tissue::kHeld);
   }
   // The jaws draw it 4 mm aside; it comes along and pulls back.
   Vec3d pull{0, 0, 0};
@@ -282,8 +282,8 @@ TEST(Fold, IsGraspedBesideTheTubeAndFollowsTheJaws) {
     pull = {0, 0, 0};
     for (const Vec3f& f : loads.reaction) pull -= vec_cast<double>(f);
   }
-  EXPECT_NEAR(held_point(bodies, tool.hold[0]).y -
-                  small::model().membranes[0].sheet.network.rest[size_t(tool.hold[0].element)].y,
+  EXPECT_NEAR(held_point(bodies, tool.hold[0].at).y -
+                  small::model().membranes[0].sheet.network.rest[size_t(tool.hold[0].at.node[0])].y,
               -0.004, 0.0015);
   EXPECT_GT(pull.y, 1e-3);
 }

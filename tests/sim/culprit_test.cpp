@@ -52,8 +52,8 @@ struct Loaded {
   void hold(int hand, BodyId body, int element, Vec3d force) {
     interactions::ToolState& tool = state.tools[size_t(hand)];
     tool.holds = 1;
-    tool.hold[0].body = body;
-    tool.hold[0].element = element;
+    tool.hold[0].at.body = body;
+    tool.hold[0].at.element = element;
     for (int k = 0; k < 3; ++k) tool.hold[0].force[k] = float(force[k]), tool.pull[k] = -force[k];
     if (body.is(BodyKind::strand)) load(Owner::tool_hold, hand, body.index(), element, force);
   }

@@ -152,9 +152,8 @@ void expect_drawable(const Model& m, const State& s) {
     ASSERT_TRUE(t.holds >= 0 && t.holds <= interactions::kMaxHolds);
     for (double v : {t.yaw, t.pitch, t.roll, t.depth, t.aperture}) ASSERT_TRUE(std::isfinite(v));
     for (int h = 0; h < t.holds; ++h) {
-      ASSERT_TRUE(has(m, t.hold[h].body));
-      ASSERT_GE(t.hold[h].element, 0);
-      ASSERT_LT(t.hold[h].element, places_on(m, t.hold[h].body));
+      ASSERT_TRUE(has(m, t.hold[h].at.body));
+      ASSERT_TRUE(is_valid(m, t.hold[h].at));
     }
   }
   ASSERT_TRUE(s.clip_count >= 0 && s.clip_count <= interactions::kMaxClips);

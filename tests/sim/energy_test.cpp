@@ -284,7 +284,7 @@ TEST(Energy, BipolarJawsSealTheArteryInATubeThatTheyHold) {
   t.close_slowly(kBipolar, 1, 300);
   t.steps(100);
   ASSERT_GT(t.tool(kBipolar).holds, 0);
-  ASSERT_EQ(t.tool(kBipolar).hold[0].body, BodyId::strand(small::kTube));
+  ASSERT_EQ(t.tool(kBipolar).hold[0].at.body, BodyId::strand(small::kTube));
   t.input.pedals = kBlue;
   t.steps(3000);
   ASSERT_GT(t.state.seal_count, 0);

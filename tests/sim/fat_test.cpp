@@ -122,7 +122,7 @@ TEST(FatInItsScene, HangsAsDrawnAndNothingGivesWay) {
 TEST(FatInItsScene, JawsTearItOutAndItNeverGrowsTogether) {
   const Story& story = torn();
   EXPECT_GT(story.end.tools[kGrasper].holds, 0) << "the jaws hold what they tore out";
-  EXPECT_EQ(story.end.tools[kGrasper].hold[0].body.kind(), BodyKind::fat);
+  EXPECT_EQ(story.end.tools[kGrasper].hold[0].at.body.kind(), BodyKind::fat);
   EXPECT_LT(story.septa.back(), story.septa[8]);
   EXPECT_TRUE(std::is_sorted(story.septa.rbegin(), story.septa.rend()));
   RecordProperty("pulled_N", std::to_string(story.pulled));

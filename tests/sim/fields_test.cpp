@@ -554,8 +554,8 @@ TEST(Fields, TheFirstFieldInWhichTwoStatesDifferHasAName) {
   b.tools[1].hold[2].local[0] = 0.5f;
   EXPECT_EQ(first_difference(a, b), "tools[1].hold[2].local[0]: 0 and 0.5");
   b = a;
-  b.tools[0].hold[0].body = BodyId::wall();
-  EXPECT_EQ(first_difference(a, b), "tools[0].hold[0].body: -1 and -2");
+  b.tools[0].hold[0].at.body = BodyId::wall();
+  EXPECT_EQ(first_difference(a, b), "tools[0].hold[0].at.body: -1 and -2");
   b = a;
   b.strands[1].alive.pop_back();
   EXPECT_EQ(first_difference(a, b), "strands[1].alive.size: " + std::to_string(a.strands[1].alive.size()) + " and " +

@@ -985,7 +985,7 @@ void attach_bodies(const sim::Model& m, const sim::State& state, const Numbers& 
   }
   for (size_t h = 0; h < m.hands.size(); ++h)
     for (int k = 0; k < state.tools[h].holds; ++k)
-      attach(all, n.instruments + int(h), n.of(state.tools[h].hold[k].body));
+      attach(all, n.instruments + int(h), n.of(state.tools[h].hold[k].at.body));
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST(Rigid, AHeldRingFollowsTheJaws) {
   const Model m = one_ring({-0.01, 0.1, kLies});
   Lifted t(m);
   ASSERT_GT(t.tool(kLeft).holds, 0);
-  ASSERT_EQ(t.tool(kLeft).hold[0].body, BodyId(BodyKind::rigid, 0));
+  ASSERT_EQ(t.tool(kLeft).hold[0].at.body, BodyId(BodyKind::rigid, 0));
   EXPECT_EQ(t.count(Event::grasped), 1);
   EXPECT_EQ(t.count(Event::slipped), 0);
   EXPECT_GT(ring(t.state).x.z, kLies + 0.025);
@@ -171,7 +171,7 @@ TEST(Rigid, ARingGoesFromHandToHand) {
   // The right hand comes to the rim across from where the left one holds it, with jaws that straddle it.
   const Vec3d far_rim =
       held.x + (held.x - interactions::Rigid::point(interactions::part_of<Rigid>(t.model),
-                                                    interactions::part_of<Rigid>(t.state), t.tool(kLeft).hold[0]));
+                                                    interactions::part_of<Rigid>(t.state), t.tool(kLeft).hold[0].at));
   t.input.tools[kRight].handle = 0.5f;
   t.carry(kRight, {0.022, 0.088, -0.075}, far_rim + Vec3d{0.01, 0, 0.02}, 0.1);
   t.carry(kRight, far_rim + Vec3d{0.01, 0, 0.02}, far_rim, 0.05);

@@ -21,8 +21,7 @@ TEST_P(SlingPlaces, ClosesTheLumenWithinOneAndAHalfMillimetresOfWhereItsKnotIsHe
   d.put_over(0, kFreeEnd, wanted);
   d.draw_closed(0, wanted, kHandle, 6);
   ASSERT_EQ(d.sling().around_count, 1);
-  const interactions::SlingAround& a = d.sling().around[0];
-  const double lies = interactions::arc_at(box.strand_bodies[0], {a.element, a.w});
+  const double lies = arc_of(box, d.sling().around[0].at);
   double cover = 0;
   sim::visit_loops(box, d.state, [&](const sim::LoopClosure& loop) { cover = std::max(cover, loop.cover); });
   double tension = 0;

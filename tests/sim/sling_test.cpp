@@ -57,8 +57,7 @@ const SlingDriver& left() {
   return done;
 }
 double place_of(const SlingDriver& d, size_t sling) {
-  const interactions::SlingAround& a = d.state.objects.sutures[sling].sling.around[0];
-  return interactions::arc_at(box().strand_bodies[0], {a.element, a.w});
+  return arc_of(box(), d.state.objects.sutures[sling].sling.around[0].at);
 }
 double place_of(const SlingDriver& d) { return place_of(d, 0); }
 /// A second loop, which the hand has taken at its trocar, 2.5 mm beside the first.
@@ -85,7 +84,7 @@ double cover_of(const SlingDriver& d) {
 SlingDriver with_stump(double length) {
   SlingDriver d = left();
   const interactions::StrandBody& body = box().strand_bodies[0];
-  int e = d.sling().around[0].element + 1;
+  int e = d.sling().around[0].at.element + 1;
   while (body.arc[size_t(e)] < place_of(d) + length - 0.00075) ++e;
   d.state.strands[0].alive[size_t(e)] = 0;
   d.rest(6);

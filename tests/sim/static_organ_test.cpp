@@ -115,7 +115,7 @@ TEST(StaticOrgan, IsGraspedPulledAndLetGo) {
   table.carry(hand, above, side, 0.05);
   table.close_slowly(hand, 1, 300);
   ASSERT_EQ(table.count(Event::grasped), 1);
-  const BodyId held = table.tool(hand).hold[0].body;
+  const BodyId held = table.tool(hand).hold[0].at.body;
   ASSERT_TRUE(held.is(BodyKind::organ));
   table.carry(hand, side, side + Vec3d{0, -0.002, 0.003}, 0.02);
   table.steps(200);

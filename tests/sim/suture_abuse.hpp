@@ -153,11 +153,11 @@ class SutureAbuse {
       }
     }
     for (size_t h = 0; h < m_hands.size(); ++h) {
-      const bool now = holds(h) && m_state.tools[h].hold[0].body.is(BodyKind::suture);
+      const bool now = holds(h) && m_state.tools[h].hold[0].at.body.is(BodyKind::suture);
       if (now && !m_hands_held[h]) {
         const interactions::Hold& hold = m_state.tools[h].hold[0];
         ++takes;
-        needle_takes += interactions::on_needle(m_model.objects.sutures.list[hold.body.index()], hold.element);
+        needle_takes += interactions::on_needle(m_model.objects.sutures.list[hold.at.body.index()], hold.at.element);
       }
       m_hands_held[h] = now;
       drawn_out += now && m_state.tools[h].depth < 0.035;
@@ -176,8 +176,8 @@ class SutureAbuse {
       bool held = false;
       for (int k = 0; k < m_state.tools[h].holds; ++k) {
         const auto& hold = m_state.tools[h].hold[k];
-        held = held || (hold.body == BodyId{BodyKind::suture, std::uint32_t(i)} && hold.element >= m.grips &&
-                        std::abs(hold.element - m.grips - n) * m.thread.spacing < 0.006);
+        held = held || (hold.at.body == BodyId{BodyKind::suture, std::uint32_t(i)} && hold.at.element >= m.grips &&
+                        std::abs(hold.at.element - m.grips - n) * m.thread.spacing < 0.006);
       }
       if (held) continue;
       for (int part = interactions::kShaft; part < end_of(shape); part = interactions::next(part)) {

@@ -31,7 +31,7 @@ TEST(Suture, HeldFromTheStartStaysInTheJaws) {
   const Vec3d before = d.suture().needle.x;
   d.rest(0.3);
   ASSERT_GT(d.state.tools[size_t(right_hand())].holds, 0);
-  EXPECT_TRUE(d.state.tools[size_t(right_hand())].hold[0].body.is(BodyKind::suture));
+  EXPECT_TRUE(d.state.tools[size_t(right_hand())].hold[0].at.body.is(BodyKind::suture));
   EXPECT_LT(length(d.suture().needle.x - before), 0.0005);
 }
 

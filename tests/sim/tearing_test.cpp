@@ -99,8 +99,8 @@ TEST(Tearing, TwoThreadsGiveTheSameBits) { EXPECT_EQ(pulled(false, 2).hashes, pl
 TEST(Tearing, NoGripHoldsWhatHasParted) {
   for (const interactions::ToolState& tool : plain().end.tools)
     for (int h = 0; h < tool.holds; ++h) {
-      if (!tool.hold[h].body.is(BodyKind::strand)) continue;
-      EXPECT_TRUE(plain().end.strands[tool.hold[h].body.index()].alive[size_t(tool.hold[h].element)]);
+      if (!tool.hold[h].at.body.is(BodyKind::strand)) continue;
+      EXPECT_TRUE(plain().end.strands[tool.hold[h].at.body.index()].alive[size_t(tool.hold[h].at.element)]);
     }
 }
 

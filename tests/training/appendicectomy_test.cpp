@@ -30,9 +30,9 @@ void tie(sim::State& state, size_t n, double s, double inner = 0.0018) {
   g.stage = interactions::SlingState::left;
   g.around_count = 1;
   g.around[0] = {};
-  g.around[0].strand = appendix();
-  g.around[0].element = at.element;
-  g.around[0].w = at.w;
+  g.around[0].at.body = BodyId::strand(size_t(appendix()));
+  g.around[0].at.element = at.element;
+  g.around[0].at.weight[0] = float(at.w);
   g.around[0].radius = inner;
 }
 Value asked(const char* fact, sim::State& state, const Arguments& a) {

@@ -54,24 +54,24 @@ void hold(sim::State& state, int hand, int station) {
   interactions::ToolState& tool = state.tools[size_t(hand)];
   tool.holds = station < 0 ? 0 : 1;
   if (station < 0) return;
-  tool.hold[0].body = BodyId::organ(size_t(gut()));
-  tool.hold[0].element = vertex_of(stations('a')[size_t(station)]);
+  tool.hold[0].at.body = BodyId::organ(size_t(gut()));
+  tool.hold[0].at.element = vertex_of(stations('a')[size_t(station)]);
 }
 
 TEST(Stations, TellHowFarAlongAHoldIsThoughLoopsLieAgainstEachOther) {
   const Stations along(bowel(), stations('a'), kSpacing);
   sim::State state = sim::initial_state(bowel());
-  EXPECT_EQ(along.held_at(state, kLeftHand), -1);
+  EXPECT_EQ(along.held_at(bowel(), state, kLeftHand), -1);
   for (int k = 0; k < kStations; ++k) {
     hold(state, kLeftHand, k);
-    EXPECT_DOUBLE_EQ(along.held_at(state, kLeftHand), (k + 1) * kSpacing);
+    EXPECT_DOUBLE_EQ(along.held_at(bowel(), state, kLeftHand), (k + 1) * kSpacing);
   }
   // what lies next to a station across its own gut is that station's, too: nearer along the skin than the next loop's
   // wall
   const std::vector<std::int32_t> far = stations('b');
   for (int k = 2; k + 2 < kStations; ++k) {
-    state.tools[kLeftHand].hold[0].element = vertex_of(far[size_t(k)]);
-    EXPECT_NEAR(along.held_at(state, kLeftHand), (k + 1) * kSpacing, 1.01 * kSpacing) << k;
+    state.tools[kLeftHand].hold[0].at.element = vertex_of(far[size_t(k)]);
+    EXPECT_NEAR(along.held_at(bowel(), state, kLeftHand), (k + 1) * kSpacing, 1.01 * kSpacing) << k;
   }
 }
 
@@ -170,20 +170,20 @@ TEST(Stations, WhatJawsHoldOfTwoLoopsBeginsAndEndsFarApart) {
   const Stations along(bowel(), stations('a'), kSpacing);
   sim::State state = sim::initial_state(bowel());
   interactions::ToolState& tool = state.tools[kLeftHand];
-  EXPECT_FALSE(along.held_span(state, kLeftHand));
+  EXPECT_FALSE(along.held_span(bowel(), state, kLeftHand));
   const auto hold_also = [&](int station) {
     interactions::Hold& h = tool.hold[tool.holds++];
     h = {};
-    h.body = along.body();
-    h.element = vertex_of(stations('a')[size_t(station)]);
+    h.at.body = along.body();
+    h.at.element = vertex_of(stations('a')[size_t(station)]);
   };
   hold_also(11);
   hold_also(12);
-  EXPECT_NEAR(along.held_span(state, kLeftHand)->from, 0.120, 1e-9);
-  EXPECT_NEAR(along.held_span(state, kLeftHand)->to, 0.130, 1e-9);
+  EXPECT_NEAR(along.held_span(bowel(), state, kLeftHand)->from, 0.120, 1e-9);
+  EXPECT_NEAR(along.held_span(bowel(), state, kLeftHand)->to, 0.130, 1e-9);
   hold_also(22);  // the next loop: half way between the two is nothing that is held
-  EXPECT_NEAR(along.held_span(state, kLeftHand)->from, 0.120, 1e-9);
-  EXPECT_NEAR(along.held_span(state, kLeftHand)->to, 0.230, 1e-9);
+  EXPECT_NEAR(along.held_span(bowel(), state, kLeftHand)->from, 0.120, 1e-9);
+  EXPECT_NEAR(along.held_span(bowel(), state, kLeftHand)->to, 0.230, 1e-9);
 }
 
 // ---- the gut itself

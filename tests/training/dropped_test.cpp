@@ -25,7 +25,7 @@ struct Watched {
   }
   void hold(bool held) {
     state.tools[1].holds = held;
-    state.tools[1].hold[0].body = BodyId(BodyKind::rigid, 2);
+    state.tools[1].hold[0].at.body = BodyId(BodyKind::rigid, 2);
   }
   void fall(Vec3d to) {
     const Vec3d from = ring().x;

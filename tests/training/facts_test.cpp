@@ -62,7 +62,7 @@ struct World {
   void hold(int strand, double pull) {
     interactions::ToolState& tool = state.tools[kGrasper];
     tool.holds = 1;
-    tool.hold[0].body = BodyId::strand(size_t(strand));
+    tool.hold[0].at.body = BodyId::strand(size_t(strand));
     tool.pull[2] = pull;
     tool.pinch = 5;
   }
@@ -232,14 +232,14 @@ TEST(Facts, AHandHoldsABodySomewhere) {
   const Arguments place{w.hand(kGrasper), w.strand("tube_left")};
   EXPECT_UNKNOWN(w.value(kHandHeldAt, place));
   w.hold(kLeft, 1);
-  w.state.tools[kGrasper].hold[0].element = interactions::place_at(w.model.strand_bodies[kLeft], 0.055).element;
+  w.state.tools[kGrasper].hold[0].at.element = interactions::place_at(w.model.strand_bodies[kLeft], 0.055).element;
   expect_value(w.value(kHandHolds, {w.hand(kGrasper), anything}), 1);
   expect_value(w.value(kHandHolds, {w.hand(kGrasper), bodies({kCord, kLeft})}), 1);
   expect_value(w.value(kHandHolds, {w.hand(kGrasper), bodies({kCord})}), 0);
   expect_value(w.value(kHandHeldAt, place), 0.055, 0.003);
   const Argument strand = w.strand("tube_left"), grasper = w.hand(kGrasper);
   expect_value(w.value(kHandHoldsBetween, {grasper, strand, word("isthmus"), word("fimbria")}), 1);
-  w.state.tools[kGrasper].hold[0].element = 0;
+  w.state.tools[kGrasper].hold[0].at.element = 0;
   expect_value(w.value(kHandHoldsBetween, {grasper, strand, word("isthmus"), word("fimbria")}), 0);
 }
 
@@ -247,7 +247,7 @@ TEST(Facts, AHandHoldsAllThatIsBetweenItsJaws) {
   World w;
   w.hold(kLeft, 1);
   w.state.tools[kGrasper].holds = 2;
-  w.state.tools[kGrasper].hold[1].body = BodyId::strand(size_t(kCord));
+  w.state.tools[kGrasper].hold[1].at.body = BodyId::strand(size_t(kCord));
   for (const int strand : {kLeft, kCord}) expect_value(w.value(kHandHolds, {w.hand(kGrasper), bodies({strand})}), 1);
 }
 

@@ -85,8 +85,8 @@ struct Sewn {
   void hold(int hand, int place) {
     interactions::ToolState& tool = state.tools[size_t(hand)];
     tool.holds = 1;
-    tool.hold[0].body = BodyId(BodyKind::suture, 0);
-    tool.hold[0].element = place;
+    tool.hold[0].at.body = BodyId(BodyKind::suture, 0);
+    tool.hold[0].at.element = place;
   }
   /// Throws of the whole thread, with the tissue in the loop below them.
   void tie(const std::vector<suture::Throw>& throws_) {
@@ -123,7 +123,7 @@ int told_too_hard(Vec3d left, Vec3d right) {
   const Vec3d pull[] = {left, right};
   for (std::size_t h = 0; h < 2; ++h) {
     interactions::ToolState& tool = sewn.state.tools[h];
-    tool.holds = 1, tool.hold[0].body = BodyId{BodyKind::suture, 0};
+    tool.holds = 1, tool.hold[0].at.body = BodyId{BodyKind::suture, 0};
     tool.pull[0] = pull[h].x, tool.pull[1] = pull[h].y, tool.pull[2] = pull[h].z;
   }
   PullWatch watch;
@@ -303,8 +303,8 @@ TEST(LoopFacts, SayWhereALoopLiesAndWhatItLeavesOfTheLumen) {
   g.around_count = 1;
   g.tension = 3, g.pulled = 1.5;
   interactions::SlingAround& around = g.around[0];
-  around.strand = 0;
-  around.element = place.element, around.w = place.w;
+  around.at.body = BodyId::strand(0);
+  around.at.element = place.element, around.at.weight[0] = float(place.w);
   const double radius = body.model.radius[size_t(place.element)], lumen = body.model.lumen[size_t(place.element)];
   around.radius = radius - 0.5 * lumen;
   expect_told(w.value(kLoopAt, on), 0.020);

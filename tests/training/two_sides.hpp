@@ -123,8 +123,8 @@ struct Attempt {
   void hold(BodyId body, int element, double pull) {
     interactions::ToolState& grasper = state.tools[kGrasper];
     grasper.holds = 1;
-    grasper.hold[0].body = body;
-    grasper.hold[0].element = element;
+    grasper.hold[0].at.body = body;
+    grasper.hold[0].at.element = element;
     grasper.pull[2] = pull;
     grasper.pinch = 5;
   }

@@ -189,7 +189,7 @@ TEST(Analysis, AnArrowOfAGripIsAsLongAsTheForceThatItsHoldsExert) {
   interactions::ToolState& tool = state.tools[small::kGrasper];
   tool.holds = 2;
   for (int i = 0; i < 2; ++i) {
-    tool.hold[i].body = BodyId::strand(small::kTube);
+    tool.hold[i].at.body = BodyId::strand(small::kTube);
     tool.hold[i].force[2] = 0.75f;
   }
   const std::vector<ForceArrow> arrows = forces_of(small::model(), state);

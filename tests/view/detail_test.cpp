@@ -206,10 +206,10 @@ TEST_F(DetailPictures, WhatAnInstrumentHoldsOrDentsIsInFull) {
   EXPECT_GT(level_of("tube_left", state), 0);
   EXPECT_GT(level_of("uterus", state), 0);
   state.tools[0].holds = 1;
-  state.tools[0].hold[0].body = tube;
+  state.tools[0].hold[0].at.body = tube;
   EXPECT_EQ(level_of("tube_left", state), 0);
   EXPECT_GT(level_of("uterus", state), 0);
-  state.tools[0].hold[0].body = sim::body_of(pelvis(), "uterus");
+  state.tools[0].hold[0].at.body = sim::body_of(pelvis(), "uterus");
   EXPECT_EQ(level_of("uterus", state), 0);
   EXPECT_GT(level_of("tube_left", state), 0);
   state.tools[0].holds = 0;

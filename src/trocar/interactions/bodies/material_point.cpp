@@ -164,10 +164,14 @@ struct SheetFrame {
 /// A long row as it is now: f(node, weight, x, v) of each of its nodes.
 template <class F>
 void each_of_long(const Bodies& bodies, const MaterialPoint& p, F&& f) noexcept {
-  const LongRow& row = bodies.models.rows[std::size_t(p.element)];
   const tissue::NodeView nodes = nodes_of(bodies, p.body);
-  for (std::size_t i = 0; i < row.node.size(); ++i)
-    f(row.node[i], double(row.weight[i]), nodes.position(row.node[i]), nodes.velocity(row.node[i]));
+  const auto give = [&](std::int32_t n, double w) {
+    if (w != 0) f(n, w, nodes.position(n), nodes.velocity(n));
+  };
+  if (p.frame == MaterialPoint::skin_row)
+    return skin_of(bodies, p.body.index()).each_carrier(p.element, [&](int n, int, float w) { give(n, double(w)); });
+  const LongRow& row = bodies.models.rows[std::size_t(p.element)];
+  for (std::size_t i = 0; i < row.node.size(); ++i) give(row.node[i], double(row.weight[i]));
 }
 
 struct LongMean {
@@ -452,29 +456,47 @@ Vec3d offset_of(const MaterialPoint& p) noexcept {
 
 StrandPlace place_on_rod(const MaterialPoint& p) noexcept { return {p.element, double(p.weight[0])}; }
 
+double arc_of(const BodyModels& models, const MaterialPoint& p) noexcept {
+  return arc_at(models.strand_bodies[p.body.index()], place_on_rod(p));
+}
+
+std::int32_t vertex_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
+  if (p.body.is(BodyKind::organ) && !is_tetrahedral(bodies, p.body)) return p.element;
+  if (p.count != 1) return -1;
+  const geometry::Tet* const cell = cell_of(bodies, p.body, p.element);
+  return cell ? (*cell)[std::size_t(p.node[0])] : p.node[0];
+}
+
 bool is_valid(const BodyModels& models, const MaterialPoint& p) noexcept {
   const auto below = [](std::int32_t i, std::size_t count) { return i >= 0 && std::size_t(i) < count; };
+  const auto none_or_below = [&below](std::int32_t i, std::size_t count) { return i == -1 || below(i, count); };
   for (const float off : p.offset)
     if (!(std::fabs(off) < 10)) return false;
   for (const float w : p.weight)
     if (!(std::fabs(w) < 10)) return false;
   if (p.in_space()) return p.body == BodyId{};
-  if (p.count < 0 || p.is_long() || p.frame < MaterialPoint::space || p.frame > MaterialPoint::triangle) return false;
   const std::size_t i = p.body.index(), lattices = models.solids.size();
-  std::size_t nodes = 0;
   if (p.body.is(BodyKind::strand))
-    return i < models.strand_bodies.size() && below(p.element, std::size_t(models.strand_bodies[i].nodes() - 1));
+    return !p.is_long() && i < models.strand_bodies.size() &&
+           below(p.element, std::size_t(models.strand_bodies[i].nodes() - 1)) && p.weight[0] >= 0 && p.weight[0] <= 1;
+  std::size_t nodes = 0;
   if (p.body.is(BodyKind::organ) && i < lattices) {
+    const std::size_t vertices = models.solids[i].skin.weights.size();
+    if (p.frame == MaterialPoint::skin_row) return below(p.element, vertices);
+    if (!none_or_below(p.element, vertices)) return false;
     nodes = std::size_t(models.solids[i].network.nodes);
   } else if (p.body.is(BodyKind::organ) && i < lattices + models.cuttables.size()) {
     nodes = 4;
     if (!below(p.element, models.cuttables[i - lattices].body.drawn.cells.size())) return false;
   } else if (p.body.is(BodyKind::membrane) && i < models.membranes.size()) {
     nodes = std::size_t(models.membranes[i].sheet.nodes());
-    if (p.element >= 0 && !below(p.element, models.membranes[i].sheet.triangles.size())) return false;
+    if (!none_or_below(p.element, models.membranes[i].sheet.triangles.size())) return false;
   } else if (p.body.is(BodyKind::fat) && i < models.fat.size()) {
     nodes = std::size_t(models.fat[i].fat.lobules());
   }
+  const bool turns = p.frame == MaterialPoint::triangle;
+  if (!turns && p.frame != MaterialPoint::space) return false;
+  if (p.count < (turns ? 3 : 1) || p.count > kRowNodes) return false;
   return std::all_of(p.node.begin(), p.node.begin() + p.count, [&](std::int32_t n) { return below(n, nodes); });
 }
 
@@ -524,23 +546,44 @@ MaterialPoint at_element(const Bodies& bodies, std::size_t rod, std::int32_t ele
   return p;
 }
 
+MaterialPoint on_object(BodyId body, std::int32_t place) noexcept {
+  MaterialPoint p;
+  p.body = body;
+  p.element = place;
+  return p;
+}
+
 MaterialPoint on_vertex(const Bodies& bodies, std::size_t organ, std::int32_t vertex) noexcept {
   MaterialPoint p;
   p.body = BodyId::organ(organ);
   if (is_tetrahedral(bodies, p.body)) {  // its skin's vertices are its nodes
-    const tissue::CuttableWork& work = bodies.work->cuttables[organ - bodies.models.solids.size()].body;
-    p.element = work.around[std::size_t(work.begin[std::size_t(vertex)])];
-    const geometry::Tet& cell = tets_of(bodies, p.body).cells[std::size_t(p.element)];
     p.count = 1;
-    p.node[0] = std::int32_t(std::find(cell.begin(), cell.end(), vertex) - cell.begin());
     p.weight[0] = 1;
-    return p;
+    each_cell_at(bodies, p.body, {&vertex, 1}, [&](std::size_t c) {
+      const geometry::Tet& cell = tets_of(bodies, p.body).cells[c];
+      const auto at = std::find(cell.begin(), cell.end(), vertex);
+      if (p.element >= 0 || at == cell.end()) return;
+      p.element = std::int32_t(c);
+      p.node[0] = std::int32_t(at - cell.begin());
+    });
+    return p.element >= 0 ? p : MaterialPoint{};
   }
-  skin_of(bodies, organ).each_carrier(vertex, [&p](int node, int, float weight) {
-    if (weight == 0 || p.count == kRowNodes) return;
+  p.element = vertex;
+  bool fits = true;
+  skin_of(bodies, organ).each_carrier(vertex, [&](int node, int, float weight) {
+    if (weight == 0) return;
+    if (p.count == kRowNodes) {
+      fits = false;
+      return;
+    }
     p.node[std::size_t(p.count)] = node;
     p.weight[std::size_t(p.count++)] = weight;
   });
+  if (fits) return p;
+  p.frame = MaterialPoint::skin_row;
+  p.count = 0;
+  p.node = {};
+  p.weight = {};
   return p;
 }
 
@@ -573,6 +616,7 @@ MaterialPoint along_with_vertex(const Bodies& bodies, std::size_t organ, std::in
     p = on_vertex(bodies, organ, vertex);
   }
   set_offset(p, place - place_of(bodies, p));
+  if (!p.is_long()) p.element = -1;
   return p;
 }
 
@@ -640,6 +684,8 @@ Vec3d velocity_of(const Bodies& bodies, const MaterialPoint& p) noexcept {
 
 Vec3d drawn_place(const Bodies& bodies, const MaterialPoint& p) noexcept {
   if (p.in_space()) return offset_of(p);
+  if (p.frame == MaterialPoint::skin_row)
+    return vec_cast<double>(skin_of(bodies, p.body.index()).rest[std::size_t(p.element)]) + offset_of(p);
   if (p.body.is(BodyKind::strand)) {
     const std::vector<Vec3d>& rest = bodies.strand(p.body.index()).model.rest;
     const std::size_t e = std::size_t(p.element);

@@ -38,10 +38,12 @@ struct MaterialPoint {
     space,     ///< nothing: the row gives it for every affine motion
     rod,       ///< the drawn direction of its element
     triangle,  ///< edge, across and normal of its first three nodes
-    long_row   ///< nothing; nodes and weights are in BodyModels::rows[element]
+    long_row,  ///< nothing; nodes and weights are in BodyModels::rows[element]
+    skin_row   ///< nothing; nodes and weights are those of vertex `element` of the organ's skin
   };
   BodyId body;                ///< none: space, and `offset` is the place
-  std::int32_t element = -1;  ///< of a rod; cell of tetrahedra; triangle of a membrane; long row; -1: none of these
+  std::int32_t element = -1;  ///< of a rod; cell of tetrahedra; triangle of a membrane; long row; the vertex that it
+                              ///< is of a lattice's skin; number of an object's place; -1: none of these
   std::int32_t count = 0;     ///< nodes of the row; of a rod and of tetrahedra its element says which
   std::int32_t frame = space;
   std::array<std::int32_t, kRowNodes> node{};
@@ -49,7 +51,7 @@ struct MaterialPoint {
   std::array<float, 3> offset{};          ///< [m] in the frame; of a rod in the drawn shape's axes
 
   bool in_space() const noexcept { return !body.exists(); }
-  bool is_long() const noexcept { return frame == long_row; }
+  bool is_long() const noexcept { return frame == long_row || frame == skin_row; }
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>
@@ -70,6 +72,8 @@ MaterialPoint in_space(Vec3d place) noexcept;
 MaterialPoint at_node(const Bodies& bodies, BodyId body, std::int32_t node, Vec3d offset = {}) noexcept;
 /// A place on a rod's axis, and what is beside it by `offset` as it is now [m].
 MaterialPoint at_element(const Bodies& bodies, std::size_t rod, std::int32_t element, double w, Vec3d offset) noexcept;
+/// A place of an object that is no tissue, which the object knows by that number (objects/object_kinds.hpp).
+MaterialPoint on_object(BodyId body, std::int32_t place) noexcept;
 /// A vertex of an organ's skin itself. Of tetrahedra only in a tick.
 MaterialPoint on_vertex(const Bodies& bodies, std::size_t organ, std::int32_t vertex) noexcept;
 /// At a vertex of an organ's skin, or beside it: carried by the nodes that carry that.
@@ -88,10 +92,15 @@ Vec3d drawn_place(const Bodies& bodies, const MaterialPoint& point) noexcept;
 /// Where its row is, without the offset: what it is rooted in.
 Vec3d foot_of(const Bodies& bodies, const MaterialPoint& point) noexcept;
 
+/// Which vertex of its body's skin it is, of fat which lobule; -1: none of them.
+std::int32_t vertex_of(const Bodies& bodies, const MaterialPoint& point) noexcept;
+
 /// How a plane of the tissue about it faces now that was drawn facing along the unit vector `drawn`.
 Vec3d normal_at(const Bodies& bodies, const MaterialPoint& point, Vec3d drawn) noexcept;
 /// Of a point of a rod: where on its axis, whether that is whole or not.
 StrandPlace place_on_rod(const MaterialPoint& point) noexcept;
+/// How far along the rod that is in the drawn shape [m].
+double arc_of(const BodyModels& models, const MaterialPoint& point) noexcept;
 /// As it is stored: in its frame, of a rod in the drawn shape's axes [m].
 Vec3d offset_of(const MaterialPoint& point) noexcept;
 

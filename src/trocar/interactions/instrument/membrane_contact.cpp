@@ -188,9 +188,9 @@ void tool_on_sheet(Touching& c, const ToolState& tool_state, BodyId body, const 
   const tissue::Skin& skin = *surface.skin;
   const auto held = [&](const std::array<int, 3>& t) {
     for (int h = 0; h < tool_state.holds; ++h)
-      if (tool_state.hold[h].body == body)
+      if (tool_state.hold[h].at.body == body)
         for (int v : t)
-          if (tool_state.hold[h].element == v) return true;
+          if (tool_state.hold[h].at.node[0] == v) return true;
     return false;
   };
   const auto before = [&surface](int node) {

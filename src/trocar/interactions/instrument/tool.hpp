@@ -10,6 +10,7 @@
 #include <trocar/collision/rods.hpp>
 #include <trocar/core/body_id.hpp>
 #include <trocar/core/fields.hpp>
+#include <trocar/interactions/bodies/material_point.hpp>
 #include <trocar/interactions/instrument/linkage.hpp>
 #include <trocar/interactions/instrument/syringe.hpp>
 #include <trocar/interactions/instrument/tool_kind.hpp>
@@ -76,18 +77,16 @@ struct ToolModel {
 
 inline constexpr int kMaxHolds = 12;  ///< tissue points between one pair of jaws
 
-/// A point of tissue held between the jaws, in the jaw frame (opening, normal, axis from the pivot).
+/// A point held between the jaws, and where in the jaw frame (opening, normal, axis from the pivot).
 struct Hold {
-  BodyId body;
-  std::int32_t element = 0;  ///< strand element, skin vertex, or membrane node
-  float weight = 0;          ///< place within the strand element, 0..1
-  float local[3] = {0, 0, 0};
+  MaterialPoint at;
+  float local[3] = {0, 0, 0};  ///< [m]
   float force[3] = {0, 0, 0};  ///< of this point on the tissue in the last tick [N]
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("body", s.body), v("element", s.element), v("weight", s.weight), v("local", s.local), v("force", s.force);
+    v("at", s.at), v("local", s.local), v("force", s.force);
   }
 };
 

@@ -75,23 +75,14 @@ bool was_outside(const Touching& c, int part, const Surface& surface, int v, Vec
   return dot(p0 - collision::nearest_on_axis(c.before.rod(part), p0), n) <= 0;
 }
 
-/// Of an organ's skin what jaws hold.
-struct HeldSkin {
-  BodyId body;
-  std::span<const Hold> holds;
-
-  bool has(int v) const noexcept {
-    return std::any_of(holds.begin(), holds.end(), [&](const Hold& h) { return h.body == body && h.element == v; });
-  }
-  /// A vertex or one of its neighbours.
-  bool at(const tissue::Skin& skin, int v) const noexcept {
-    if (holds.empty()) return false;
-    if (has(v)) return true;
-    for (int k = skin.neighbour_first[size_t(v)]; k < skin.neighbour_first[size_t(v) + 1]; ++k)
-      if (has(skin.neighbour[size_t(k)])) return true;
-    return false;
-  }
-};
+/// Do jaws hold a vertex or one of its neighbours?
+bool holds_at(const HeldVertices& held, const tissue::Skin& skin, int v) noexcept {
+  if (held.count == 0) return false;
+  if (held.has(v)) return true;
+  for (int k = skin.neighbour_first[size_t(v)]; k < skin.neighbour_first[size_t(v) + 1]; ++k)
+    if (held.has(skin.neighbour[size_t(k)])) return true;
+  return false;
+}
 
 /// One vertex against one part.
 void touch_vertex(Touching& c, BodyId body, const Surface& surface, int v, int part, NetworkLoads& loads) noexcept {
@@ -156,7 +147,7 @@ void shaft_on_edges(Touching& c, BodyId body, const Surface& surface, int v, Net
   }
 }
 
-void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part, const HeldSkin& held,
+void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part, const HeldVertices& held,
                      NetworkLoads& loads) noexcept {
   const tissue::SkinPose& pose = *surface.pose;
   const Capsule& rod = c.shape.rod(part);
@@ -171,7 +162,7 @@ void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part,
       const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
       for (int v = int(b) * tissue::kSkinBlock; v < last; ++v)
         if (surface.skin->at_surface(v) && within(v) && !surface.torn(v) &&
-            (!is_jaw(part) || !held.at(*surface.skin, v))) {
+            (!is_jaw(part) || !holds_at(held, *surface.skin, v))) {
           touch_vertex(c, body, surface, v, part, loads);
           if (part == kShaft) shaft_on_edges(c, body, surface, v, loads);
         }
@@ -180,7 +171,7 @@ void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part,
   for (const Touch* t = c.last.touch; t != c.last.touch + c.last.count; ++t) {
     if (t->body != body || t->part != part || t->element < 0 || t->element >= surface.skin->size()) continue;
     if (surface.skin->at_surface(t->element) && !within(t->element) && !surface.torn(t->element) &&
-        (!is_jaw(part) || !held.at(*surface.skin, t->element)))
+        (!is_jaw(part) || !holds_at(held, *surface.skin, t->element)))
       touch_vertex(c, body, surface, t->element, part, loads);
   }
 }
@@ -188,14 +179,14 @@ void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part,
 /// Number `ball` of the balls along a part presses the skin in, whatever lies between the skin's vertices.
 /// @param out  only skin that lies that way of it; zero: any
 void press(Touching& c, BodyId body, const Surface& surface, int part, int ball, Vec3d p, Vec3d before, double radius,
-           NetworkLoads& loads, const HeldSkin& held = {}, Vec3d out = {}) noexcept {
+           NetworkLoads& loads, const HeldVertices& held = {}, Vec3d out = {}) noexcept {
   const std::int32_t element = -1 - ball;
   const Touch* was = c.last.find(body, element, part);
   const bool known =
       was && was->vertex >= 0 && was->vertex < surface.skin->size() && surface.skin->at_surface(was->vertex);
   int vertex = nearest_vertex_near(surface, p, radius + kBehindSkin);
   if (known && was->anchored && vertex != was->vertex) vertex = walk_to_nearest(surface, was->vertex, p);
-  if (vertex < 0 || surface.torn(vertex) || held.at(*surface.skin, vertex)) return;
+  if (vertex < 0 || surface.torn(vertex) || holds_at(held, *surface.skin, vertex)) return;
   const SkinPoint at = nearest_skin_point(surface, vertex, p);
   if (dot(at.normal, out) > 0) return;
   const double above = dot(p - at.point, at.normal), far = length(p - at.point);
@@ -223,7 +214,7 @@ bool closed_jaws(const ToolShape& shape) noexcept {
 
 /// Closed jaws are a blunt rod that is thinner than the skin's triangles: points along it are pressed against the skin.
 /// Open jaws are not, so that a fold can rise between them.
-void closed_jaws_on_surface(Touching& c, BodyId body, const Surface& surface, const HeldSkin& held,
+void closed_jaws_on_surface(Touching& c, BodyId body, const Surface& surface, const HeldVertices& held,
                             NetworkLoads& loads) noexcept {
   const Capsule &a = c.shape.part[kJawA], &b = c.shape.part[kJawB];
   if (c.shape.has_foot || !closed_jaws(c.shape)) return;
@@ -271,9 +262,13 @@ bool comes_near(const ToolShape& shape, const tissue::Box& box, double margin) n
                              meets_box(box, shape.pivot, shape.frame.tip, margin));
 }
 
+HeldVertices::HeldVertices(const Bodies& bodies, BodyId body, const ToolState& tool) noexcept {
+  for (int i = 0; i < tool.holds; ++i)
+    if (tool.hold[i].at.body == body) vertex[count++] = vertex_of(bodies, tool.hold[i].at);
+}
+
 void tool_on_surface(Touching& touching, BodyId body, const Surface& surface, NetworkLoads& loads,
-                     std::span<const Hold> holds) noexcept {
-  const HeldSkin held{body, holds};
+                     const HeldVertices& held) noexcept {
   for (int part = kShaft; part < end_of(touching.shape); part = next(part))
     part_on_surface(touching, body, surface, part, held, loads);
   closed_jaws_on_surface(touching, body, surface, held, loads);
@@ -423,7 +418,7 @@ void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState&
   const ToolShape& shape = touching.shape;
   const auto is_held = [&](int element) {
     for (int h = 0; h < tool_state.holds; ++h)
-      if (tool_state.hold[h].body == strand && std::abs(tool_state.hold[h].element - element) <= 1) return true;
+      if (tool_state.hold[h].at.body == strand && std::abs(tool_state.hold[h].at.element - element) <= 1) return true;
     return false;
   };
   // Next to where the strand runs between the jaws it touches their edges from within: that is the channel's business.

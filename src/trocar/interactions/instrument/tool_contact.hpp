@@ -10,6 +10,8 @@
 // also pressed against those.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <span>
 
 #include <trocar/interactions/bodies/loads.hpp>
@@ -23,12 +25,23 @@ namespace trocar::interactions {
 /// it.
 bool comes_near(const ToolShape& shape, const tissue::Box& box, double margin) noexcept;
 
+/// Of one body what jaws hold: vertices of its skin.
+struct HeldVertices {
+  std::array<std::int32_t, kMaxHolds> vertex{};
+  std::size_t count = 0;
+
+  HeldVertices() noexcept = default;
+  HeldVertices(const Bodies& bodies, BodyId body, const ToolState& tool) noexcept;
+  bool has(std::int32_t v) const noexcept {
+    return std::find(vertex.begin(), vertex.begin() + count, v) != vertex.begin() + count;
+  }
+};
+
 /// What jaws hold, and the skin next to that, lies around them in a fold and not before them: only the shaft touches
 /// it, as with strands and folds.
-/// @param body  how holds name this organ
-/// @param held  what the jaws hold, of any body
+/// @param held  what the jaws hold of it
 void tool_on_surface(Touching& touching, BodyId body, const Surface& surface, NetworkLoads& loads,
-                     std::span<const Hold> held = {}) noexcept;
+                     const HeldVertices& held = {}) noexcept;
 
 /// @param side  (elements x kToolParts, or kMostParts where instruments bend) State: on which side of each of this
 ///              tool's rods an element lies (collision::touch)

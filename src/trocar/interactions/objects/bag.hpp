@@ -230,12 +230,6 @@ struct Bag {
   static Vec3d middle(const Models& models, const States& states, size_t i) noexcept {
     return states[i].middle(models.list[i]);
   }
-  static Vec3d point(const Models& models, const States& states, const Hold& hold) noexcept {
-    return middle(models, states, hold.body.index());
-  }
-  static double thickness(const Models&, const Hold&) noexcept { return 0; }
-  static bool is_attached(const States&, const Hold&) noexcept { return false; }
-  static void pull(const Models&, const States&, const Hold&, Vec3d, HoldLaw, Tag, Work&) noexcept {}
   static tissue::StepReport advance(const Models&, Vec3d, double, const tissue::Box&, States&, Work&) noexcept {
     return {};
   }

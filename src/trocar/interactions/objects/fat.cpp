@@ -40,7 +40,7 @@ void push(const Capsule& rod, double way, Vec3d rod_velocity, double friction, T
 
 bool holds_lobule(const ToolState& tool, BodyId body, int lobule) noexcept {
   for (int i = 0; i < tool.holds; ++i)
-    if (tool.hold[i].body == body && tool.hold[i].element == lobule) return true;
+    if (tool.hold[i].at.body == body && tool.hold[i].at.node[0] == lobule) return true;
   return false;
 }
 
@@ -148,29 +148,7 @@ Vec3d Fat::middle(const Models& models, const States& states, size_t i) noexcept
   return sum / double(std::max(1, m.lobules()));
 }
 
-Vec3d Fat::point(const Models& models, const States& states, const Hold& hold) noexcept {
-  const size_t i = hold.body.index();
-  return tissue::position(models[i].fat, states[i], hold.element);
-}
-
-double Fat::thickness(const Models& models, const Hold& hold) noexcept {
-  return 2 * kFatCompressed * models[hold.body.index()].fat.radius;
-}
-
-bool Fat::is_attached(const States& states, const Hold& hold) noexcept {
-  return !states[hold.body.index()].lobules[size_t(hold.element)].gone();
-}
-
-void Fat::pull(const Models&, const States& states, const Hold& hold, Vec3d target, HoldLaw law, Tag tag,
-               Work& work) noexcept {
-  if (!is_attached(states, hold)) return;
-  tissue::NodeLoad load;
-  load.node = hold.element;
-  load.k = float(law.stiffness);
-  load.d = float(law.damping);
-  load.x0 = vec_cast<float>(target);
-  work[hold.body.index()].loads.add(load, tag);
-}
+double Fat::thickness(const FatBody& body) noexcept { return 2 * kFatCompressed * body.fat.radius; }
 
 tissue::StepReport Fat::advance(const Models& models, Vec3d, double, const tissue::Box& cavity, States& states,
                                 Work& work) noexcept {

@@ -43,11 +43,8 @@ struct Fat {
   static void between(const Models& models, const States& states, size_t i, const ToolModel& tool,
                       const ToolShape& shape, Add&& add) noexcept;
   static Vec3d middle(const Models& models, const States& states, size_t i) noexcept;
-  static Vec3d point(const Models& models, const States& states, const Hold& hold) noexcept;
-  static double thickness(const Models& models, const Hold& hold) noexcept;
-  static bool is_attached(const States& states, const Hold& hold) noexcept;
-  static void pull(const Models& models, const States& states, const Hold& hold, Vec3d target, HoldLaw law, Tag tag,
-                   Work& work) noexcept;
+  /// Between jaws that just hold it [m].
+  static double thickness(const FatBody& body) noexcept;
   static tissue::StepReport advance(const Models& models, Vec3d gravity, double tick, const tissue::Box& cavity,
                                     States& states, Work& work) noexcept;
   static bool overloaded(const Work& work) noexcept;

@@ -173,7 +173,7 @@ void Rigid::clear(Work& w) noexcept {
 
 void Rigid::touch(const Models& models, const States&, const ObjectHand& hand, Work& w) noexcept {
   if (models.list.empty()) return;
-  const BodyId held = hand.state.holds > 0 ? hand.state.hold[0].body : BodyId{};
+  const BodyId held = hand.state.holds > 0 ? hand.state.hold[0].at.body : BodyId{};
   for (int part = kShaft; part < end_of(hand.touching.shape) && w.rods.size() < w.rods.capacity(); part = next(part))
     w.rods.push_back({hand.touching.before.rod(part),
                       hand.touching.shape.rod(part),
@@ -181,19 +181,19 @@ void Rigid::touch(const Models& models, const States&, const ObjectHand& hand, W
                       is_jaw(part) ? held : BodyId{}});
 }
 
-Vec3d Rigid::point(const Models& models, const States& states, const Hold& hold) noexcept {
-  const size_t i = hold.body.index();
-  return place_of(states[i], models.list[i].grips[size_t(hold.element)]);
+Vec3d Rigid::point(const Models& models, const States& states, const MaterialPoint& at) noexcept {
+  const size_t i = at.body.index();
+  return place_of(states[i], models.list[i].grips[size_t(at.element)]);
 }
 
-void Rigid::pull(const Models& models, const States& states, const Hold& hold, Vec3d target, HoldLaw law, Tag tag,
-                 Work& w) noexcept {
+void Rigid::pull(const Models& models, const States& states, const MaterialPoint& at, Vec3d target, HoldLaw law,
+                 Tag tag, Work& w) noexcept {
   if (w.holds.size() == w.holds.capacity()) {
     w.overflowed = true;
     return;
   }
-  const size_t i = hold.body.index();
-  const Vec3d arm = rotate(states[i].q, models.list[i].grips[size_t(hold.element)]);
+  const size_t i = at.body.index();
+  const Vec3d arm = rotate(states[i].q, models.list[i].grips[size_t(at.element)]);
   w.holds.push_back({std::int32_t(i), arm, target, law, tag, {0, 0, 0}});
 }
 

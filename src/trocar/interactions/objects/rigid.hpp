@@ -169,13 +169,12 @@ struct Rigid {
   static void between(const Models& models, const States& states, size_t i, const ToolModel& tool,
                       const ToolShape& shape, Add&& add) noexcept;
   static Vec3d middle(const Models&, const States& states, size_t i) noexcept { return states[i].x; }
-  static Vec3d point(const Models& models, const States& states, const Hold& hold) noexcept;
-  static double thickness(const Models& models, const Hold& hold) noexcept {
-    return 2 * models.list[hold.body.index()].radius;
+  static Vec3d point(const Models& models, const States& states, const MaterialPoint& at) noexcept;
+  static double thickness(const Models& models, const MaterialPoint& at) noexcept {
+    return 2 * models.list[at.body.index()].radius;
   }
-  static bool is_attached(const States&, const Hold&) noexcept { return true; }
-  static void pull(const Models& models, const States& states, const Hold& hold, Vec3d target, HoldLaw law, Tag tag,
-                   Work& work) noexcept;
+  static void pull(const Models& models, const States& states, const MaterialPoint& at, Vec3d target, HoldLaw law,
+                   Tag tag, Work& work) noexcept;
   /// @param cavity  nothing leaves it
   static tissue::StepReport advance(const Models& models, Vec3d gravity, double tick, const tissue::Box& cavity,
                                     States& states, Work& work) noexcept;

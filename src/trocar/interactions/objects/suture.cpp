@@ -67,8 +67,7 @@ void hold_from_start(const SutureModel& m, const SutureState& s, BodyId id, cons
                          std::fabs(local.x) < 2 * m.needle.wire;
     if (!between) continue;
     Hold& hold = state.hold[state.holds++];
-    hold.body = id;
-    hold.element = g;
+    hold.at = on_object(id, g);
     hold.local[0] = float(local.x), hold.local[1] = float(local.y), hold.local[2] = float(local.z);
   }
 }
@@ -162,7 +161,7 @@ void Suture::clear(Work& all) noexcept {
 void Suture::touch(const Models& models, const States& states, const ObjectHand& hand, Work& all) noexcept {
   if (models.list.empty()) return;
   const ToolShape& shape = hand.touching.shape;
-  const Hold* held = hand.state.holds > 0 && hand.state.hold[0].body.is(kKind) ? &hand.state.hold[0] : nullptr;
+  const Hold* held = hand.state.holds > 0 && hand.state.hold[0].at.body.is(kKind) ? &hand.state.hold[0] : nullptr;
   const double at_clip = hand.tool.jaw_length - 0.5 * hand.tool.clip_length;
   const bool astride = hand.tool.can().set_clips && shape.half_opening(at_clip) < kClipGathers;
   for (int part = kShaft; part < end_of(shape) && all.rods.size() < all.rods.capacity(); part = next(part)) {
@@ -171,8 +170,8 @@ void Suture::touch(const Models& models, const States& states, const ObjectHand&
     rod.cuts = is_jaw(part) && hand.tool.can().cut;
     rod.astride = is_jaw(part) && astride;
     if (held && is_jaw(part)) {
-      rod.held = std::int32_t(held->body.index());
-      rod.holds_needle = on_needle(models.list[size_t(rod.held)], held->element);
+      rod.held = std::int32_t(held->at.body.index());
+      rod.holds_needle = on_needle(models.list[size_t(rod.held)], held->at.element);
     }
     all.rods.push_back(rod);
   }
@@ -187,35 +186,35 @@ Vec3d Suture::middle(const Models& models, const States& states, size_t i) noexc
   return states[i].thread.x[states[i].thread.x.size() / 2];
 }
 
-Vec3d Suture::point(const Models& models, const States& states, const Hold& hold) noexcept {
-  const size_t i = hold.body.index();
-  return suture_place(models.list[i], states[i], hold.element);
+Vec3d Suture::point(const Models& models, const States& states, const MaterialPoint& at) noexcept {
+  const size_t i = at.body.index();
+  return suture_place(models.list[i], states[i], at.element);
 }
 
-double Suture::thickness(const Models& models, const Hold& hold) noexcept {
-  const SutureModel& m = models.list[hold.body.index()];
-  return on_needle(m, hold.element) ? m.needle.wire : kGraspedThread * m.thread.stuff.diameter;
+double Suture::thickness(const Models& models, const MaterialPoint& at) noexcept {
+  const SutureModel& m = models.list[at.body.index()];
+  return on_needle(m, at.element) ? m.needle.wire : kGraspedThread * m.thread.stuff.diameter;
 }
 
-void Suture::pull(const Models& models, const States&, const Hold& hold, Vec3d target, HoldLaw law, Tag tag,
+void Suture::pull(const Models& models, const States&, const MaterialPoint& at, Vec3d target, HoldLaw law, Tag tag,
                   Work& all) noexcept {
-  const size_t i = hold.body.index();
+  const size_t i = at.body.index();
   const SutureModel& m = models.list[i];
   SutureWork& w = all.list[i];
-  if (on_needle(m, hold.element)) {
+  if (on_needle(m, at.element)) {
     if (w.needle.holds.size() == w.needle.holds.capacity()) {
       all.overflowed = true;
       return;
     }
     const bool by_hand = tag.index >= 0 && size_t(tag.index) < all.pinches.size();
-    w.needle.holds.push_back({grip_of(m, hold.element), target, kSteelInJaws * law.stiffness, law.damping, tag.index,
+    w.needle.holds.push_back({grip_of(m, at.element), target, kSteelInJaws * law.stiffness, law.damping, tag.index,
                               Vec3d{}, by_hand ? std::max(kJustHolds, all.pinches[size_t(tag.index)].bears) : -1.0});
     w.hold_tags.push_back(tag);
     return;
   }
   if (tag.index < 0 || size_t(tag.index) >= all.pinches.size()) return;
   SuturePinch& p = all.pinches[size_t(tag.index)];
-  const std::int32_t node = hold.element - m.grips;
+  const std::int32_t node = at.element - m.grips;
   if (p.count == 0 || node < p.lowest) p.lowest = node, p.first = target;
   if (p.count == 0 || node > p.highest) p.highest = node, p.last = target;
   if (p.count == 0) p.tag = tag;

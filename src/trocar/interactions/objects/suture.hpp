@@ -136,16 +136,6 @@ struct SutureBite {
         v("exit", s.exit);
   }
 };
-/// The skin that a bead or a node was nearest to last.
-struct SutureNear {
-  std::int32_t surface = -1, vertex = 0;
-
-  static constexpr bool kAsBytes = true;
-  template <class S, class V>
-  static void fields(S& s, V&& v) {
-    v("surface", s.surface), v("vertex", s.vertex);
-  }
-};
 
 inline constexpr int kMostHoles = suture::kMostPins, kMostBites = 32, kMostPassages = 24;
 
@@ -155,18 +145,18 @@ struct SutureState {
   SutureTouch touch;
   BodyId inside;  ///< the body that the tip is in
   std::int32_t hole_count = 0, bite_count = 0;
-  std::vector<SutureHole> holes;  ///< (kMostHoles) as they were made
-  std::vector<SutureBite> bites;  ///< (kMostBites)
-  std::vector<SutureNear> near;   ///< (beads, then nodes)
-  double cut = 0;                 ///< strain of what the tip cuts [m]
-  std::array<double, 2> tail{};   ///< tension at the swage in the last tick [N], its stiffness [N/m]
-  Vec3d tail_force{0, 0, 0};      ///< of the thread on the needle [N]
-  double peak = 0;                ///< the most that it did to tissue so far, at one hole or under the tip [N]
-  double strain = 0;              ///< the thread's greatest tension now [N]
-  std::int32_t torn = 0;          ///< bites that were torn out so far
-  std::int32_t broken = 0;        ///< 1: the thread was pulled apart, or crushed between steel
-  std::int32_t strained = 0;      ///< ticks in a row in which it bore more than it bears
-  std::int32_t crushed = 0;       ///< ticks in a row in which steel pressed on it harder than it bears
+  std::vector<SutureHole> holes;    ///< (kMostHoles) as they were made
+  std::vector<SutureBite> bites;    ///< (kMostBites)
+  std::vector<MaterialPoint> near;  ///< (beads, then nodes) of tissue, what each was nearest to last
+  double cut = 0;                   ///< strain of what the tip cuts [m]
+  std::array<double, 2> tail{};     ///< tension at the swage in the last tick [N], its stiffness [N/m]
+  Vec3d tail_force{0, 0, 0};        ///< of the thread on the needle [N]
+  double peak = 0;                  ///< the most that it did to tissue so far, at one hole or under the tip [N]
+  double strain = 0;                ///< the thread's greatest tension now [N]
+  std::int32_t torn = 0;            ///< bites that were torn out so far
+  std::int32_t broken = 0;          ///< 1: the thread was pulled apart, or crushed between steel
+  std::int32_t strained = 0;        ///< ticks in a row in which it bore more than it bears
+  std::int32_t crushed = 0;         ///< ticks in a row in which steel pressed on it harder than it bears
   SlingState sling;
 
   template <class S, class V>
@@ -284,11 +274,10 @@ struct Suture {
                       const ToolShape& shape, Add&& add) noexcept;
   /// Of the needle, or of the thread.
   static Vec3d middle(const Models& models, const States& states, size_t i) noexcept;
-  static Vec3d point(const Models& models, const States& states, const Hold& hold) noexcept;
-  static double thickness(const Models& models, const Hold& hold) noexcept;
-  static bool is_attached(const States&, const Hold&) noexcept { return true; }
-  static void pull(const Models& models, const States& states, const Hold& hold, Vec3d target, HoldLaw law, Tag tag,
-                   Work& work) noexcept;
+  static Vec3d point(const Models& models, const States& states, const MaterialPoint& at) noexcept;
+  static double thickness(const Models& models, const MaterialPoint& at) noexcept;
+  static void pull(const Models& models, const States& states, const MaterialPoint& at, Vec3d target, HoldLaw law,
+                   Tag tag, Work& work) noexcept;
   /// It moves after tissue has (suture_stitch.hpp).
   static tissue::StepReport advance(const Models&, Vec3d, double, const tissue::Box&, States&, Work&) noexcept {
     return {};

@@ -42,13 +42,14 @@ NearSkin at_surface(const Bodies& bodies, BodyId body, int vertex, Vec3d p) noex
   const Vec3d off = p - on.point;
   const double away = length(off);
   double side = dot(off, on.normal) < 0 ? -1.0 : 1.0;
-  near = {body, heaviest_corner(on), 0, on.point, on.normal, {}, side * away};
+  const int corner = heaviest_corner(on);
+  near = {body.is(BodyKind::organ) ? on_vertex(bodies, body.index(), corner) : at_node(bodies, body, corner), on.point,
+          on.normal, side * away};
   if (away > 1e-5 && away < 0.003) near.normal = normalised((side / away) * off + 0.2 * on.normal);
   if (body.is(BodyKind::membrane)) {  // both sides of a fold are outside; of a pouch, too
     near.normal = side * near.normal;
     near.distance = away - bodies.membrane(body.index()).half_thickness;
   }
-  near.velocity = surface.velocity(near.vertex);
   return near;
 }
 
@@ -61,44 +62,39 @@ NearSkin at_element(const Bodies& bodies, BodyId body, int e, Vec3d p) noexcept 
   const double w = std::clamp(dot(p - a, ab) / std::max(1e-12, dot(ab, ab)), 0.0, 1.0);
   const Vec3d off = p - (a + w * ab), out = normalised(off, any_perpendicular(normalised(ab)));
   const double radius = strand.model.radius[size_t(e)];
-  return {body,
-          e,
-          w,
-          a + w * ab + radius * out,
-          out,
-          s.v[size_t(e)] + w * (s.v[size_t(e) + 1] - s.v[size_t(e)]),
-          length(off) - radius};
+  return {at_element(bodies, body.index(), e, w, {}), a + w * ab + radius * out, out, length(off) - radius};
 }
 
 /// From the last place on.
-NearSkin look_again(const Bodies& bodies, SutureNear& near, Vec3d p) noexcept {
-  const BodyId body = BodyId::of_code(near.surface);
+NearSkin look_again(const Bodies& bodies, MaterialPoint& last, Vec3d p) noexcept {
+  const BodyId body = last.body;
   if (!body.exists()) return {};
+  NearSkin best;
   if (body.is(BodyKind::strand)) {
-    NearSkin best = at_element(bodies, body, near.vertex, p);
+    best = at_element(bodies, body, last.element, p);
     for (const int step : {-1, 1})
-      for (int e = near.vertex + step; e >= 0 && e + 1 < bodies.strand(body.index()).nodes(); e += step) {
+      for (int e = last.element + step; e >= 0 && e + 1 < bodies.strand(body.index()).nodes(); e += step) {
         const NearSkin next = at_element(bodies, body, e, p);
         if (!(next.distance < best.distance)) break;
         best = next;
       }
-    if (best.there()) near.vertex = best.vertex;
-    return best;
+  } else {
+    const Surface& surface = surface_of(bodies, body);
+    if (!surface.pose->bounds.reaches(p, kSkinReach)) return {};
+    best = at_surface(bodies, body, walk_to_nearest(surface, vertex_of(bodies, last), p), p);
   }
-  const Surface& surface = surface_of(bodies, body);
-  if (!surface.pose->bounds.reaches(p, kSkinReach)) return {};
-  near.vertex = walk_to_nearest(surface, near.vertex, p);
-  return at_surface(bodies, body, near.vertex, p);
+  if (best.there()) last = best.at;
+  return best;
 }
 
-SutureNear look_everywhere(const Bodies& bodies, Vec3d p) noexcept {
-  SutureNear best{-1, 0};
+MaterialPoint look_everywhere(const Bodies& bodies, Vec3d p) noexcept {
+  MaterialPoint best;
   double least = kSkinReach;
   const auto look = [&](BodyId body) {
     const NearSkin near = nearest_skin(bodies, body, p, kSkinReach);
     if (!near.there() || !(std::fabs(near.distance) < least)) return;
     least = std::fabs(near.distance);
-    best = {body.code(), near.vertex};
+    best = near.at;
   };
   for (size_t i = 0; i < bodies.organ_count(); ++i) look(BodyId::organ(i));
   for (size_t i = 0; i < bodies.membrane_count(); ++i) look(BodyId::membrane(i));
@@ -108,19 +104,10 @@ SutureNear look_everywhere(const Bodies& bodies, Vec3d p) noexcept {
 
 /// Half of the depth is the tissue's, with twice the stiffness: both feel the same force.
 void push_tissue(const Bodies& bodies, const NearSkin& on, double depth) noexcept {
-  const double way = std::min(depth, kQuickestApart);
-  if (on.body.is(BodyKind::strand)) {
-    tissue::StrandLoad load;
-    load.element = on.vertex;
-    load.w = on.w;
-    load.f0 = -kBodyStiffness * way * on.normal;
-    load.d = kBodyDamping;
-    load.dir = on.normal;
-    bodies.work->strands[on.body.index()].loads.add(load, {Owner::body, 0, 0});
-    return;
-  }
-  push_skin(surface_of(bodies, on.body), on.vertex, -0.5 * way * on.normal, on.normal, 2 * kBodyStiffness, kBodyDamping,
-            loads_on(bodies, on.body));
+  const Vec3d way = -0.5 * std::min(depth, kQuickestApart) * on.normal;
+  put_load(bodies, on.at,
+           {.k = 2 * kBodyStiffness, .target = place_of(bodies, on.at) + way, .d = kBodyDamping, .dir = on.normal},
+           {Owner::body, 0, 0});
 }
 
 /// One suture in a tick.
@@ -172,7 +159,7 @@ class Resting {
   static bool turn(std::uint64_t tick, int i) noexcept { return (tick + std::uint64_t(i)) % kLooksAnew == 0; }
 
   NearSkin look(int i, Vec3d p, bool anew) noexcept {
-    SutureNear& near = m_state.near[size_t(i)];
+    MaterialPoint& near = m_state.near[size_t(i)];
     if (anew) near = look_everywhere(m_bodies, p);
     return look_again(m_bodies, near, p);
   }
@@ -183,7 +170,7 @@ class Resting {
     const Vec3d p = suture::needle_point(m, m_state.needle, arc);
     const NearSkin on = look(b, p, anew);
     if (on.there() && on.distance - radius < kSkinAhead && on.distance > -kDeepestRest &&
-        !goes_through(m_model, m_state, on.body, arc, true) && !(b == 0 && pricks(on)))
+        !goes_through(m_model, m_state, on.at.body, arc, true) && !(b == 0 && pricks(on)))
       rest(b, on, radius);
     const WallPlaces walls = walls_near(m_models.walls, p);
     for (int k = 0; k < walls.count; ++k) {
@@ -194,7 +181,7 @@ class Resting {
   }
   void rest(int b, const NearSkin& on, double radius) noexcept {
     const double gap = on.distance - radius;
-    touch(b, on.normal, gap, on.velocity, kBodyStiffness, kTissueFriction, -1);
+    touch(b, on.normal, gap, velocity_of(m_bodies, on.at), kBodyStiffness, kTissueFriction, -1);
     if (gap < 0) push_tissue(m_bodies, on, -gap);
   }
   void touch(int b, Vec3d normal, double gap, Vec3d velocity, double stiffness, double friction, int rod) noexcept {
@@ -218,7 +205,8 @@ class Resting {
     const NearSkin on = look(i, p, anew);
     suture::SkinContact& c = m_work.skins[size_t(n)];
     const bool on_skin = on.there() && on.distance - radius < kSkinAhead && on.distance > -kDeepestRest &&
-                         !goes_through(m_model, m_state, on.body, s, false) && !strangled(on.body) && !is_beside(on, p);
+                         !goes_through(m_model, m_state, on.at.body, s, false) && !strangled(on.at.body) &&
+                         !is_beside(on, p);
     // in a corner between both, what it is deeper in
     const WallPlaces walls = walls_near(m_models.walls, p);
     const WallPlace* nearest = nullptr;
@@ -229,8 +217,8 @@ class Resting {
     } else if (on_skin) {
       // what is found deep in it comes out as bodies do
       const double deeper = std::max(0.0, radius - on.distance - kQuickestApart);
-      c = {n,         on.point + m_dt * on.velocity - deeper * on.normal, on.normal, on.velocity, kBodyStiffness, -1,
-           2 * radius};
+      const Vec3d velocity = velocity_of(m_bodies, on.at);
+      c = {n, on.point + m_dt * velocity - deeper * on.normal, on.normal, velocity, kBodyStiffness, -1, 2 * radius};
       if (on.distance < radius) push_tissue(m_bodies, on, radius - on.distance);
     } else {
       keep_in_cavity(n, p, c);
@@ -238,7 +226,8 @@ class Resting {
   }
   /// Below a patch of skin, but not in the organ: another side of it is nearer, whose vertices are further away.
   bool is_beside(const NearSkin& on, Vec3d p) const noexcept {
-    return on.body.is(BodyKind::organ) && on.distance < -kSureOfSide && !encloses(surface_of(m_bodies, on.body), p);
+    return on.at.body.is(BodyKind::organ) && on.distance < -kSureOfSide &&
+           !encloses(surface_of(m_bodies, on.at.body), p);
   }
   void keep_in_cavity(int n, Vec3d p, suture::SkinContact& c) const noexcept {
     for (int k = 0; k < 3; ++k) {
@@ -253,9 +242,7 @@ class Resting {
   }
 
   /// Its own law says what a loop meets there (suture_strangle.hpp).
-  bool strangled(BodyId body) const noexcept {
-    return body.is(BodyKind::strand) && m_state.sling.lies_around(std::int32_t(body.index()));
-  }
+  bool strangled(BodyId body) const noexcept { return m_state.sling.lies_around(body); }
 
   Vec3d tip() const noexcept { return suture::needle_point(m_model.needle, m_state.needle, 0); }
   Vec3d drives() const noexcept { return suture::needle_direction(m_model.needle, m_state.needle, 0); }
@@ -270,19 +257,19 @@ class Resting {
     const auto kind = inside ? SutureTouch::inside : SutureTouch::outside;
     const Vec3d faces = t.kind == kind ? vector_of(t.normal) : on.normal;
     const double side = inside ? -1 : 1, off = side * on.distance, ahead = -side * dot(drives(), faces);
-    if (t.kind == kind && on.there() && on.body == t.at.body && dot(on.normal, vector_of(t.normal)) < kSameSide) {
+    if (t.kind == kind && on.there() && on.at.body == t.at.body && dot(on.normal, vector_of(t.normal)) < kSameSide) {
       // it has been drawn so far that another part of the skin is nearer
       if (-side * dot(tip() - place_of(m_bodies, t.at), vector_of(t.normal)) < -kTipLeaves) t = {};
       return;
     }
     if (t.kind != SutureTouch::none &&
-        (t.kind != kind || !on.there() || t.at.body != on.body || off > kTipLeaves || ahead < 0.5 * kPricks))
+        (t.kind != kind || !on.there() || t.at.body != on.at.body || off > kTipLeaves || ahead < 0.5 * kPricks))
       t = {};
     if (t.kind == SutureTouch::none) {
       if (!on.there() || off > kTipAhead || ahead < kPricks || off < -kDeepestRest) return;
       t = {};
       t.kind = kind;
-      t.at = attach(m_bodies, on.body, on.point);
+      t.at = attach(m_bodies, on.at.body, on.point);
       t.normal = array_of(on.normal);
       return;
     }

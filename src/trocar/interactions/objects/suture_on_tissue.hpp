@@ -8,14 +8,11 @@ namespace trocar::interactions {
 
 /// Of a body the place of its surface that is nearest to a point.
 struct NearSkin {
-  BodyId body;
-  std::int32_t vertex = -1;  ///< heaviest corner; of a strand the element
-  double w = 0;              ///< within that
-  Vec3d point, normal;       ///< [m]; out of the body, of a fold towards the point
-  Vec3d velocity;            ///< [m/s]
-  double distance = 1e9;     ///< of the point from the surface, negative inside [m]
+  MaterialPoint at;       ///< the vertex of its skin that is nearest to that; of a strand on its middle line
+  Vec3d point, normal;    ///< [m]; out of the body, of a fold towards the point
+  double distance = 1e9;  ///< of the point from the surface, negative inside [m]
 
-  bool there() const noexcept { return vertex >= 0; }
+  bool there() const noexcept { return at.body.exists(); }
 };
 /// Looks at all of the body.
 NearSkin nearest_skin(const Bodies& bodies, BodyId body, Vec3d p, double reach) noexcept;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <trocar/core/fields.hpp>
+#include <trocar/interactions/bodies/material_point.hpp>
 #include <trocar/numerics/vec3.hpp>
 
 namespace trocar::interactions {
@@ -39,9 +40,8 @@ enum SlingHold : std::int32_t { kKnotHold, kMouthHold, kFeedHold, kSlingHolds };
 
 /// A strand that the loop lies around. No padding.
 struct SlingAround {
-  std::int32_t strand = -1;
-  std::int32_t element = 0;
-  double w = 0;         ///< place in the element, where the loop's surface meets the middle line
+  MaterialPoint at;  ///< where the loop's surface meets the strand's middle line
+  std::int32_t reserved = 0;
   double radius = 0;    ///< within the loop, when it is drawn round: thread around / 2 pi less half its thickness [m]
   double squeeze = 0;   ///< mean depth of the thread in the strand [m]
   double press = 0;     ///< of thread on strand, all around [N]
@@ -53,8 +53,8 @@ struct SlingAround {
   static constexpr bool kAsBytes = true;
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("strand", s.strand), v("element", s.element), v("w", s.w), v("radius", s.radius), v("squeeze", s.squeeze),
-        v("press", s.press), v("cutting", s.cutting), v("pull", s.pull), v("stiff", s.stiff), v("bears", s.bears);
+    v("at", s.at), v("reserved", s.reserved), v("radius", s.radius), v("squeeze", s.squeeze), v("press", s.press),
+        v("cutting", s.cutting), v("pull", s.pull), v("stiff", s.stiff), v("bears", s.bears);
   }
 };
 inline constexpr int kMostAround = 3;
@@ -98,9 +98,9 @@ struct SlingState {
   bool computed() const noexcept { return stage > opening; }
   /// Or is not there any more.
   bool lies_in_tube(double s) const noexcept { return stage <= stowed || s > fed; }
-  bool lies_around(std::int32_t strand) const noexcept {
+  bool lies_around(BodyId strand) const noexcept {
     for (std::int32_t i = 0; i < around_count; ++i)
-      if (around[std::size_t(i)].strand == strand) return true;
+      if (around[std::size_t(i)].at.body == strand) return true;
     return false;
   }
 

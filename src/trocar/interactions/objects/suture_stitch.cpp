@@ -578,7 +578,7 @@ void slide_in_jaws(const SutureModel& m, const SutureState& s, const SutureWork&
     if (tag.index != hand || tag.sub >= tool.holds) continue;
     Hold& h = tool.hold[tag.sub];
     if (held.slips) {
-      const Vec3d at = to_jaw(shape, suture_place(m, s, h.element) + (1 / held.stiffness) * held.force);
+      const Vec3d at = to_jaw(shape, suture_place(m, s, h.at.element) + (1 / held.stiffness) * held.force);
       for (int n = 0; n < 3; ++n) h.local[n] = float(at[n]);
       slides = true;
     }
@@ -595,14 +595,14 @@ void follow_thread(const SutureModel& m, const SutureState& s, int hand, ToolSta
   const size_t slot = size_t(kFirstHandSlot + hand);
   if (slot >= s.thread.holds.size() || !s.thread.holds[slot].active) return;
   double mean = 0;
-  for (int i = 0; i < tool.holds; ++i) mean += (tool.hold[i].element - m.grips) * m.thread.spacing / tool.holds;
+  for (int i = 0; i < tool.holds; ++i) mean += (tool.hold[i].at.element - m.grips) * m.thread.spacing / tool.holds;
   const std::int32_t shift = std::int32_t(std::floor((s.thread.holds[slot].s - mean) / m.thread.spacing + 0.5));
   if (shift == 0) return;
   int kept = 0;
   for (int i = 0; i < tool.holds; ++i) {
     Hold h = tool.hold[i];
-    h.element += shift;
-    if (h.element >= m.grips && h.element < m.grip_point_count()) tool.hold[kept++] = h;
+    h.at.element += shift;
+    if (h.at.element >= m.grips && h.at.element < m.grip_point_count()) tool.hold[kept++] = h;
   }
   if (kept == 0 && tool.holds > 0) ++tool.slipped;
   tool.holds = kept;
@@ -643,9 +643,9 @@ SewnReport sew(const SutureModels& models, const Bodies& bodies, Vec3d gravity, 
 
 void slip_in_jaws(const SutureModels& models, const Suture::States& states, const SutureWorks& work, int hand,
                   const ToolModel& model, const ToolShape& shape, ToolState& tool) noexcept {
-  if (tool.holds == 0 || !tool.hold[0].body.is(BodyKind::suture)) return;
-  const size_t i = tool.hold[0].body.index();
-  if (!on_needle(models.list[i], tool.hold[0].element)) return follow_thread(models.list[i], states[i], hand, tool);
+  if (tool.holds == 0 || !tool.hold[0].at.body.is(BodyKind::suture)) return;
+  const size_t i = tool.hold[0].at.body.index();
+  if (!on_needle(models.list[i], tool.hold[0].at.element)) return follow_thread(models.list[i], states[i], hand, tool);
   slide_in_jaws(models.list[i], states[i], work.list[i], hand, shape, tool);
   if (tool.holds > 0) turn_in_jaws(work.list[i], hand, model, shape, tool);
 }

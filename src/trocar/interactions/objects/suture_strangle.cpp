@@ -88,21 +88,20 @@ class Strangling {
   /// What is drawn against the tube's end lies on the knot there.
   void lie_on_knot(const SlingAround& a) noexcept {
     if (m_sling.stage != SlingState::open) return;
-    const StrandBody& body = m_bodies.strand(size_t(a.strand));
-    const tissue::StrandState& s = m_bodies.strand_state(size_t(a.strand));
-    const Beside at = beside(body, s, {a.element, a.w}, m_sling.mouth.tip);
+    const StrandBody& body = m_bodies.strand(a.at.body.index());
+    const Beside at = beside(body, m_bodies.strand_state(a.at.body.index()), place_on_rod(a.at), m_sling.mouth.tip);
     if (!at.there()) return;
     const size_t e = size_t(at.place.element);
     const double depth = std::min(body.model.radius[e], std::max(0.0, a.radius)) + kKnot - at.away;
     if (depth <= 0) return;
-    tissue::StrandLoad load;
-    load.element = at.place.element;
-    load.w = at.place.w;
-    load.d = m_dt * kKnotPushes;
     const Vec3d push = (-kKnotPushes * depth) * at.out;
-    load.f0 = push + kKeepsGoing * load.d * (s.v[e] + at.place.w * (s.v[e + 1] - s.v[e]));
-    m_bodies.work->strands[size_t(a.strand)].loads.add(load, {Owner::body, 0, 0});
+    hold_back(at_element(m_bodies, a.at.body.index(), at.place.element, at.place.w, {}), push, m_dt * kKnotPushes);
     m_work.sling.force -= push;
+  }
+
+  /// A push on a strand, which is held against it, but not against all of its own velocity.
+  void hold_back(const MaterialPoint& at, Vec3d push, double d) noexcept {
+    put_load(m_bodies, at, {.f0 = push + kKeepsGoing * d * velocity_of(m_bodies, at), .d = d}, {Owner::body, 0, 0});
   }
 
   /// No more than both ends of a loop pull with: what a solve shows beyond that is not there in the next one.
@@ -114,14 +113,7 @@ class Strangling {
   void bear() noexcept {
     for (std::int32_t i = 0; i < m_sling.around_count; ++i) {
       const SlingAround& a = m_sling.around[size_t(i)];
-      const tissue::StrandState& s = m_bodies.strand_state(size_t(a.strand));
-      const size_t e = size_t(a.element);
-      tissue::StrandLoad load;
-      load.element = a.element;
-      load.w = a.w;
-      load.d = m_dt * std::clamp(a.stiff, kLeastStiff, kMostStiff);
-      load.f0 = bounded(a.pull) + kKeepsGoing * load.d * (s.v[e] + a.w * (s.v[e + 1] - s.v[e]));
-      m_bodies.work->strands[size_t(a.strand)].loads.add(load, {Owner::body, 0, 0});
+      hold_back(a.at, bounded(a.pull), m_dt * std::clamp(a.stiff, kLeastStiff, kMostStiff));
       lie_on_knot(a);
     }
   }
@@ -135,9 +127,8 @@ class Strangling {
     for (size_t i = 0; i < m_bodies.strand_count() && m_sling.around_count < kMostAround; ++i) {
       SlingAround found;
       for (std::int32_t k = 0; k < had; ++k)
-        if (before[size_t(k)].strand == std::int32_t(i)) found = before[size_t(k)];
-      const bool tight = found.strand >= 0 && found.squeeze > kHoldsFrom && has_sunk_in(m_bodies.strand(i), found);
-      found.strand = std::int32_t(i);
+        if (before[size_t(k)].at.body == BodyId::strand(i)) found = before[size_t(k)];
+      const bool tight = found.at.body.exists() && found.squeeze > kHoldsFrom && has_sunk_in(m_bodies.strand(i), found);
       if (tight ? sits(i, found) : passes(i, found)) m_sling.around[size_t(m_sling.around_count++)] = found;
     }
   }
@@ -147,12 +138,13 @@ class Strangling {
     for (std::int32_t i = 0; i < m_sling.around_count; ++i) {
       SlingAround& a = m_sling.around[size_t(i)];
       a.radius = m_sling.knot / portable::two_pi - 0.5 * m_model.thread.stuff.diameter;
-      a.bears = size_t(a.strand) < m_models.strangles.size() ? m_models.strangles[size_t(a.strand)] : a.bears;
+      const size_t strand = a.at.body.index();
+      a.bears = strand < m_models.strangles.size() ? m_models.strangles[strand] : a.bears;
       for (int n = 0; n < loop_nodes(); ++n) press_node(i, a, n);
     }
     for (std::int32_t i = 0; i < m_sling.around_count; ++i) {
       const SlingAround& a = m_sling.around[size_t(i)];
-      if (has_sunk_in(m_bodies.strand(size_t(a.strand)), a))
+      if (has_sunk_in(m_bodies.strand(a.at.body.index()), a))
         carry(i);
       else
         stand_still(i);
@@ -176,10 +168,7 @@ class Strangling {
       plane.velocity = {};
     }
     if (m_sling.stage != SlingState::left) return;
-    const SlingAround& a = m_sling.around[size_t(number)];
-    const tissue::StrandState& s = m_bodies.strand_state(size_t(a.strand));
-    const size_t e = size_t(a.element);
-    const Vec3d velocity = s.v[e] + a.w * (s.v[e + 1] - s.v[e]);
+    const Vec3d velocity = velocity_of(m_bodies, m_sling.around[size_t(number)].at);
     for (int n = count; n <= m_sling.parted && n < m_model.thread.nodes; ++n)
       m_state.thread.x[size_t(n)] += m_dt * velocity;
   }
@@ -211,10 +200,9 @@ class Strangling {
   bool sits(size_t strand, SlingAround& found) const noexcept {
     const StrandBody& body = m_bodies.strand(strand);
     const tissue::StrandState& s = m_bodies.strand_state(strand);
-    const Beside at = beside(body, s, {found.element, found.w}, m_middle);
+    const Beside at = beside(body, s, place_on_rod(found.at), m_middle);
     if (!at.there() || at.away > body.model.radius[size_t(at.place.element)]) return false;
-    found.element = at.place.element;
-    found.w = at.place.w;
+    found.at = at_element(m_bodies, strand, at.place.element, at.place.w, {});
     return free_end(body, s, at.place).away > kOffWithin;
   }
 
@@ -225,28 +213,28 @@ class Strangling {
     const tissue::StrandState& s = m_bodies.strand_state(strand);
     int net = 0;
     for (int e = 0; e + 1 < body.nodes(); ++e)
-      if (s.alive[size_t(e)]) net += passes(s.x[size_t(e)], s.x[size_t(e) + 1], e, found);
+      if (s.alive[size_t(e)]) net += passes(s.x[size_t(e)], s.x[size_t(e) + 1], strand, e, found);
     const int last = body.nodes() - 1;
     const auto root = [&](int node, int next) {
       return s.x[size_t(node)] + kRoot * normalised(s.x[size_t(node)] - s.x[size_t(next)]);
     };
     SlingAround at_end = found;
     if (body.model.prescribed[0] && s.alive[0])
-      if (const int sign = passes(root(0, 1), s.x[0], 0, at_end); sign != 0) {
+      if (const int sign = passes(root(0, 1), s.x[0], strand, 0, at_end); sign != 0) {
         net += sign;
-        at_end.w = 0;
+        at_end.at.weight[0] = 0;
         found = at_end;
       }
     if (body.model.prescribed[size_t(last)] && s.alive[size_t(last) - 1])
-      if (const int sign = passes(s.x[size_t(last)], root(last, last - 1), last - 1, at_end); sign != 0) {
+      if (const int sign = passes(s.x[size_t(last)], root(last, last - 1), strand, last - 1, at_end); sign != 0) {
         net += sign;
-        at_end.w = 1;
+        at_end.at.weight[0] = 1;
         found = at_end;
       }
     return net != 0;
   }
   /// How often, and which way, the loop's surface is passed through from p to q, which is element `e` or belongs to it.
-  int passes(Vec3d p, Vec3d q, int e, SlingAround& found) const noexcept {
+  int passes(Vec3d p, Vec3d q, size_t strand, int e, SlingAround& found) const noexcept {
     if (length(0.5 * (p + q) - m_middle) > m_reach + length(q - p)) return 0;
     const int count = loop_nodes();
     int net = 0;
@@ -256,25 +244,24 @@ class Strangling {
                                       m_state.thread.x[size_t(n + 1 < count ? n + 1 : 0)], w);
       if (sign == 0) continue;
       net += sign;
-      found.element = e;
-      found.w = w;
+      found.at = at_element(m_bodies, strand, e, w, {});
     }
     return net;
   }
 
   /// Where another loop has sunk in beside this one, the groove's side leads away from that: threads lie side by side.
   /// @param at  where on the strand the node lies [m]
-  double slope_off_next(const StrandBody& body, const SlingAround& mine, double at) const noexcept {
+  double slope_off_next(const SlingAround& mine, double at) const noexcept {
     double slope = 0;
-    const double here = arc_at(body, {mine.element, mine.w});
+    const double here = arc_of(m_bodies.models, mine.at);
     for (std::size_t i = 0; i < m_states.size(); ++i) {
       const SlingState& other = m_states[i].sling;
       if (i == m_index || !m_models.list[i].sling.there()) continue;
       const double room = 0.5 * kBesideNext * (m_model.thread.stuff.diameter + m_models.list[i].thread.stuff.diameter);
       for (std::int32_t k = 0; k < other.around_count; ++k) {
         const SlingAround& a = other.around[size_t(k)];
-        if (a.strand != mine.strand || !(a.squeeze > kHoldsFrom)) continue;
-        const double there = arc_at(body, {a.element, a.w});
+        if (a.at.body != mine.at.body || !(a.squeeze > kHoldsFrom)) continue;
+        const double there = arc_of(m_bodies.models, a.at);
         const double side = here > there || (here == there && i < m_index) ? 1 : -1;
         slope += side * kOffNext * std::clamp((room - side * (at - there)) / room, 0.0, 1.0);
       }
@@ -284,10 +271,10 @@ class Strangling {
 
   /// The plane that a node lies on there, such that it presses as the law says.
   void press_node(std::int32_t number, const SlingAround& a, int n) noexcept {
-    const StrandBody& body = m_bodies.strand(size_t(a.strand));
-    const tissue::StrandState& s = m_bodies.strand_state(size_t(a.strand));
+    const StrandBody& body = m_bodies.strand(a.at.body.index());
+    const tissue::StrandState& s = m_bodies.strand_state(a.at.body.index());
     const Vec3d x = m_state.thread.x[size_t(n)];
-    const Beside at = beside(body, s, {a.element, a.w}, x);
+    const Beside at = beside(body, s, place_on_rod(a.at), x);
     if (!at.there()) return;
     const size_t e = size_t(at.place.element);
     const double radius = body.model.radius[e], lumen = body.model.lumen[e], half = 0.5 * m_model.thread.stuff.diameter;
@@ -300,8 +287,8 @@ class Strangling {
     const double piece = m_model.thread.spacing * (n == 0 ? 0.5 : 1.0);
     const FreeEnd end = free_end(body, s, at.place);
     const Vec3d along = normalised(s.x[e + 1] - s.x[e]);
-    const double slope = end.side * slope_to_end(radius, std::max(0.0, depth), end.away) +
-                         slope_off_next(body, a, arc_at(body, at.place));
+    const double slope =
+        end.side * slope_to_end(radius, std::max(0.0, depth), end.away) + slope_off_next(a, arc_at(body, at.place));
     const Vec3d normal = normalised(at.out + slope * along);
     const Vec3d velocity = s.v[e] + at.place.w * (s.v[e + 1] - s.v[e]);
     on = number;
@@ -368,6 +355,11 @@ double slope_to_end(double radius, double depth, double away) noexcept {
 double cover_of_loop(double radius, double lumen, double inner) noexcept {
   if (!(lumen > 0)) return 0;
   return 1 - std::clamp((inner - (radius - lumen)) / lumen, 0.0, 1.0);
+}
+
+double cover_of_loop(const BodyModels& models, const SlingAround& a) noexcept {
+  const tissue::StrandModel& m = models.strand_bodies[a.at.body.index()].model;
+  return cover_of_loop(m.radius[size_t(a.at.element)], m.lumen[size_t(a.at.element)], a.radius);
 }
 
 double youngs_of(const StrandBody& body, int element) noexcept {

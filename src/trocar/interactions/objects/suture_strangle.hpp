@@ -32,9 +32,11 @@ double slope_to_end(double radius, double depth, double away) noexcept;
 /// @param inner  radius within the loop, drawn round [m]
 double cover_of_loop(double radius, double lumen, double inner) noexcept;
 
+double cover_of_loop(const BodyModels& models, const SlingAround& a) noexcept;
+
 /// Is it drawn so close that it can be in its groove all around? A wide one that is pulled against one side is not.
 inline bool has_sunk_in(const StrandBody& body, const SlingAround& a) noexcept {
-  return a.radius < body.model.radius[std::size_t(a.element)];
+  return a.radius < body.model.radius[std::size_t(a.at.element)];
 }
 
 double youngs_of(const StrandBody& body, int element) noexcept;

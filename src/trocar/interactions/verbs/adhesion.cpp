@@ -11,18 +11,17 @@ Vec3d target_of(const ToolShape& shape, const Hold& stuck) noexcept {
 
 }  // namespace
 
-Hold stuck_at(const ToolShape& shape, const Bodies& bodies, Hold point) noexcept {
+Hold stuck_at(const ToolShape& shape, const Bodies& bodies, const MaterialPoint& point) noexcept {
   const Vec3d local = to_jaw(shape, held_point(bodies, point));
-  for (int k = 0; k < 3; ++k) point.local[k] = float(local[k]), point.force[k] = 0;
-  return point;
+  return {point, {float(local.x), float(local.y), float(local.z)}, {}};
 }
 
 double stuck_pull(const ToolShape& shape, const Bodies& bodies, const Hold& stuck) noexcept {
-  return kStuck.stiffness * length(target_of(shape, stuck) - held_point(bodies, stuck));
+  return kStuck.stiffness * length(target_of(shape, stuck) - held_point(bodies, stuck.at));
 }
 
 void stuck_load(const ToolShape& shape, int tool_index, const Bodies& bodies, const Hold& stuck) noexcept {
-  pull_to(bodies, stuck, target_of(shape, stuck), kStuck, {Owner::tool_contact, tool_index, 0});
+  pull_to(bodies, stuck.at, target_of(shape, stuck), kStuck, {Owner::tool_contact, tool_index, 0});
 }
 
 }  // namespace trocar::interactions

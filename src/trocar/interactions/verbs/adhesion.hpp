@@ -7,7 +7,7 @@
 namespace trocar::interactions {
 
 /// The point stays where it is beside the instrument.
-Hold stuck_at(const ToolShape& shape, const Bodies& bodies, Hold point) noexcept;
+Hold stuck_at(const ToolShape& shape, const Bodies& bodies, const MaterialPoint& point) noexcept;
 
 /// How hard it is pulled at [N].
 double stuck_pull(const ToolShape& shape, const Bodies& bodies, const Hold& stuck) noexcept;

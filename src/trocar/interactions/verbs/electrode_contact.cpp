@@ -50,7 +50,8 @@ BarePlaces bare_places(const ToolShape& s) noexcept {
 /// Looks at bodies one after the other and keeps the nearest.
 class WireSearch {
  public:
-  WireSearch(const ToolShape& shape, Vec3d from) noexcept : m_shape(shape), m_from(from) {}
+  WireSearch(const Bodies& bodies, const ToolShape& shape, Vec3d from) noexcept
+      : m_bodies(bodies), m_shape(shape), m_from(from) {}
 
   ElectrodeTouch best;
 
@@ -63,7 +64,7 @@ class WireSearch {
     if (!take(body, p.point, inside)) return;
     keep(rest_of(*surface.skin, p.vertex, p.weights), p.normal);
     best.inwards = -1.0 * rest_normal(*surface.skin, p.vertex, p.weights);
-    best.point.element = nearest_corner(p.vertex, p.weights);
+    best.point = on_vertex(m_bodies, body.index(), nearest_corner(p.vertex, p.weights));
   }
 
   void sheet(const SheetView& view, BodyId body) noexcept {
@@ -85,7 +86,7 @@ class WireSearch {
       keep(rest_of(skin, t, on.weights), up);
       const double side = dot(up, surface.normal(vertex)) < 0 ? 1 : -1;
       best.inwards = side * rest_normal(skin, t, on.weights);
-      best.point.element = nearest_corner(t, on.weights);
+      best.point = at_node(m_bodies, body, nearest_corner(t, on.weights));
     }
   }
 
@@ -104,7 +105,7 @@ class WireSearch {
       element = e, w = share;
       keep({0, std::min(radius, apart), 0}, up);
     }
-    if (element >= 0) on_strand(body, state, {element, w});
+    if (element >= 0) on_strand(body, state, at_element(m_bodies, number.index(), element, w, {}));
   }
 
  private:
@@ -118,23 +119,22 @@ class WireSearch {
     best.contact.body = body;
     best.contact.gap = gap;
     best.place = place;
-    best.point.body = body;
-    best.point.weight = 0;
     return true;
   }
   void keep(Vec3d rest, Vec3d normal) noexcept {
     best.contact.a = best.contact.b = rest;
     best.normal = normal;
   }
-  void on_strand(const StrandBody& body, const tissue::StrandState& state, StrandPlace at) noexcept {
+  void on_strand(const StrandBody& body, const tissue::StrandState& state, const MaterialPoint& point) noexcept {
+    const StrandPlace at = place_on_rod(point);
     const StrandFrame frame = frame_at(body, state, at);
     const double out = best.contact.a.y, y = dot(best.normal, frame.normal), z = dot(best.normal, frame.binormal);
-    best.point.element = at.element;
-    best.point.weight = float(at.w);
+    best.point = point;
     keep({arc_at(body, at), out * y, out * z}, best.normal);
     best.inwards = normalised(Vec3d{0, -y, -z}, Vec3d{0, -1, 0});
   }
 
+  const Bodies& m_bodies;
   const ToolShape& m_shape;
   Vec3d m_from;
   double m_away = 0;
@@ -144,7 +144,7 @@ ElectrodeTouch wire_touch(const ToolShape& shape, const ToolState& tool, const B
   ElectrodeTouch best;
   const BarePlaces bare = bare_places(shape);
   for (int k = 0; k < bare.count; ++k) {
-    WireSearch search(shape, bare.at[k]);
+    WireSearch search(bodies, shape, bare.at[k]);
     for (std::size_t i = 0; i < bodies.organ_count(); ++i) search.organ(bodies.organ(i), BodyId::organ(i));
     for (std::size_t i = 0; i < bodies.strand_count(); ++i)
       search.strand(bodies.strand(i), bodies.strand_state(i), BodyId::strand(i));
@@ -160,17 +160,17 @@ ElectrodeTouch wire_touch(const ToolShape& shape, const ToolState& tool, const B
 ElectrodeTouch pads_touch(const ToolShape& shape, const ToolState& tool, const Bodies& bodies) noexcept {
   ElectrodeTouch out;
   if (tool.holds == 0) return out;
-  out.contact.body = tool.hold[0].body;
-  out.point = tool.hold[0];
+  out.contact.body = tool.hold[0].at.body;
+  out.point = tool.hold[0].at;
   Vec3d sum[2];
   int count[2] = {0, 0};
   for (int i = 0; i < tool.holds; ++i) {
     const Hold& hold = tool.hold[i];
-    if (hold.body != out.contact.body) continue;
+    if (hold.at.body != out.contact.body) continue;
     const std::size_t side = hold.local[0] > 0 ? 0 : 1;
-    sum[side] += drawn_point(bodies, hold);
+    sum[side] += drawn_point(bodies, hold.at);
     ++count[side];
-    out.place += held_point(bodies, hold);
+    out.place += held_point(bodies, hold.at);
   }
   out.place = out.place / double(count[0] + count[1]);
   out.normal = shape.frame.opening();
@@ -180,7 +180,7 @@ ElectrodeTouch pads_touch(const ToolShape& shape, const ToolState& tool, const B
   out.contact.pressed = std::clamp(tool.pinch / kFirmPinch, 0.0, 1.0);
   if (!out.contact.body.is(BodyKind::strand)) return out;
   const std::size_t strand = out.contact.body.index();
-  const StrandPlace at{tool.hold[0].element, double(tool.hold[0].weight)};
+  const StrandPlace at = place_on_rod(tool.hold[0].at);
   const StrandFrame frame = frame_at(bodies.strand(strand), bodies.strand_state(strand), at);
   const double radius = bodies.strand(strand).model.radius[std::size_t(at.element)];
   const double s = 0.5 * (out.contact.a.x + out.contact.b.x), y = dot(out.normal, frame.normal),

@@ -17,7 +17,7 @@ struct ElectrodeTouch {
   tissue::ElectrodeContact contact;  ///< body: none where none is near
   Vec3d place;                       ///< the tissue's point [m]
   Vec3d normal{0, 0, 1};             ///< there, out of the tissue; between jaws: their opening
-  Hold point;                        ///< the tissue's point that is nearest to that and can be held; `local` is not set
+  MaterialPoint point;               ///< the tissue's point that is nearest to that and can be held
   Vec3d inwards{0, 0, 0};            ///< from there into the tissue, in the contact's frame; zero between jaws
 };
 

@@ -22,7 +22,9 @@ struct Candidate {
   double along() const noexcept { return sum / found; }
 };
 
-void add_held(Candidate& c, BodyId body, int element, double w, Vec3d local) noexcept {
+/// @param point  makes the MaterialPoint, where it is wanted
+template <class Point>
+void add_held(Candidate& c, Vec3d local, Point&& point) noexcept {
   c.sum += local.z;
   if (c.found++ % c.stride != 0) return;
   if (c.count == kMaxHolds) {
@@ -32,9 +34,7 @@ void add_held(Candidate& c, BodyId body, int element, double w, Vec3d local) noe
   }
   Hold& h = c.hold[c.count++];
   h = {};
-  h.body = body;
-  h.element = element;
-  h.weight = float(w);
+  h.at = point();
   h.local[0] = float(local.x);
   h.local[1] = float(local.y);
   h.local[2] = float(local.z);
@@ -50,8 +50,9 @@ Candidate strand_between(const ToolModel& model, const ToolShape& shape, const B
       if (!bodies.strand_state(s).alive[size_t(e)]) continue;
       const BetweenJaws where = between_jaws(model, shape, body, bodies.strand_state(s), e);
       if (!where.inside || where.local.z > model.jaw_length || where.local.z < 0) continue;
-      add_held(c, BodyId::strand(s), e, where.w, where.local);
-      c.thickness = std::max(c.thickness, held_thickness(bodies, {BodyId::strand(s), e}));
+      const MaterialPoint at = at_element(bodies, s, e, where.w, {});
+      add_held(c, where.local, [&at] { return at; });
+      c.thickness = std::max(c.thickness, held_thickness(bodies, at));
     }
     if (c.count == 0) continue;
     if (best.count == 0 || c.along() < best.along()) best = c;
@@ -75,11 +76,11 @@ Candidate fold_between(const ToolModel& model, const ToolShape& shape, const Bod
         if (std::fabs(local.y) > 0.5 * model.jaw_width + 0.0015) continue;
         if (local.z < 0.25 * model.jaw_length || local.z > model.jaw_length + 0.0005) continue;
         if (std::fabs(local.x) > shape.half_opening(local.z) + 0.0008) continue;
-        add_held(c, BodyId::organ(o), v, 0, local);
+        add_held(c, local, [&] { return on_vertex(bodies, o, v); });
       }
     }
     if (c.count < 2) continue;
-    c.thickness = held_thickness(bodies, c.hold[0]);
+    c.thickness = held_thickness(bodies, c.hold[0].at);
     if (c.found > best.found) best = c;
   }
   return best;
@@ -99,10 +100,10 @@ Candidate sheet_between(const ToolModel& model, const ToolShape& shape, const Bo
       if (std::fabs(local.y) > 0.5 * model.jaw_width + 0.0015 + reach) continue;
       if (local.z < 0 || local.z > model.jaw_length + 0.0005 + reach) continue;
       if (std::fabs(local.x) > shape.half_opening(local.z) + 0.0005 + reach) continue;
-      add_held(c, BodyId::membrane(m), v, 0, local);
+      add_held(c, local, [&] { return at_node(bodies, BodyId::membrane(m), v); });
     }
     if (c.count < 2) continue;
-    c.thickness = held_thickness(bodies, c.hold[0]);
+    c.thickness = held_thickness(bodies, c.hold[0].at);
     c.firmly = reach > 0;
     if (c.found > best.found) best = c;
   }
@@ -116,10 +117,12 @@ Candidate object_between(const ToolModel& model, const ToolShape& shape, const B
   visit_objects(bodies, [&](auto kind, BodyId body) {
     using K = decltype(kind);
     Candidate c;
-    K::between(models_of<K>(bodies), states_of<K>(bodies), body.index(), model, shape,
-               [&](std::int32_t place, Vec3d local) { add_held(c, body, place, 0, local); });
+    K::between(
+        models_of<K>(bodies), states_of<K>(bodies), body.index(), model, shape, [&](std::int32_t place, Vec3d local) {
+          add_held(c, local, [&] { return K::kIsTissue ? at_node(bodies, body, place) : on_object(body, place); });
+        });
     if (c.count < 2) return;
-    c.thickness = held_thickness(bodies, c.hold[0]);
+    c.thickness = held_thickness(bodies, c.hold[0].at);
     if (c.found > best.found) best = c;
   });
   return best;
@@ -141,7 +144,7 @@ void centre(ToolState& tool) noexcept {
   const auto closer = [](float off) {
     return std::fabs(off) > 1e-7f ? off * kCentring : 0.0f;  // ends at 0, not among the denormal numbers
   };
-  if (!is_hard(tool.hold[0].body)) {
+  if (!is_hard(tool.hold[0].at.body)) {
     for (int i = 0; i < tool.holds; ++i) tool.hold[i].local[0] = closer(tool.hold[i].local[0]);
     return;
   }
@@ -159,7 +162,7 @@ void lose(ToolState& tool) noexcept {
 
 /// A strand's element that was cut through or tore, a lobule that has boiled away: it is no place any more.
 void drop_parted(const Bodies& bodies, ToolState& tool) noexcept {
-  const auto parted = [&bodies](const Hold& h) { return !h.body.is(BodyKind::organ) && !is_whole(bodies, h); };
+  const auto parted = [&bodies](const Hold& h) { return !h.at.body.is(BodyKind::organ) && !is_whole(bodies, h.at); };
   const auto end = std::remove_if(tool.hold, tool.hold + tool.holds, parted);
   tool.holds = std::int32_t(end - tool.hold);
   if (tool.holds > 0) return;
@@ -177,7 +180,7 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const Bodies& b
   }
   if (tool.holds > 0) drop_parted(bodies, tool);
   if (tool.holds > 0) {
-    const double stop = aperture_at(model, held_thickness(bodies, tool.hold[0]), tool.hold[0].local[2]);
+    const double stop = aperture_at(model, held_thickness(bodies, tool.hold[0].at), tool.hold[0].local[2]);
     // Loose jaws are opened by the hand, or the tissue has slid towards their tips, where they stand further apart. An
     // open hand lets go of whatever keeps the jaws wide open.
     const double release = std::min(stop + kLoose, kOpen);
@@ -216,7 +219,7 @@ void hold_loads(const ToolShape& shape, int tool_index, const Bodies& bodies, co
   for (int i = 0; i < tool.holds; ++i) {
     const Hold& h = tool.hold[i];
     const Vec3d target = from_jaw(shape, {h.local[0], h.local[1], h.local[2]});
-    pull_to(bodies, h, target, kHold, {Owner::tool_hold, tool_index, i});
+    pull_to(bodies, h.at, target, kHold, {Owner::tool_hold, tool_index, i});
   }
 }
 
@@ -233,10 +236,10 @@ void slip(const ToolModel& model, const ToolShape& shape, const Bodies& bodies, 
   int kept = 0;
   for (int i = 0; i < tool.holds; ++i) {
     Hold h = tool.hold[i];
-    const Vec3d now = to_jaw(shape, held_point(bodies, h));
+    const Vec3d now = to_jaw(shape, held_point(bodies, h.at));
     h.local[1] += float(give) * float(now.y - double(h.local[1]));
     h.local[2] += float(give) * float(now.z - double(h.local[2]));
-    const double reach = held_reach(bodies, h);
+    const double reach = held_reach(bodies, h.at.body);
     const bool out = double(h.local[2]) > model.jaw_length + 0.001 + reach || double(h.local[2]) < -0.002 ||
                      std::fabs(double(h.local[1])) > 0.5 * model.jaw_width + 0.003 + reach;
     if (!out) tool.hold[kept++] = h;

@@ -6,154 +6,62 @@ namespace {
 constexpr double kFoldThickness = 0.0025;  // [m] a pinched fold of an organ's surface
 constexpr double kCompressed = 0.7;        // thickness of a strand between jaws that just hold it, of its diameter
 
-/// A held point as its kind of body sees it.
-struct OnStrand {
-  const StrandBody& body;
-  const tissue::StrandState& state;
-  size_t index;
-};
-struct OnOrgan {
-  const Surface& surface;
-  size_t index;
-};
-struct OnMembrane {
-  const SheetView& sheet;
-  size_t index;
-};
-template <class K>
-struct OnObject {
-  const typename K::Models& models;
-  const typename K::States& states;
-};
-
-/// f(place on a body of that kind); of nothing: `otherwise`.
-template <class Result, class F>
-Result on_body(const Bodies& bodies, BodyId body, Result otherwise, F&& f) noexcept {
-  const size_t i = body.index();
-  switch (body.kind()) {
-    case BodyKind::strand:
-      return f(OnStrand{bodies.strand(i), bodies.strand_state(i), i});
-    case BodyKind::organ:
-      return f(OnOrgan{bodies.organ(i), i});
-    case BodyKind::membrane:
-      return f(OnMembrane{bodies.membrane(i), i});
-    default:
-      break;
-  }
-  Result result = otherwise;
+/// f(kind, its models, its states) where the body is an object that is no tissue and that jaws hold.
+template <class F>
+bool on_object_kind(const Bodies& bodies, BodyId body, F&& f) noexcept {
+  bool found = false;
   visit_object(body, [&](auto kind) {
     using K = decltype(kind);
-    result = f(OnObject<K>{models_of<K>(bodies), states_of<K>(bodies)});
+    if constexpr (!K::kIsTissue && requires { &K::pull; })
+      f(kind, models_of<K>(bodies), states_of<K>(bodies)), found = true;
   });
-  return result;
-}
-
-Vec3d point(const OnStrand& on, const Hold& hold) noexcept {
-  const Vec3d a = on.state.x[size_t(hold.element)], b = on.state.x[size_t(hold.element) + 1];
-  return a + double(hold.weight) * (b - a);
-}
-Vec3d point(const OnOrgan& on, const Hold& hold) noexcept { return on.surface.position(hold.element); }
-Vec3d point(const OnMembrane& on, const Hold& hold) noexcept { return on.sheet.surface.position(hold.element); }
-template <class K>
-Vec3d point(const OnObject<K>& on, const Hold& hold) noexcept {
-  return K::point(on.models, on.states, hold);
-}
-
-Vec3d drawn(const OnStrand& on, const Hold& hold) noexcept {
-  return {arc_at(on.body, {hold.element, double(hold.weight)}), 0, 0};
-}
-Vec3d drawn(const OnOrgan& on, const Hold& hold) noexcept {
-  return vec_cast<double>(on.surface.skin->rest[size_t(hold.element)]);
-}
-Vec3d drawn(const OnMembrane& on, const Hold& hold) noexcept {
-  return vec_cast<double>(on.sheet.surface.skin->rest[size_t(hold.element)]);
-}
-
-/// Objects have no frame of heat: current does nothing to them.
-template <class K>
-Vec3d drawn(const OnObject<K>&, const Hold&) noexcept {
-  return {};
-}
-
-bool is_attached(const OnStrand& on, const Hold& hold) noexcept { return on.state.alive[size_t(hold.element)] != 0; }
-bool is_attached(const OnOrgan& on, const Hold& hold) noexcept {
-  return hold.element < on.surface.skin->size() && !on.surface.torn(hold.element);
-}
-bool is_attached(const OnMembrane&, const Hold&) noexcept { return true; }
-template <class K>
-bool is_attached(const OnObject<K>& on, const Hold& hold) noexcept {
-  return K::is_attached(on.states, hold);
-}
-
-double thickness(const OnStrand& on, const Hold& hold) noexcept {
-  return 2 * kCompressed * on.body.model.radius[size_t(hold.element)];
-}
-double thickness(const OnOrgan&, const Hold&) noexcept { return kFoldThickness; }
-double thickness(const OnMembrane& on, const Hold&) noexcept {
-  return (on.sheet.pinch_reach > 0 ? 4 : 2) * on.sheet.half_thickness;
-}
-
-template <class K>
-double thickness(const OnObject<K>& on, const Hold& hold) noexcept {
-  return K::thickness(on.models, hold);
-}
-
-double reach(const OnStrand&) noexcept { return 0; }
-template <class K>
-double reach(const OnObject<K>&) noexcept {
-  return 0;
-}
-double reach(const OnOrgan&) noexcept { return 0; }
-double reach(const OnMembrane& on) noexcept { return on.sheet.pinch_reach; }
-
-void pull(const OnStrand& on, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, const Bodies& bodies) noexcept {
-  tissue::StrandLoad load;
-  load.element = hold.element;
-  load.w = double(hold.weight);
-  load.k = law.stiffness;
-  load.d = law.damping;
-  load.x0 = target;
-  bodies.work->strands[on.index].loads.add(load, tag);
-}
-void pull(const OnOrgan& on, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, const Bodies& bodies) noexcept {
-  SkinLoad load;
-  load.k = law.stiffness;
-  load.d = law.damping;
-  load.shift = target - on.surface.position(hold.element);
-  add_skin_load(on.surface.nodes, *on.surface.skin, hold.element, load, tag, bodies.work->organs[on.index].loads);
-}
-void pull(const OnMembrane& on, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, const Bodies& bodies) noexcept {
-  tissue::NodeLoad load;
-  load.node = hold.element;
-  load.k = float(law.stiffness);
-  load.d = float(law.damping);
-  load.x0 = vec_cast<float>(target);
-  bodies.work->membranes[on.index].loads.add(load, tag);
-}
-template <class K>
-void pull(const OnObject<K>& on, const Hold& hold, Vec3d target, HoldLaw law, Tag tag, const Bodies& bodies) noexcept {
-  K::pull(on.models, on.states, hold, target, law, tag, work_of<K>(bodies));
+  return found;
 }
 
 }  // namespace
 
-Vec3d held_point(const Bodies& bodies, const Hold& hold) noexcept {
-  return on_body(bodies, hold.body, Vec3d{}, [&](const auto& on) { return point(on, hold); });
+Vec3d held_point(const Bodies& bodies, const MaterialPoint& p) noexcept {
+  Vec3d at;
+  if (on_object_kind(bodies, p.body,
+                     [&](auto kind, auto& models, auto& states) { at = kind.point(models, states, p); }))
+    return at;
+  return place_of(bodies, p);
 }
-Vec3d drawn_point(const Bodies& bodies, const Hold& hold) noexcept {
-  return on_body(bodies, hold.body, Vec3d{}, [&](const auto& on) { return drawn(on, hold); });
+
+Vec3d drawn_point(const Bodies& bodies, const MaterialPoint& p) noexcept {
+  if (p.body.is(BodyKind::strand)) return {arc_of(bodies.models, p), 0, 0};
+  const bool heats = p.body.is(BodyKind::organ) || p.body.is(BodyKind::membrane);
+  return heats ? drawn_place(bodies, p) : Vec3d{};  // current does nothing to the others
 }
-bool is_whole(const Bodies& bodies, const Hold& hold) noexcept {
-  return on_body(bodies, hold.body, false, [&](const auto& on) { return is_attached(on, hold); });
+
+bool is_whole(const Bodies& bodies, const MaterialPoint& p) noexcept {
+  const std::size_t i = p.body.index();
+  if (p.body.is(BodyKind::strand)) return bodies.strand_state(i).alive[std::size_t(p.element)] != 0;
+  if (p.body.is(BodyKind::fat)) return !bodies.states.fat[i].lobules[std::size_t(p.node[0])].gone();
+  return !p.body.is(BodyKind::organ) || !bodies.organ(i).torn(vertex_of(bodies, p));
 }
-double held_thickness(const Bodies& bodies, const Hold& hold) noexcept {
-  return on_body(bodies, hold.body, 0.0, [&](const auto& on) { return thickness(on, hold); });
+
+double held_thickness(const Bodies& bodies, const MaterialPoint& p) noexcept {
+  const std::size_t i = p.body.index();
+  if (p.body.is(BodyKind::strand)) return 2 * kCompressed * bodies.strand(i).model.radius[std::size_t(p.element)];
+  if (p.body.is(BodyKind::organ)) return kFoldThickness;
+  if (p.body.is(BodyKind::membrane))
+    return (bodies.membrane(i).pinch_reach > 0 ? 4 : 2) * bodies.membrane(i).half_thickness;
+  if (p.body.is(BodyKind::fat)) return Fat::thickness(bodies.models.fat[i]);
+  double thick = 0;
+  on_object_kind(bodies, p.body, [&](auto kind, auto& models, auto&) { thick = kind.thickness(models, p); });
+  return thick;
 }
-double held_reach(const Bodies& bodies, const Hold& hold) noexcept {
-  return on_body(bodies, hold.body, 0.0, [&](const auto& on) { return reach(on); });
+
+double held_reach(const Bodies& bodies, BodyId body) noexcept {
+  return body.is(BodyKind::membrane) ? bodies.membrane(body.index()).pinch_reach : 0;
 }
-void pull_to(const Bodies& bodies, const Hold& hold, Vec3d target, HoldLaw law, Tag tag) noexcept {
-  on_body(bodies, hold.body, false, [&](const auto& on) { return pull(on, hold, target, law, tag, bodies), true; });
+
+void pull_to(const Bodies& bodies, const MaterialPoint& p, Vec3d target, HoldLaw law, Tag tag) noexcept {
+  const bool done = on_object_kind(bodies, p.body, [&](auto kind, auto& models, auto& states) {
+    kind.pull(models, states, p, target, law, tag, work_of<decltype(kind)>(bodies));
+  });
+  if (!done) put_load(bodies, p, {.k = law.stiffness, .target = target, .d = law.damping}, tag);
 }
 
 }  // namespace trocar::interactions

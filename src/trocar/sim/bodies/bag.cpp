@@ -44,7 +44,7 @@ Vec3d downwards(const StepContext& c) noexcept { return normalised(c.model.gravi
 
 bool is_held(const StepContext& c, BodyId body) noexcept {
   for (size_t t = 0; t < c.model.hands.size(); ++t)
-    if (c.state.tools[t].holds > 0 && c.state.tools[t].hold[0].body == body) return true;
+    if (c.state.tools[t].holds > 0 && c.state.tools[t].hold[0].at.body == body) return true;
   return false;
 }
 

@@ -13,16 +13,18 @@ void carry_along(const StepContext& c, const CarriedSkin& b) noexcept {
     const interactions::ToolShape& shape = c.work.shapes[t];
     if (!interactions::comes_near(shape, b.surface.pose->bounds, kNearSheet)) continue;
     const interactions::ToolState& tool = c.state.tools[t];
-    std::array<std::int32_t, interactions::kMaxHolds> between;
-    size_t held = 0;
-    for (int h = 0; h < tool.holds; ++h)
-      if (tool.hold[h].body == b.body) between[held++] = tool.hold[h].element;
+    const interactions::HeldVertices between(bodies_of(c), b.body, tool);
     const interactions::Needles needles = interactions::needles_of(
         c.work.shapes_before[t], shape, c.model.tool(c.state, t).can().blunt(), std::max(kThin, b.thickness));
-    interactions::carry_along(
-        needles,
-        {*b.surface.skin, *b.surface.pose, b.open, b.fixed, {between.data(), held}, b.surface.nodes.origin, b.rows},
-        b.gap ? b.gap[t * b.each] : 0, kTick, extent);
+    interactions::carry_along(needles,
+                              {*b.surface.skin,
+                               *b.surface.pose,
+                               b.open,
+                               b.fixed,
+                               {between.vertex.data(), between.count},
+                               b.surface.nodes.origin,
+                               b.rows},
+                              b.gap ? b.gap[t * b.each] : 0, kTick, extent);
   }
 }
 

@@ -32,7 +32,7 @@ void hang(StepContext& c, CuttableRef r) noexcept {
 
 void touch(StepContext& c, CuttableRef r, HandContact& hand) noexcept {
   interactions::tool_on_surface(hand.touching, r.id(), c.work.surfaces[r.organ()], c.work.organs[r.organ()].loads,
-                                held_by(c, hand));
+                                held_by(c, hand, r.id()));
 }
 
 void touch_itself(StepContext& c, CuttableRef r) noexcept {

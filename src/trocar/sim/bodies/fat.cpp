@@ -62,7 +62,8 @@ FatTouch fat_at(const StepContext& c, std::size_t hand) noexcept {
       if (lobule < 0) return;
       const Vec3d place = tissue::position(bodies[i].fat, states[i], lobule);
       const double apart = length(place - collision::nearest_on_axis(wire, place)) - wire.radius - bodies[i].fat.radius;
-      if (!best.there() || apart < best.apart) best = {int(i), lobule, place, apart};
+      if (!best.there() || apart < best.apart)
+        best = {at_node(bodies_of(c), BodyId(BodyKind::fat, i), lobule), place, apart};
     };
     interactions::Capsule wire = shape.part[interactions::kJawA];
     wire.a = wire.b - interactions::kBareWire * normalised(wire.b - wire.a, shape.frame.axis());
@@ -73,19 +74,20 @@ FatTouch fat_at(const StepContext& c, std::size_t hand) noexcept {
 }
 
 tissue::HeatContact fat_contact(const StepContext& c, const FatTouch& touch) noexcept {
-  const tissue::FatModel& m = c.model.fat[std::size_t(touch.body)].fat;
-  const tissue::FatState& s = c.state.fat[std::size_t(touch.body)];
-  const double wet = 1 - s.lobules[std::size_t(touch.lobule)].boiled / (m.material.water * m.mass);
-  const double celsius = tissue::temperature(m, s, touch.lobule);
+  const std::size_t body = touch.at.body.index();
+  const tissue::FatModel& m = c.model.fat[body].fat;
+  const tissue::FatState& s = c.state.fat[body];
+  const int lobule = touch.at.node[0];
+  const double wet = 1 - s.lobules[std::size_t(lobule)].boiled / (m.material.water * m.mass);
+  const double celsius = tissue::temperature(m, s, lobule);
   return {m.volume, kFatConducts * (kDryConducts + (1 - kDryConducts) * wet), celsius, celsius};
 }
 
 double warm_fat(StepContext& c, const FatTouch& touch, double joules) noexcept {
-  const size_t body = size_t(touch.body);
-  tissue::FatState& state = c.state.fat[body];
+  tissue::FatState& state = c.state.fat[touch.at.body.index()];
   const std::int32_t gone = state.gone;
-  const double boiled = interactions::warm_fat(c.model.fat[body], touch.lobule, joules, state);
-  if (state.gone > gone) part_from_gone(c, BodyId(BodyKind::fat, body));
+  const double boiled = interactions::warm_fat(c.model.fat[touch.at.body.index()], touch.at.node[0], joules, state);
+  if (state.gone > gone) part_from_gone(c, touch.at.body);
   return boiled;
 }
 

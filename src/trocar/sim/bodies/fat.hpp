@@ -14,10 +14,10 @@ int sever_septa(StepContext& context, const geometry::Blade& blade) noexcept;
 
 /// A lobule that a bare wire touches.
 struct FatTouch {
-  int body = -1, lobule = -1;
-  Vec3d place;       ///< its middle [m]
-  double apart = 0;  ///< of its surface from the metal's; below 0: that is in it [m]
-  bool there() const noexcept { return lobule >= 0; }
+  interactions::MaterialPoint at;  ///< its middle
+  Vec3d place;                     ///< that [m]
+  double apart = 0;                ///< of its surface from the metal's; below 0: that is in it [m]
+  bool there() const noexcept { return at.body.exists(); }
 };
 FatTouch fat_at(const StepContext& context, std::size_t hand) noexcept;
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/interactions/objects/suture_sling_step.hpp>
+#include <trocar/interactions/verbs/held.hpp>
 #include <trocar/sim/bodies/bodies.hpp>
 #include <trocar/sim/bodies/sling.hpp>
 #include <trocar/sim/bodies/vessel_wounds.hpp>
@@ -68,16 +69,11 @@ SlingHand hand_of(const StepContext& c, std::size_t t) noexcept {
   return hand;
 }
 
-double cover_at(const StepContext& c, const SlingAround& a) noexcept {
-  const tissue::StrandModel& m = c.model.strand_bodies[std::size_t(a.strand)].model;
-  return interactions::cover_of_loop(m.radius[std::size_t(a.element)], m.lumen[std::size_t(a.element)], a.radius);
-}
-
 void cut_through(StepContext& c, SlingState& g, SlingAround& a) noexcept {
-  const StrandRef strand{std::size_t(a.strand)};
+  const StrandRef strand{a.at.body.index()};
   a.cutting = 0;
-  if (!c.state.strands[strand.index].alive[std::size_t(a.element)]) return;
-  open_vessels(c, strand.id(), cut(c, strand, a.element), g.hand);
+  if (!is_whole(bodies_of(c), a.at)) return;
+  open_vessels(c, strand.id(), cut(c, strand, a.at.element), g.hand);
   emit_event(c, Event::on_body(Event::loop_cut, g.hand, strand.id()));
   g.was_closed = 0;
 }
@@ -86,13 +82,12 @@ void watch(StepContext& c, SlingState& g) noexcept {
   std::int32_t is = 0;
   for (std::int32_t k = 0; k < g.around_count; ++k) {
     SlingAround& a = g.around[std::size_t(k)];
-    if (a.squeeze > kTightFrom && has_sunk_in(c.model.strand_bodies[std::size_t(a.strand)], a)) is |= kWasTight;
-    if (cover_at(c, a) >= kLoopCloses) {
-      if (!(g.was_closed & kWasClosed))
-        emit_event(c, Event::on_body(Event::loop_tightened, g.hand, BodyId::strand(std::size_t(a.strand))));
+    if (a.squeeze > kTightFrom && has_sunk_in(c.model.strand_bodies[a.at.body.index()], a)) is |= kWasTight;
+    if (interactions::cover_of_loop(c.model, a) >= kLoopCloses) {
+      if (!(g.was_closed & kWasClosed)) emit_event(c, Event::on_body(Event::loop_tightened, g.hand, a.at.body));
       is |= kWasClosed;
     }
-    g.last = a.strand;
+    g.last = std::int32_t(a.at.body.index());
     if (a.cutting >= kCutsAfter) return cut_through(c, g, a);
   }
   if (g.was_closed != 0 && g.around_count == 0 && g.last >= 0)
@@ -155,10 +150,10 @@ void lay_out_loops(const StepContext& c, std::span<vessels::Occlusion> out) noex
   std::fill(out.begin(), out.end(), vessels::Occlusion{});
   std::size_t count = 0;
   visit_loops(c.model, c.state, [&](const LoopClosure& loop) {
-    const interactions::StrandBody& body = c.model.strand_bodies[std::size_t(loop.strand)];
-    const double radius = body.model.radius[std::size_t(interactions::place_at(body, loop.s).element)];
+    const std::size_t strand = loop.at.body.index();
+    const double radius = c.model.strand_bodies[strand].model.radius[std::size_t(loop.at.element)];
     for (std::size_t v = 0; v < c.model.vessels.list.size() && count < out.size(); ++v) {
-      const double s = place_within(c, loop.strand, v, loop.s);
+      const double s = place_within(c, int(strand), v, loop.s);
       if (s < 0) continue;
       const vessels::FlowSegment& segment = c.model.vessels.flow.segments[v];
       const double lumen = std::min(0.95 * radius, segment.radius + segment.taper * s);

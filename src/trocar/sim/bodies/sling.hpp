@@ -16,8 +16,8 @@ bool has_slings(const Model& model) noexcept;
 /// What a loop leaves of a strand's lumen.
 struct LoopClosure {
   std::int32_t suture = -1;
-  std::int32_t strand = -1;
-  double s = 0;       ///< along it, in the drawn shape [m]
+  interactions::MaterialPoint at;
+  double s = 0;       ///< along the strand, in the drawn shape [m]
   double cover = 0;   ///< share of the lumen's width that it takes
   double radius = 0;  ///< within it, drawn round [m]
 };
@@ -29,10 +29,7 @@ void visit_loops(const Model& model, const State& state, F&& f) {
     const interactions::SlingState& sling = states[i].sling;
     for (std::int32_t k = 0; k < sling.around_count; ++k) {
       const interactions::SlingAround& a = sling.around[std::size_t(k)];
-      const interactions::StrandBody& body = model.strand_bodies[std::size_t(a.strand)];
-      const std::size_t e = std::size_t(a.element);
-      f(LoopClosure{std::int32_t(i), a.strand, interactions::arc_at(body, {a.element, a.w}),
-                    interactions::cover_of_loop(body.model.radius[e], body.model.lumen[e], a.radius), a.radius});
+      f(LoopClosure{std::int32_t(i), a.at, arc_of(model, a.at), cover_of_loop(model, a), a.radius});
     }
   }
 }

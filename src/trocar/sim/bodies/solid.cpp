@@ -26,7 +26,7 @@ void hang(StepContext& c, SolidRef s) noexcept {
 
 void touch(StepContext& c, SolidRef s, HandContact& hand) noexcept {
   interactions::tool_on_surface(hand.touching, s.id(), c.work.surfaces[s.organ()], c.work.organs[s.organ()].loads,
-                                held_by(c, hand));
+                                held_by(c, hand, s.id()));
 }
 
 std::span<const std::int32_t> pieces_of(const StepContext&, SolidRef) noexcept { return {}; }

@@ -45,7 +45,7 @@ double open_share(const StepContext& c, int strand, bool at_start, double s) noe
     if (share <= 0) return 0;
   }
   visit_loops(c.model, c.state, [&](const LoopClosure& loop) {
-    if (loop.strand != strand || (at_start ? loop.s > s : loop.s < s)) return;
+    if (loop.at.body != BodyId::strand(size_t(strand)) || (at_start ? loop.s > s : loop.s < s)) return;
     share = loop.cover >= kClosing ? 0 : std::min(share, 1 - loop.cover);
   });
   return share;

@@ -20,10 +20,9 @@ struct HandContact {
   }
 };
 
-/// What the hand's jaws hold.
-inline std::span<const interactions::Hold> held_by(const StepContext& c, const HandContact& hand) noexcept {
-  const interactions::ToolState& tool = c.state.tools[hand.hand];
-  return {tool.hold, size_t(tool.holds)};
+/// What the hand's jaws hold of a body.
+inline interactions::HeldVertices held_by(const StepContext& c, const HandContact& hand, BodyId body) noexcept {
+  return {bodies_of(c), body, c.state.tools[hand.hand]};
 }
 
 }  // namespace trocar::sim

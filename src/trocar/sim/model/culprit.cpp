@@ -107,8 +107,7 @@ void add_threads(const StepContext& c, BodyId body, LoadSums& sums) noexcept {
     }
     for (int k = 0; k < s.sling.around_count; ++k) {
       const interactions::SlingAround& a = s.sling.around[std::size_t(k)];
-      if (BodyId::maybe(BodyKind::strand, a.strand) != body) continue;
-      sums.pull_by_thread(puller, on_strand(c, body.index(), a.element, a.w), length(a.pull));
+      if (a.at.body == body) sums.pull_by_thread(puller, place_of(bodies, a.at), length(a.pull));
     }
   }
 }
@@ -147,8 +146,8 @@ LoadSums beside_torn_body(const StepContext& c, const TornPlace& place) noexcept
   for (std::size_t t = 0; t < c.model.hands.size(); ++t) {
     const interactions::ToolState& tool = c.state.tools[t];
     for (int i = 0; i < tool.holds; ++i) {
-      const Vec3d at = interactions::held_point(bodies, tool.hold[i]);
-      if (passes_on(c, place, tool.hold[i].body, at)) sums.pull(int(t), at, vector_of(tool.hold[i].force));
+      const Vec3d at = interactions::held_point(bodies, tool.hold[i].at);
+      if (passes_on(c, place, tool.hold[i].at.body, at)) sums.pull(int(t), at, vector_of(tool.hold[i].force));
     }
     const interactions::TouchBook& touches = c.state.touches[t];
     for (int i = 0; i < touches.count; ++i) {
@@ -184,7 +183,7 @@ int puller_of(const StepContext& c, BodyId suture) noexcept {
   if (loop.hand >= 0) consider(loop.hand, loop.force);
   for (std::size_t t = 0; t < c.model.hands.size(); ++t) {
     const interactions::ToolState& tool = c.state.tools[t];
-    if (tool.holds > 0 && tool.hold[0].body == suture) consider(int(t), length(vector_of(tool.pull)));
+    if (tool.holds > 0 && tool.hold[0].at.body == suture) consider(int(t), length(vector_of(tool.pull)));
   }
   return best;
 }

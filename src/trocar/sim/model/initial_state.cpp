@@ -1,4 +1,5 @@
 #include <trocar/fluids/pool_fill.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/model/pool_floor.hpp>
 #include <trocar/sim/model/state.hpp>
 
@@ -20,14 +21,13 @@ void make_counters(const Model& model, State& s) {
 }
 
 /// What a hand holds from the start lies between its jaws in the drawn shape; they close on it in the first tick.
-void take_hold(const Model& model, const HandModel& hand, interactions::ToolState& tool) {
+void take_hold(const Model& model, const State& s, const HandModel& hand, interactions::ToolState& tool) {
   if (hand.membrane < 0) return;
   const interactions::ToolShape shape = interactions::shape_of(hand.rack.front(), tool.pose(), tool.aperture);
   const tissue::NetworkModel& sheet = model.membranes[size_t(hand.membrane)].sheet.network;
   for (const std::int32_t node : hand.held) {
     interactions::Hold& hold = tool.hold[tool.holds++];
-    hold.body = BodyId::membrane(size_t(hand.membrane));
-    hold.element = node;
+    hold.at = at_node(bodies_of(model, s), BodyId::membrane(size_t(hand.membrane)), node);
     const Vec3d local = interactions::to_jaw(shape, sheet.rest[size_t(node)]);
     hold.local[0] = float(local.x), hold.local[1] = float(local.y), hold.local[2] = float(local.z);
   }
@@ -74,7 +74,7 @@ State initial_state(const Model& model) {
     tool.handle = in.handle;
     tool.aperture = interactions::aperture_of(model.placed(t).linkage, double(in.handle));
     tool.clips_left = model.placed(t).clips;
-    take_hold(model, model.hands[t], tool);
+    take_hold(model, s, model.hands[t], tool);
     take_needles(model, t, s);
     for (size_t i = 0; i < model.hands[t].rack.size(); ++i)
       s.magazine[t * size_t(kMaxRack) + i] = model.hands[t].rack[i].clips;

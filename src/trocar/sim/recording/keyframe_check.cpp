@@ -8,8 +8,11 @@
 namespace trocar::sim::keyframe {
 namespace {
 
-bool names_tissue(const Model& model, const interactions::Hold& hold) {
-  return hold.element >= 0 && hold.element < places_on(model, hold.body);
+/// Of tissue, or a place that an object has.
+bool can_be_held(const Model& model, const interactions::MaterialPoint& at) {
+  const bool tissue = at.body.kind() <= BodyKind::membrane || at.body.is(BodyKind::fat);
+  if (tissue) return is_valid(model, at) && !at.in_space();
+  return at.element >= 0 && at.element < places_on(model, at.body);
 }
 
 bool sound(const Model& model, int rack, const interactions::ToolState& t) {
@@ -18,7 +21,7 @@ bool sound(const Model& model, int rack, const interactions::ToolState& t) {
   if (t.instrument < 0 || t.instrument >= rack) return false;
   if (t.holds < 0 || t.holds > interactions::kMaxHolds) return false;
   for (int i = 0; i < t.holds; ++i)
-    if (!names_tissue(model, t.hold[i])) return false;
+    if (!can_be_held(model, t.hold[i].at)) return false;
   return true;
 }
 

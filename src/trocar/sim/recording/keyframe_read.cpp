@@ -96,9 +96,7 @@ bool loops_are_sound(const Model& model, const State& s) {
     if (g.around_count < 0 || g.around_count > interactions::kMostAround) return false;
     for (std::int32_t k = 0; k < g.around_count; ++k) {
       const interactions::SlingAround& a = g.around[size_t(k)];
-      const bool there = a.strand >= 0 && size_t(a.strand) < model.strand_bodies.size();
-      if (!there || a.element < 0 || a.element + 1 >= model.strand_bodies[size_t(a.strand)].nodes()) return false;
-      if (!std::isfinite(a.radius) || !(a.w >= 0 && a.w <= 1)) return false;
+      if (!a.at.body.is(BodyKind::strand) || !is_valid(model, a.at) || !std::isfinite(a.radius)) return false;
     }
   }
   return true;

@@ -12,7 +12,7 @@ namespace {
 void let_go(StepContext& c, BodyId body) noexcept {
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     interactions::ToolState& tool = c.state.tools[t];
-    if (tool.holds == 0 || tool.hold[0].body != body) continue;
+    if (tool.holds == 0 || tool.hold[0].at.body != body) continue;
     tool.holds = 0;
     for (double& p : tool.pull) p = 0;
     emit_event(c, Event::of_hand(Event::released, int(t)));

@@ -18,7 +18,7 @@ ElectrodeHand& electrode_of(StepContext& c, size_t t) noexcept {
 }
 
 void begin_adhesion(StepContext& c, size_t t, const interactions::ElectrodeTouch& touch, ElectrodeHand& hand) noexcept {
-  if (hand.stuck.body.exists() || hand.current.stuck < kGlues) return;
+  if (hand.stuck.at.body.exists() || hand.current.stuck < kGlues) return;
   hand.stuck = interactions::stuck_at(c.work.shapes[t], bodies_of(c), touch.point);
 }
 
@@ -28,10 +28,10 @@ void apply_adhesion(StepContext& c) noexcept {
   const interactions::Bodies bodies = bodies_of(c);
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     ElectrodeHand& hand = electrode_of(c, t);
-    if (!hand.stuck.body.exists()) continue;
+    if (!hand.stuck.at.body.exists()) continue;
     const interactions::ToolShape& shape = c.work.shapes[t];
     const double bears = c.model.tool(c.state, t).electrode.current.stick_force * hand.current.stuck;
-    if (interactions::is_whole(bodies, hand.stuck) && interactions::stuck_pull(shape, bodies, hand.stuck) <= bears) {
+    if (interactions::is_whole(bodies, hand.stuck.at) && interactions::stuck_pull(shape, bodies, hand.stuck) <= bears) {
       interactions::stuck_load(shape, int(t), bodies, hand.stuck);
       continue;
     }

@@ -1,5 +1,5 @@
 // Bodies as heat sees them: which cells of a body's frame are tissue. Bodies have the numbers that holds give them
-// (interactions::Hold::body), frames are those of interactions/verbs/electrode_contact.hpp.
+// (core/body_id.hpp), frames are those of interactions/verbs/electrode_contact.hpp.
 //   organs   what lies within the drawn skin, uncut: cells that a cut has bared are still tissue to heat
 //   folds    what lies within half their thickness of their triangles in the drawn shape, at least 0.87 of a cell, so
 //            that cells are connected by their faces: folds thinner than 1.7 cells are computed that thick

@@ -67,7 +67,7 @@ void work_in_fat(StepContext& c, size_t t, const FatTouch& fat, const tissue::Fo
   const tissue::Discharge d = tissue::energise_apart(c.model.tool(c.state, t).electrode.current, c.state.panel, pedals,
                                                      {}, met, energy.heat, c.state.heat, hand.current);
   c.work.current_flows = c.work.current_flows || d.flows;
-  hand.body = BodyId(BodyKind::fat, size_t(fat.body));
+  hand.body = fat.at.body;
   hand.at = fat.place;
   if (!d.flows) return;
   const double dt = double(energy.heat.period) * kTick;

@@ -55,7 +55,7 @@ class Dropped final : public EventDetector {
     bool held = false;
     for (size_t t = 0; t < hands(snapshot.model); ++t) {
       const interactions::ToolState& tool = snapshot.state.tools[t];
-      if (tool.holds == 0 || tool.hold[0].body != f.body) continue;
+      if (tool.holds == 0 || tool.hold[0].at.body != f.body) continue;
       held = true;
       f.hand = int(t);
     }

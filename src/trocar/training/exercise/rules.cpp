@@ -26,7 +26,7 @@ void Rules::tick(const Snapshot& snapshot, const sim::StepReport& report) {
 void Rules::sample(const Snapshot& snapshot, double dt) {
   m_facts.sample(snapshot, dt);
   for (size_t h = 0; h < hands(snapshot.model) && m_guide.has_owners(); ++h)
-    if (snapshot.state.tools[h].holds > 0) m_guide.work_on(snapshot.state.tools[h].hold[0].body);
+    if (snapshot.state.tools[h].holds > 0) m_guide.work_on(snapshot.state.tools[h].hold[0].at.body);
   m_events.sample(snapshot, dt, [&](int event, const EventInstance& h) { happened(event, h, snapshot); });
   watch_errors(snapshot, dt);
   watch_steps(snapshot, dt);
@@ -36,7 +36,7 @@ void Rules::sample(const Snapshot& snapshot, double dt) {
 void Rules::note_holds(const Snapshot& snapshot) {
   if (!m_guide.has_owners()) return;
   for (size_t h = 0; h < hands(snapshot.model); ++h)
-    if (snapshot.state.tools[h].holds > 0) m_held_side[h] = m_guide.owner(snapshot.state.tools[h].hold[0].body);
+    if (snapshot.state.tools[h].holds > 0) m_held_side[h] = m_guide.owner(snapshot.state.tools[h].hold[0].at.body);
 }
 
 /// The element of what a hand holds, or has just held.

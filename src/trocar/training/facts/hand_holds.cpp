@@ -10,7 +10,7 @@ Value holds(const Snapshot& snapshot, const Arguments& a) {
   const interactions::ToolState& tool = snapshot.state.tools[size_t(a[0].index)];
   if (!a[1].given) return tool.holds > 0;
   return std::any_of(tool.hold, tool.hold + tool.holds, [&a](const interactions::Hold& h) {
-    return std::find(a[1].bodies.begin(), a[1].bodies.end(), h.body) != a[1].bodies.end();
+    return std::find(a[1].bodies.begin(), a[1].bodies.end(), h.at.body) != a[1].bodies.end();
   });
 }
 

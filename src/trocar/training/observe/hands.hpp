@@ -28,8 +28,8 @@ inline Vec3d place_of(const sim::Model& model, const sim::State& state, const si
 /// Arc length of the first held point of strand `strand` in this hand's jaws; -1 if they hold none of it.
 inline double held_arc(const sim::Model& model, const sim::State& state, size_t hand, int strand) {
   const interactions::ToolState& tool = state.tools[hand];
-  if (tool.holds == 0 || tool.hold[0].body != BodyId::maybe(BodyKind::strand, strand)) return -1;
-  return interactions::arc_at(model.strand_bodies[size_t(strand)], {tool.hold[0].element, double(tool.hold[0].weight)});
+  if (tool.holds == 0 || tool.hold[0].at.body != BodyId::maybe(BodyKind::strand, strand)) return -1;
+  return interactions::arc_at(model.strand_bodies[size_t(strand)], place_on_rod(tool.hold[0].at));
 }
 
 /// Chord over length of strand `strand` up to arc length `to`, or up to a cut before it.

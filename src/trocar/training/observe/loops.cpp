@@ -18,7 +18,7 @@ std::optional<LoopSeen> loop_on(const sim::Model& model, const sim::State& state
   std::optional<LoopSeen> nearest;
   const interactions::StrandBody& body = model.strand_bodies[size_t(strand)];
   sim::visit_loops(model, state, [&](const sim::LoopClosure& loop) {
-    if (loop.strand != strand) return;
+    if (loop.at.body != BodyId::strand(size_t(strand))) return;
     if (nearest && std::fabs(nearest->closure.s - s) < std::fabs(loop.s - s)) return;
     LoopSeen seen;
     seen.closure = loop;
@@ -26,7 +26,7 @@ std::optional<LoopSeen> loop_on(const sim::Model& model, const sim::State& state
     seen.tension = g.tension;
     seen.off = has_cut_tail(state, loop);
     seen.pull = g.stage == interactions::SlingState::left ? 0 : std::max(0.0, g.pulled);
-    seen.stump = interactions::free_end(body, state.strands[size_t(strand)], interactions::place_at(body, loop.s)).away;
+    seen.stump = interactions::free_end(body, state.strands[size_t(strand)], place_on_rod(loop.at)).away;
     nearest = seen;
   });
   return nearest;
@@ -35,7 +35,7 @@ std::optional<LoopSeen> loop_on(const sim::Model& model, const sim::State& state
 SecuredLoops secured_loops(const sim::Model& model, const sim::State& state, int strand) {
   SecuredLoops found;
   sim::visit_loops(model, state, [&](const sim::LoopClosure& loop) {
-    const bool counts = loop.strand == strand && has_cut_tail(state, loop);
+    const bool counts = loop.at.body == BodyId::strand(size_t(strand)) && has_cut_tail(state, loop);
     if (!counts || loop.cover < LoopSeen::kCloses || found.count == sim::kMostLoops) return;
     found.at[size_t(found.count++)] = loop.s;
   });

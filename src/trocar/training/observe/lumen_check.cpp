@@ -47,7 +47,7 @@ void LumenCheck::update(const sim::Model& model, const sim::State& state) {
     if (element >= 0) m_closures[size_t(m_closure_count++)] = {element, float(clip.cover)};
   }
   sim::visit_loops(model, state, [&](const sim::LoopClosure& loop) {
-    if (loop.strand != m_strand || size_t(m_closure_count) >= m_closures.size()) return;
+    if (loop.at.body != BodyId::strand(size_t(m_strand)) || size_t(m_closure_count) >= m_closures.size()) return;
     const int element = closed_at(model, state, loop.s);
     if (element >= 0) m_closures[size_t(m_closure_count++)] = {element, float(loop.cover)};
   });

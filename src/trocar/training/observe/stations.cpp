@@ -53,20 +53,26 @@ Stations::Stations(const sim::Model& model, std::span<const std::int32_t> marks,
   m_station = nearest_source(model.skin(discs.front()->body()), discs);
 }
 
-double Stations::held_at(const sim::State& state, size_t hand) const {
-  const interactions::ToolState& tool = state.tools[hand];
-  if (tool.holds == 0 || tool.hold[0].body != m_body) return -1;
-  double sum = 0;
-  for (int i = 0; i < tool.holds; ++i) sum += m_station[size_t(tool.hold[i].element)] + 1;
-  return m_spacing * sum / tool.holds;
+double Stations::of_held(const interactions::Bodies& bodies, const interactions::Hold& hold) const {
+  std::int32_t vertex = vertex_of(bodies, hold.at);
+  while (size_t(vertex) >= m_station.size()) vertex = tets_of(bodies, m_body).source[size_t(vertex)];  // made by a cut
+  return of_vertex(size_t(vertex));
 }
 
-std::optional<Stations::Span> Stations::held_span(const sim::State& state, size_t hand) const {
+double Stations::held_at(const sim::Model& model, const sim::State& state, size_t hand) const {
   const interactions::ToolState& tool = state.tools[hand];
-  if (tool.holds == 0 || tool.hold[0].body != m_body) return {};
+  if (tool.holds == 0 || tool.hold[0].at.body != m_body) return -1;
+  double sum = 0;
+  for (int i = 0; i < tool.holds; ++i) sum += of_held(bodies_of(model, state), tool.hold[i]);
+  return sum / tool.holds;
+}
+
+std::optional<Stations::Span> Stations::held_span(const sim::Model& model, const sim::State& state, size_t hand) const {
+  const interactions::ToolState& tool = state.tools[hand];
+  if (tool.holds == 0 || tool.hold[0].at.body != m_body) return {};
   Span span{1e9, -1e9};
   for (int i = 0; i < tool.holds; ++i) {
-    const double s = of_vertex(size_t(tool.hold[i].element));
+    const double s = of_held(bodies_of(model, state), tool.hold[i]);
     span = {std::min(span.from, s), std::max(span.to, s)};
   }
   return span;

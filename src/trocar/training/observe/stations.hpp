@@ -24,14 +24,17 @@ class Stations {
   /// How far along a vertex of its skin is [m].
   double of_vertex(size_t vertex) const { return m_spacing * (m_station[vertex] + 1); }
   /// How far along the hand's jaws hold it [m]; -1: they hold none of it.
-  double held_at(const sim::State& state, size_t hand) const;
+  double held_at(const sim::Model& model, const sim::State& state, size_t hand) const;
   /// The same as where what they hold begins and ends: far apart where they have taken two loops. Nothing: none of it.
   struct Span {
     double from = 0, to = 0;  ///< [m]
   };
-  std::optional<Span> held_span(const sim::State& state, size_t hand) const;
+  std::optional<Span> held_span(const sim::Model& model, const sim::State& state, size_t hand) const;
 
  private:
+  /// How far along is what jaws hold of it? [m]
+  double of_held(const interactions::Bodies& bodies, const interactions::Hold& hold) const;
+
   BodyId m_body;
   int m_count = 0;
   double m_spacing = 0;

@@ -70,8 +70,8 @@ double clip_to_hole(const interactions::SutureState& suture) {
 
 int held_of_suture(const sim::Model& model, const sim::State& state, std::size_t hand) {
   const interactions::ToolState& tool = state.tools[hand];
-  if (tool.holds == 0 || !tool.hold[0].body.is(BodyKind::suture)) return 0;
-  return interactions::on_needle(suture_of(model), tool.hold[0].element) ? 1 : 2;
+  if (tool.holds == 0 || !tool.hold[0].at.body.is(BodyKind::suture)) return 0;
+  return interactions::on_needle(suture_of(model), tool.hold[0].at.element) ? 1 : 2;
 }
 
 bool needle_in_picture(const sim::Model& model, const sim::State& state) {

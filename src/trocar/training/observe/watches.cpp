@@ -19,11 +19,11 @@ double pull_at_tissue(const sim::Model& model, const sim::State& state, std::siz
     const double(&pull)[3] = state.tools[h].pull;
     return Vec3d{pull[0], pull[1], pull[2]};
   };
-  const BodyId body = state.tools[hand].hold[0].body;
+  const BodyId body = state.tools[hand].hold[0].at.body;
   if (is_tissue(body)) return length(pull_of(hand));
   Vec3d left;
   for (std::size_t h = 0; h < hands(model); ++h)
-    if (state.tools[h].holds > 0 && state.tools[h].hold[0].body == body) left += pull_of(h);
+    if (state.tools[h].holds > 0 && state.tools[h].hold[0].at.body == body) left += pull_of(h);
   return 2 * dot(pull_of(hand), left) < dot(left, left) ? 0 : length(left);
 }
 
@@ -33,7 +33,7 @@ void PullWatch::update(const Handling& limits, const Tissues& tissues, const sim
                        Incidents& out) {
   for (size_t h = 0; h < hands(model); ++h) {
     const interactions::ToolState& tool = state.tools[h];
-    const bool delicate = tool.holds > 0 && has(tissues.delicate, tool.hold[0].body);
+    const bool delicate = tool.holds > 0 && has(tissues.delicate, tool.hold[0].at.body);
     const double limit = delicate ? limits.pull_limit : limits.pull_limit_other;
     const double before = m_over_for[h];
     m_over_for[h] = tool.holds > 0 && pull_at_tissue(model, state, h) > limit ? before + sim::kTick : 0;
@@ -63,7 +63,7 @@ void PinchWatch::update(const Handling& limits, const Tissues& tissues, const si
                         const sim::State& state, Incidents& out) {
   for (size_t h = 0; h < hands(model); ++h) {
     const interactions::ToolState& tool = state.tools[h];
-    if (tool.holds == 0 || !has(tissues.bowel, tool.hold[0].body)) {
+    if (tool.holds == 0 || !has(tissues.bowel, tool.hold[0].at.body)) {
       m_impulse[h] = 0;
       m_told[h] = false;
       continue;

@@ -79,7 +79,7 @@ class PutInBag final : public Skill {
 
   void start(Surgeon& op, int) override {
     const interactions::ToolState& tool = op.tool_state(m_hand);
-    m_body = tool.holds > 0 ? tool.hold[0].body : BodyId{};
+    m_body = tool.holds > 0 ? tool.hold[0].at.body : BodyId{};
   }
   Progress work(Surgeon& op) override {
     const Vec3d up = bag_state(op).frame.up, mouth = mouth_of(op), over = mouth + m_above * up;

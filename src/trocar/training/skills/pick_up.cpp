@@ -51,7 +51,7 @@ class PickUp final : public Skill {
     } else if (m_phase == kClose) {
       if (!op.arms().grip(m_hand, 1, 0.8) || m_in_phase < kFeels) return Progress::working;
       const interactions::ToolState& tool = op.tool_state(m_hand);
-      if (tool.holds == 0 || tool.hold[0].body != m_body) return fail("the jaws did not grasp it");
+      if (tool.holds == 0 || tool.hold[0].at.body != m_body) return fail("the jaws did not grasp it");
       m_from = arm.tip;
       go(kLift);
     } else if (op.arms().move(m_hand, m_from - m_lift * along, pace::kCareful)) {

@@ -15,7 +15,7 @@ std::uint8_t burn_of(const tissue::HeatReading& reading);
 
 class HeatMarks {
  public:
-  /// @param body    as holds name it (interactions::Hold::body)
+  /// @param body    as holds name it (core/body_id.hpp)
   /// @param places  of the vertices in that body's frame of heat [m], a little inside the tissue
   HeatMarks(const sim::Model& model, BodyId body, std::vector<Vec3d> places = {});
 

@@ -20,7 +20,7 @@ constexpr double kPinchBulge = 0.2, kGathers = 0.1, kPinchSpreads = 0.42, kStump
 
 bool holds(const interactions::ToolState& tool, BodyId body) {
   const int n = std::min(tool.holds, interactions::kMaxHolds);
-  return std::any_of(tool.hold, tool.hold + std::max(0, n), [body](const auto& h) { return h.body == body; });
+  return std::any_of(tool.hold, tool.hold + std::max(0, n), [body](const auto& h) { return h.at.body == body; });
 }
 
 sim::ClipSeat seat_of(const Clip& clip, const sim::Model& model, const sim::State& state) {
@@ -82,9 +82,9 @@ std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::
 std::vector<LoopPress> loops_on(int strand, const sim::Model& model, const sim::State& state) {
   std::vector<LoopPress> presses;
   sim::visit_loops(model, state, [&](const sim::LoopClosure& loop) {
-    if (loop.strand != strand) return;
+    if (loop.at.body != BodyId::strand(std::size_t(strand))) return;
     const interactions::StrandBody& body = model.strand_bodies[std::size_t(strand)];
-    const interactions::StrandPlace place = place_at(body, loop.s);
+    const interactions::StrandPlace place = place_on_rod(loop.at);
     LoopPress press;
     press.radius = body.model.radius[std::size_t(place.element)];
     if (!(loop.radius < press.radius)) return;

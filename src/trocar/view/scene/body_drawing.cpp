@@ -347,7 +347,7 @@ void BodyDrawing::update(const sim::State& state) {
   for (std::size_t h = 0; h < m_model->hands.size(); ++h) {
     const interactions::ToolState& tool = state.tools[h];
     const interactions::ToolShape shape = sim::shape_of(*m_model, state, h);
-    for (std::int32_t k = 0; k < tool.holds; ++k) m_in_jaws.push_back(tool.hold[k].body);
+    for (std::int32_t k = 0; k < tool.holds; ++k) m_in_jaws.push_back(tool.hold[k].at.body);
     for (int part = 0; tool.holds == 0 && part < end_of(shape); part = interactions::next(part))
       rods.push_back(shape.rod(part));
   }

@@ -23,7 +23,7 @@ class Run : public Observer {
   void sample(const Snapshot& snapshot, double) override {
     std::array<double, sim::kMaxTools> before = m_held;
     for (size_t h = 0; h < m_hands; ++h) {
-      m_held[h] = m_stations.held_at(snapshot.state, h);
+      m_held[h] = m_stations.held_at(snapshot.model, snapshot.state, h);
       m_grasps += m_held[h] >= 0 && before[h] < 0;
     }
     if (!m_on) return begin();
@@ -100,7 +100,7 @@ class HeldAlong final : public Observer {
   HeldAlong(const sim::Model& model, const Arguments& a)
       : m_hand(size_t(a[0].index)), m_stations(model, a[1].marks, a[2].number()) {}
   Value value(const Snapshot& snapshot) const override {
-    const double s = m_stations.held_at(snapshot.state, m_hand);
+    const double s = m_stations.held_at(snapshot.model, snapshot.state, m_hand);
     return s >= 0 ? Value(s) : kUnknown;
   }
 

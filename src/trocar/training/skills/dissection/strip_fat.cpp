@@ -152,7 +152,7 @@ class StripFat final : public Skill {
   bool takes_fat_alone(const Surgeon& op) const {
     const interactions::ToolState& tool = op.tool_state(m_hand);
     return tool.holds > 0 && std::all_of(tool.hold, tool.hold + tool.holds,
-                                         [&](const interactions::Hold& hold) { return hold.body == m_fat; });
+                                         [&](const interactions::Hold& hold) { return hold.at.body == m_fat; });
   }
   /// Off the tube and back towards the trocar, no harder than it shall.
   void draw(Surgeon& op) {

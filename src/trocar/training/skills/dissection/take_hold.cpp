@@ -44,7 +44,7 @@ class TakeHold final : public Skill {
     const interactions::ToolState& tool = op.tool_state(m_hand);
     if (m_wall < 0) return tool.holds > 0;
     return std::any_of(tool.hold, tool.hold + tool.holds,
-                       [&](const interactions::Hold& h) { return h.body == BodyId::membrane(size_t(m_wall)); });
+                       [&](const interactions::Hold& h) { return h.at.body == BodyId::membrane(size_t(m_wall)); });
   }
   Progress work(Surgeon& op) override {
     constexpr double kPressed = 0.8, kLongest = 4, kFeels = 1.2;  // [N] [s] [s]

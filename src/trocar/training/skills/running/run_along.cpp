@@ -65,8 +65,8 @@ class RunAlong final : public Skill {
   /// It continues from what is held: a run that was interrupted is taken up again.
   void start(Surgeon& op, int tries) override {
     m_offset = tries;
-    const double held0 = m_stations.held_at(op.state(), size_t(m_hands[0]));
-    const double held1 = m_stations.held_at(op.state(), size_t(m_hands[1]));
+    const double held0 = m_stations.held_at(op.model(), op.state(), size_t(m_hands[0]));
+    const double held1 = m_stations.held_at(op.model(), op.state(), size_t(m_hands[1]));
     if (held0 >= 0 || held1 >= 0) {
       m_taker = held0 > held1 ? 1 : 0;
       m_at = std::max(held0, held1);
@@ -272,7 +272,7 @@ class RunAlong final : public Skill {
     op.want(op.arm(hand).tip);
     op.from(0.06);
     if (!op.arms().grip(hand, 0.95, 0.6) || m_in_phase < kFeels) return Progress::working;
-    const std::optional<Stations::Span> held = m_stations.held_span(op.state(), size_t(hand));
+    const std::optional<Stations::Span> held = m_stations.held_span(op.model(), op.state(), size_t(hand));
     constexpr double kBeside = 0.035;   // [m] what is further from where it was wanted is of another loop
     constexpr double kOnwards = 0.015;  // [m] further along than the last hold, though not as far as meant: it will do
     constexpr int kAtLast = 2;
@@ -335,7 +335,7 @@ class RunAlong final : public Skill {
   }
   Progress show(Surgeon& op, int hand, int holder) {
     constexpr double kLongest = 2.2, kBack = 0.04;  // [s] at a mark; [m] what lies before is looked at again
-    const double held = m_stations.held_at(op.state(), size_t(hand));
+    const double held = m_stations.held_at(op.model(), op.state(), size_t(hand));
     if (held < 0) return again();
     const double from = std::max(0.0, m_at - kBack), to = held + 0.5 * m_spacing;
     if (m_in_phase > kLongest && m_target >= 0) {

@@ -96,7 +96,8 @@ class PutLoopOver final : public Skill {
       const bool there = op.arms().move(m_hand, here.mouth(port, g->fed), pace::kTravel);
       m_s = std::max(m_at, m_s - pace::kCareful * sim::kTick);
       if (there && m_s <= m_at)
-        return g->lies_around(m_strand) ? Progress::done : fail("the loop does not lie around it");
+        return g->lies_around(BodyId::strand(std::size_t(m_strand))) ? Progress::done
+                                                                     : fail("the loop does not lie around it");
     }
     return Progress::working;
   }
@@ -104,7 +105,9 @@ class PutLoopOver final : public Skill {
   /// Draws it to as much thread as it shall have when it comes down; then the hand only holds it.
   void narrow(Surgeon& op, const SlingState& g) const {
     constexpr double kDrawn = 0.2, kHeld = 0.06, kWithin = 0.02;  // of the handle; [m] of the end: still being put over
-    if (m_thread >= loop_of(op, m_hand) || !g.lies_around(m_strand) || m_s > m_end - kWithin) return;
+    if (m_thread >= loop_of(op, m_hand) || !g.lies_around(BodyId::strand(std::size_t(m_strand))) ||
+        m_s > m_end - kWithin)
+      return;
     op.arms().grip(m_hand, g.fed > m_thread ? kDrawn : kHeld, 1.5);
   }
 
@@ -134,15 +137,15 @@ class CloseLoop final : public Skill {
     constexpr double kGain = 2, kMost = 0.004;  // [1/s] [m]
     for (std::int32_t i = 0; i < g.around_count; ++i) {
       const interactions::SlingAround& a = g.around[std::size_t(i)];
-      if (a.strand != m_strand) continue;
-      const double lies = interactions::arc_at(op.model().strand_bodies[std::size_t(m_strand)], {a.element, a.w});
+      if (a.at.body != BodyId::strand(std::size_t(m_strand))) continue;
+      const double lies = arc_of(op.model(), a.at);
       m_shift = std::clamp(m_shift + kGain * (m_at - lies) * sim::kTick, -kMost, kMost);
     }
   }
   Progress work(Surgeon& op) override {
     const SlingState* g = sling_in(op, m_hand);
     if (!g) return fail("there is no loop in the tube");
-    if (!g->lies_around(m_strand)) return fail("the loop does not lie around it");
+    if (!g->lies_around(BodyId::strand(std::size_t(m_strand)))) return fail("the loop does not lie around it");
     if (g->fed > Around::kTouches)
       m_around.look(op, m_strand, m_at);
     else if (m_leads)
