@@ -60,17 +60,19 @@ void blend(const sim::Model& model, const sim::State& a, const sim::State& b, do
   out = a;
   if (!(f > 0)) return;
   out.tick = a.tick + std::uint64_t(f * double(b.tick - a.tick));
-  sim::visit_solids(model, [&](auto r) {
-    blend_network(model_of(model, r).network, a.solids[r.index], b.solids[r.index], f, out.solids[r.index]);
-  });
-  for (std::size_t i = 0; i < model.cuttables.size(); ++i)
-    blend_body(model.cuttables[i].body, a.cuttables[i], b.cuttables[i], f, out.cuttables[i]);
-  for (std::size_t i = 0; i < out.strands.size(); ++i)
-    for (std::size_t n = 0; n < out.strands[i].x.size(); ++n)
-      out.strands[i].x[n] += f * (b.strands[i].x[n] - a.strands[i].x[n]);
-  for (std::size_t i = 0; i < model.membranes.size(); ++i)
-    blend_network(model.membranes[i].sheet.network, a.membranes[i].network, b.membranes[i].network, f,
-                  out.membranes[i].network);
+  const auto mix = [&](auto r) {
+    blend_network(network_of(model, r), network_state_of(a, r), network_state_of(b, r), f, network_state_of(out, r));
+  };
+  sim::visit_bodies(model, sim::Overloaded{[&](sim::SolidRef r) { mix(r); }, [&](sim::MembraneRef r) { mix(r); },
+                                           [&](sim::CuttableRef r) {
+                                             blend_body(model_of(model, r).body, state_of(a, r), state_of(b, r), f,
+                                                        state_of(out, r));
+                                           },
+                                           [&](sim::StrandRef r) {
+                                             std::vector<Vec3d>& x = state_of(out, r).x;
+                                             for (std::size_t n = 0; n < x.size(); ++n)
+                                               x[n] += f * (state_of(b, r).x[n] - x[n]);
+                                           }});
   interactions::ObjectKinds::for_each([&](auto kind) {
     using K = decltype(kind);
     kind.blend(interactions::part_of<K>(a), interactions::part_of<K>(b), f, interactions::part_of<K>(out));

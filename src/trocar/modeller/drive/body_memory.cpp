@@ -28,18 +28,12 @@ class Counting {
   void add(const std::string& name, const Parts&... parts) {
     m_bytes[name] += (core::memory_of(parts) + ...);
   }
-  void count(sim::SolidRef r) {
-    add(sim::model_of(m_model, r).name, sim::model_of(m_model, r), m_state.solids[r.index]);
-  }
-  void count(sim::CuttableRef r) {
-    add(sim::model_of(m_model, r).name, sim::model_of(m_model, r), m_state.cuttables[r.index]);
+  template <class Ref>
+  void count(Ref r) {
+    add(model_of(m_model, r).name, model_of(m_model, r), state_of(m_state, r));
   }
   void count(sim::StrandRef r) {
-    add(sim::model_of(m_model, r).name, sim::model_of(m_model, r), m_model.strand_bodies[r.index],
-        m_state.strands[r.index]);
-  }
-  void count(sim::MembraneRef r) {
-    add(sim::model_of(m_model, r).name, sim::model_of(m_model, r), m_state.membranes[r.index]);
+    add(model_of(m_model, r).name, model_of(m_model, r), rod_of(m_model, r), state_of(m_state, r));
   }
 
   const sim::Model& m_model;

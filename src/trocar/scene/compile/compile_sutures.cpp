@@ -6,7 +6,7 @@
 #include <trocar/core/text.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile_hands.hpp>
-#include <trocar/sim/model/model.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/suture/thread/paths.hpp>
 
 namespace trocar::scene {
@@ -122,10 +122,10 @@ void compile_sutures(const Description& d, sim::Model& model, std::vector<core::
   std::vector<const tissue::Skin*> walls;
   for (const sim::WallModel& w : model.walls) walls.push_back(&w.skin);
   all.walls = interactions::make_wall_grid(walls, kWallReach);
-  for (const sim::SolidModel& b : model.solids) all.organs.push_back(stitch_of(d, b.tissue));
-  for (const sim::CuttableOrgan& b : model.cuttables) all.organs.push_back(stitch_of(d, b.tissue));
-  for (const sim::StrandAnatomy& b : model.strands) all.strands.push_back(stitch_of(d, b.tissue));
-  for (const sim::MembraneBody& b : model.membranes) all.membranes.push_back(stitch_of(d, b.tissue));
+  const auto stitch = [&](auto r) { return stitch_of(d, model_of(model, r).tissue); };
+  visit_organs(model, [&](auto r) { all.organs.push_back(stitch(r)); });
+  visit_strands(model, [&](auto r) { all.strands.push_back(stitch(r)); });
+  visit_membranes(model, [&](auto r) { all.membranes.push_back(stitch(r)); });
 }
 
 }  // namespace trocar::scene

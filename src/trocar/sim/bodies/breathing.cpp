@@ -57,8 +57,8 @@ Carried carried(const StepContext& c, MembraneRef membrane) noexcept {
 void carry_held_nodes(StepContext& c, SolidRef solid) noexcept {
   const Carried to = carried(c, solid);
   if (!to.moves) return;
-  const tissue::NetworkModel& m = c.model.solids[solid.index].network;
-  tissue::NetworkState& s = c.state.solids[solid.index];
+  const tissue::NetworkModel& m = network_of(c.model, solid);
+  tissue::NetworkState& s = state_of(c.state, solid);
   for (const std::int32_t i : c.model.motion.breathing.held[solid.index])
     set_velocity(m, s, i, (m.rest[std::size_t(i)] + to.x - position(m, s, i)) / kTick);
 }
@@ -66,8 +66,8 @@ void carry_held_nodes(StepContext& c, SolidRef solid) noexcept {
 void carry_held_nodes(StepContext& c, CuttableRef organ) noexcept {
   const Carried to = carried(c, organ);
   if (!to.moves) return;
-  const tissue::CuttableModel& m = c.model.cuttables[organ.index].body;
-  tissue::CuttableState& s = c.state.cuttables[organ.index];
+  const tissue::CuttableModel& m = model_of(c.model, organ).body;
+  tissue::CuttableState& s = state_of(c.state, organ);
   for_held(m, s, [&](std::int32_t i) {
     // One that a blade has drawn to itself is no longer at a drawn place: it goes along from where it is.
     const Vec3d way = as_drawn(m, s, i) ? s.tets.rest[std::size_t(i)] + to.x - position(m, s, i) : kTick * to.v;
@@ -78,16 +78,16 @@ void carry_held_nodes(StepContext& c, CuttableRef organ) noexcept {
 void settle_held_nodes(StepContext& c, SolidRef solid) noexcept {
   const Carried to = carried(c, solid);
   if (!to.moves) return;
-  const tissue::NetworkModel& m = c.model.solids[solid.index].network;
+  const tissue::NetworkModel& m = network_of(c.model, solid);
   for (const std::int32_t i : c.model.motion.breathing.held[solid.index])
-    set_position(m, c.state.solids[solid.index], i, m.rest[std::size_t(i)] + to.x);
+    set_position(m, state_of(c.state, solid), i, m.rest[std::size_t(i)] + to.x);
 }
 
 void settle_held_nodes(StepContext& c, CuttableRef organ) noexcept {
   const Carried to = carried(c, organ);
   if (!to.moves) return;
-  const tissue::CuttableModel& m = c.model.cuttables[organ.index].body;
-  tissue::CuttableState& s = c.state.cuttables[organ.index];
+  const tissue::CuttableModel& m = model_of(c.model, organ).body;
+  tissue::CuttableState& s = state_of(c.state, organ);
   for_held(m, s, [&](std::int32_t i) {
     if (as_drawn(m, s, i)) set_position(m, s, i, s.tets.rest[std::size_t(i)] + to.x);
   });

@@ -27,7 +27,7 @@ int parted_next_to(const std::vector<std::uint8_t>& alive, bool at_start) noexce
 
 /// Where along it the element was parted: where the blades were, else its middle [m].
 double parted_at(const StepContext& c, int strand, int element) noexcept {
-  const interactions::StrandBody& body = c.model.strand_bodies[size_t(strand)];
+  const interactions::StrandBody& body = rod_of(c.model, StrandRef{size_t(strand)});
   for (int i = 0; i < c.state.cut_count; ++i) {
     const interactions::Cut& cut = c.state.cuts[size_t(i)];
     if (cut.strand == strand && interactions::place_at(body, cut.s).element == element) return cut.s;
@@ -82,16 +82,17 @@ void fall_out(const tissue::Leak& hole, Vec3d place, interactions::RigidState& s
 tissue::Leak leak_by_duct(const StepContext& c, MembraneRef r) noexcept {
   const MembraneBody& m = model_of(c.model, r);
   if (m.duct < 0) return {};
-  const interactions::StrandBody& body = c.model.strand_bodies[size_t(m.duct)];
-  const tissue::StrandState& duct = c.state.strands[size_t(m.duct)];
-  const int element = parted_next_to(duct.alive, m.duct_at_start);
+  const StrandRef duct{size_t(m.duct)};
+  const interactions::StrandBody& body = rod_of(c.model, duct);
+  const tissue::StrandState& tube = state_of(c.state, duct);
+  const int element = parted_next_to(tube.alive, m.duct_at_start);
   if (element < 0 || body.model.lumen.empty()) return {};
   const double open = open_share(c, m.duct, m.duct_at_start, parted_at(c, m.duct, element));
   const double radius = body.model.lumen[size_t(element)];
   const int end = m.duct_at_start ? element : element + 1, before = m.duct_at_start ? end - 1 : end + 1;
-  const Vec3d place = duct.x[size_t(end)];
+  const Vec3d place = tube.x[size_t(end)];
   const bool stump = before >= 0 && before < body.nodes();
-  const Vec3d direction = normalised(stump ? place - duct.x[size_t(before)] : Vec3d{}, {0, 0, 1});
+  const Vec3d direction = normalised(stump ? place - tube.x[size_t(before)] : Vec3d{}, {0, 0, 1});
   return tissue::leak_through(m.sheet, open * portable::pi * radius * radius, place, direction,
                               c.work.membranes[r.index].body, c.state.membranes[r.index]);
 }

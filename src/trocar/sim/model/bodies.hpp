@@ -49,6 +49,21 @@ inline const SolidModel& model_of(const Model& m, SolidRef r) noexcept { return 
 inline const CuttableOrgan& model_of(const Model& m, CuttableRef r) noexcept { return m.cuttables[r.index]; }
 inline const StrandAnatomy& model_of(const Model& m, StrandRef r) noexcept { return m.strands[r.index]; }
 inline const MembraneBody& model_of(const Model& m, MembraneRef r) noexcept { return m.membranes[r.index]; }
+inline const interactions::StrandBody& rod_of(const Model& m, StrandRef r) noexcept { return m.strand_bodies[r.index]; }
+
+/// What of the State is that body's, const or not.
+auto& state_of(auto& s, SolidRef r) noexcept { return s.solids[r.index]; }
+auto& state_of(auto& s, CuttableRef r) noexcept { return s.cuttables[r.index]; }
+auto& state_of(auto& s, StrandRef r) noexcept { return s.strands[r.index]; }
+auto& state_of(auto& s, MembraneRef r) noexcept { return s.membranes[r.index]; }
+
+/// Of bodies that are a network: its model and its state.
+inline const tissue::NetworkModel& network_of(const Model& m, SolidRef r) noexcept { return model_of(m, r).network; }
+inline const tissue::NetworkModel& network_of(const Model& m, MembraneRef r) noexcept {
+  return model_of(m, r).sheet.network;
+}
+auto& network_state_of(auto& s, SolidRef r) noexcept { return state_of(s, r); }
+auto& network_state_of(auto& s, MembraneRef r) noexcept { return state_of(s, r).network; }
 
 /// f(SolidRef) or f(CuttableRef) of the organ with that number.
 template <class F>

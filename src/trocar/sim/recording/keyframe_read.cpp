@@ -108,23 +108,19 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   State s = state;
   Source in{bytes};
   in.take(&s.tick, 1);
-  visit_solids(model, [&](SolidRef r) {
-    const tissue::NetworkModel& network = model_of(model, r).network;
+  const auto take_network = [&](auto r) {
+    const tissue::NetworkModel& network = network_of(model, r);
     for (int n = 0; in.good && n < network.nodes; ++n)
-      tissue::set_position(network, s.solids[r.index], n, in.take_place(network.rest[size_t(n)]));
-  });
-  for (size_t i = 0; i < s.cuttables.size(); ++i) take_body(in, model.cuttables[i].body, s.cuttables[i]);
-  for (size_t i = 0; i < s.strands.size(); ++i) {
-    tissue::StrandState& strand = s.strands[i];
-    for (size_t n = 0; in.good && n < strand.x.size(); ++n)
-      strand.x[n] = in.take_place(model.strand_bodies[i].model.rest[n]);
-    in.take(strand.alive.data(), strand.alive.size());
-  }
-  for (size_t i = 0; i < s.membranes.size(); ++i) {
-    const tissue::NetworkModel& network = model.membranes[i].sheet.network;
-    for (int n = 0; in.good && n < network.nodes; ++n)
-      tissue::set_position(network, s.membranes[i].network, n, in.take_place(network.rest[size_t(n)]));
-  }
+      tissue::set_position(network, network_state_of(s, r), n, in.take_place(network.rest[size_t(n)]));
+  };
+  visit_bodies(model, Overloaded{[&](SolidRef r) { take_network(r); }, [&](MembraneRef r) { take_network(r); },
+                                 [&](CuttableRef r) { take_body(in, model_of(model, r).body, state_of(s, r)); },
+                                 [&](StrandRef r) {
+                                   tissue::StrandState& rod = state_of(s, r);
+                                   for (size_t n = 0; in.good && n < rod.x.size(); ++n)
+                                     rod.x[n] = in.take_place(rod_of(model, r).model.rest[n]);
+                                   in.take(rod.alive.data(), rod.alive.size());
+                                 }});
   in.take(&s.tools, 1);
   in.take(&s.scope, 1);
   visit_record_buffers(model, s, [&in](auto, auto buffer) {

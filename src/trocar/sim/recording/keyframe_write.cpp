@@ -61,22 +61,19 @@ void put_injection(std::vector<std::uint8_t>& out, const InjectionState& s) {
 std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
   std::vector<std::uint8_t> out;
   put(out, &s.tick, 1);
-  visit_solids(model, [&](SolidRef r) {
-    const tissue::NetworkModel& network = model_of(model, r).network;
+  const auto put_network = [&](auto r) {
+    const tissue::NetworkModel& network = network_of(model, r);
     for (int n = 0; n < network.nodes; ++n)
-      put_place(out, tissue::position(network, s.solids[r.index], n), network.rest[size_t(n)]);
-  });
-  for (size_t i = 0; i < s.cuttables.size(); ++i) put_body(out, model.cuttables[i].body, s.cuttables[i]);
-  for (size_t i = 0; i < s.strands.size(); ++i) {
-    const tissue::StrandState& strand = s.strands[i];
-    for (size_t n = 0; n < strand.x.size(); ++n) put_place(out, strand.x[n], model.strand_bodies[i].model.rest[n]);
-    put(out, strand.alive.data(), strand.alive.size());
-  }
-  for (size_t i = 0; i < s.membranes.size(); ++i) {
-    const tissue::NetworkModel& network = model.membranes[i].sheet.network;
-    for (int n = 0; n < network.nodes; ++n)
-      put_place(out, tissue::position(network, s.membranes[i].network, n), network.rest[size_t(n)]);
-  }
+      put_place(out, tissue::position(network, network_state_of(s, r), n), network.rest[size_t(n)]);
+  };
+  visit_bodies(model, Overloaded{[&](SolidRef r) { put_network(r); }, [&](MembraneRef r) { put_network(r); },
+                                 [&](CuttableRef r) { put_body(out, model_of(model, r).body, state_of(s, r)); },
+                                 [&](StrandRef r) {
+                                   const tissue::StrandState& rod = state_of(s, r);
+                                   for (size_t n = 0; n < rod.x.size(); ++n)
+                                     put_place(out, rod.x[n], rod_of(model, r).model.rest[n]);
+                                   put(out, rod.alive.data(), rod.alive.size());
+                                 }});
   put(out, &s.tools, 1);
   put(out, &s.scope, 1);
   visit_record_buffers(model, s, [&out](auto, auto buffer) {

@@ -15,12 +15,14 @@ void add(const tissue::Skin& skin, tissue::Box& box) {
 
 tissue::Box cavity_around(const Model& model) {
   tissue::Box box;
-  for (const SolidModel& s : model.solids)
-    for (Vec3d p : s.network.rest) box.add(vec_cast<float>(p));
-  for (int i = 0; i < model.organs(); ++i) add(model.skin(i), box);
-  for (const interactions::StrandBody& b : model.strand_bodies)
-    for (Vec3d p : b.model.rest) box.add(vec_cast<float>(p));
-  for (const MembraneBody& m : model.membranes) add(m.skin, box);
+  const auto add_all = [&box](std::span<const Vec3d> places) {
+    for (const Vec3d& p : places) box.add(vec_cast<float>(p));
+  };
+  visit_bodies(model,
+               Overloaded{[&](SolidRef r) { add_all(network_of(model, r).rest), add(model_of(model, r).skin, box); },
+                          [&](CuttableRef r) { add(model.skin(int(r.organ())), box); },
+                          [&](StrandRef r) { add_all(rod_of(model, r).model.rest); },
+                          [&](MembraneRef r) { add(model_of(model, r).skin, box); }});
   for (const WallModel& w : model.walls) add(w.skin, box);
   for (const HandModel& h : model.hands) box.add(vec_cast<float>(h.port));
   box.add(vec_cast<float>(model.scope.port));

@@ -124,7 +124,7 @@ void scar(StepContext& c, const ElectrodeTouch& touch, StrandRef r) noexcept {
   const Section section = section_of(c, strand, touch.point.element, touch.contact.a.x);
   const Change change =
       mean_change(c, strand, 5, [&](int i) { return i == 0 ? section.middle : section.around[size_t(i - 1)]; });
-  tissue::StrandState& s = c.state.strands[r.index];
+  tissue::StrandState& s = state_of(c.state, r);
   double &share = s.shrunk[size_t(touch.point.element)], &scale = s.scale[size_t(touch.point.element)];
   share = std::min(share, double(change.share));
   if (scale >= 1) scale = std::max(scale, double(change.stiff));
@@ -167,13 +167,13 @@ void add_cell(const tissue::CuttableModel& m, const geometry::CuttableTets& tets
 }
 
 void add(StepContext& c, const Scar& scar, SolidRef r) noexcept {
-  add_spring(model_of(c.model, r).network, c.state.solids[r.index], scar, springs_of(c, r));
+  add_spring(network_of(c.model, r), state_of(c.state, r), scar, springs_of(c, r));
 }
 void add(StepContext& c, const Scar& scar, CuttableRef r) noexcept {
-  add_cell(model_of(c.model, r).body, c.state.cuttables[r.index].tets, scar, springs_of(c, r));
+  add_cell(model_of(c.model, r).body, state_of(c.state, r).tets, scar, springs_of(c, r));
 }
 void add(StepContext& c, const Scar& scar, MembraneRef r) noexcept {
-  add_spring(model_of(c.model, r).sheet.network, c.state.membranes[r.index].network, scar, springs_of(c, r));
+  add_spring(network_of(c.model, r), network_state_of(c.state, r), scar, springs_of(c, r));
 }
 void add(StepContext&, const Scar&, StrandRef) noexcept {}  // those have changed themselves
 

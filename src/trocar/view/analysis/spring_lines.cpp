@@ -63,13 +63,14 @@ SpringLines::SpringLines(const sim::Model& model)
       m_edges_of(model.cuttables.size(), ~std::uint64_t(0)) {}
 
 void SpringLines::update(const sim::State& state, const AnalysisOptions& o, render::Backend& backend) {
-  sim::visit_solids(*m_model, [&](auto r) {
-    Lines lines(o, m_organs[r.organ()]);
-    add_network(model_of(*m_model, r).network, state.solids[r.index], lines);
+  const auto show = [&](auto r, FalseColourMesh& of) {
+    Lines lines(o, of);
+    add_network(network_of(*m_model, r), network_state_of(state, r), lines);
     lines.show(backend);
-  });
+  };
+  sim::visit_solids(*m_model, [&](auto r) { show(r, m_organs[r.organ()]); });
   sim::visit_cuttables(*m_model, [&](auto r) {
-    const tissue::CuttableState& now = state.cuttables[r.index];
+    const tissue::CuttableState& now = state_of(state, r);
     if (m_edges_of[r.index] != now.version) m_edges[r.index] = edges_of(now.tets), m_edges_of[r.index] = now.version;
     Lines lines(o, m_organs[r.organ()]);
     const tissue::NodeView nodes = view_of(model_of(*m_model, r).body, now);
@@ -80,16 +81,12 @@ void SpringLines::update(const sim::State& state, const AnalysisOptions& o, rend
     }
     lines.show(backend);
   });
-  for (std::size_t i = 0; i < m_strands.size(); ++i) {
-    Lines lines(o, m_strands[i]);
-    add_strand(m_model->strand_bodies[i].model, state.strands[i], lines);
+  sim::visit_strands(*m_model, [&](auto r) {
+    Lines lines(o, m_strands[r.index]);
+    add_strand(rod_of(*m_model, r).model, state_of(state, r), lines);
     lines.show(backend);
-  }
-  for (std::size_t i = 0; i < m_membranes.size(); ++i) {
-    Lines lines(o, m_membranes[i]);
-    add_network(m_model->membranes[i].sheet.network, state.membranes[i].network, lines);
-    lines.show(backend);
-  }
+  });
+  sim::visit_membranes(*m_model, [&](auto r) { show(r, m_membranes[r.index]); });
 }
 
 }  // namespace trocar::view

@@ -68,7 +68,7 @@ void StrainSurfaces::update_organ(sim::SolidRef r, const sim::State& state, cons
   const sim::SolidModel& solid = model_of(*m_model, r);
   FalseColourMesh& mesh = m_organs[r.organ()];
   tissue::SkinPose pose = tissue::make_pose(solid.fine);
-  pose_skin(view_of(solid.network, state.solids[i]), solid.fine, pose);
+  pose_skin(view_of(solid.network, state_of(state, r)), solid.fine, pose);
   const bool changed = connect(solid.fine.triangles, state.parted[i], m_left_out[i], mesh.buffer);
   mesh.buffer.positions = std::move(pose.position);
   vertex_strains(solid.fine.rest, mesh.buffer.positions, solid.fine.triangles, mesh.value);
@@ -80,7 +80,7 @@ void StrainSurfaces::update_organ(sim::CuttableRef r, const sim::State& state, c
                                   render::Backend& backend) {
   const std::size_t i = r.index;
   const tissue::CuttableModel& body = model_of(*m_model, r).body;
-  const tissue::CuttableState& now = state.cuttables[i];
+  const tissue::CuttableState& now = state_of(state, r);
   FalseColourMesh& mesh = m_organs[r.organ()];
   const bool changed = m_skins[i].made_for != now.version || mesh.buffer.indices.empty();
   tissue::update(body, now, m_skins[i]);
