@@ -470,13 +470,13 @@ TEST(Energy, CharSticksToTheWireUntilItIsTornOff) {
   t.steps(3000);
   t.input.pedals = 0;
   const ElectrodeHand& hand = t.state.electrodes[kHook];
-  ASSERT_EQ(hand.stuck.body, kOrgan);
+  ASSERT_EQ(hand.stuck.at.body, kOrgan);
   const tissue::Skin& skin = model.solids[0].skin;
   const auto height = [&](int v) { return skin_point(nodes_of(model, t.state, 0), skin, v).z; };
-  const int vertex = hand.stuck.element;
+  const int vertex = hand.stuck.at.element;
   const double before = height(vertex);
   double highest = 0, hardest = 0;
-  for (int i = 0; i < 800 && hand.stuck.body.exists(); ++i) {
+  for (int i = 0; i < 800 && hand.stuck.at.body.exists(); ++i) {
     t.point(kHook, small::kOnOrgan + Vec3d{0, 0, 2e-5 * i});
     t.step();
     highest = std::max(highest, height(vertex) - before);
@@ -484,7 +484,7 @@ TEST(Energy, CharSticksToTheWireUntilItIsTornOff) {
   }
   std::printf("    stuck %.2f: tissue came %.2f mm along, %.2f N\n", hand.current.stuck, 1e3 * highest, hardest);
   EXPECT_GT(highest, 0.5e-3);
-  EXPECT_FALSE(hand.stuck.body.exists()) << "2 N tear it off";
+  EXPECT_FALSE(hand.stuck.at.body.exists()) << "2 N tear it off";
   EXPECT_EQ(hand.current.stuck, 0);
   EXPECT_LT(hardest, 2.5);
 }
