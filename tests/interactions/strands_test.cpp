@@ -19,6 +19,7 @@ struct Tubes {
   std::vector<std::int32_t> nearest;
   std::vector<Vec3f> side;
   StrandLoads lower_loads, upper_loads;
+  std::uint64_t ticks = 0;
   tissue::StrandWork lower_work = tissue::make_work(lower.body.model), upper_work = lower_work;
 
   Tubes() {
@@ -41,7 +42,8 @@ struct Tubes {
       load.f0 = {0, 0, press};
       upper_loads.add(load, {});
     }
-    strand_on_strand(pair, upper.body, upper.state, lower.body, lower.state, nearest, side, upper_loads, lower_loads);
+    strand_on_strand(pair, upper.body, upper.state, lower.body, lower.state, ticks++, nearest, side, upper_loads,
+                     lower_loads);
     EXPECT_TRUE(tissue::advance(lower.body.model, {}, lower_loads.list, {}, {}, lower.state, lower_work).fine());
     EXPECT_TRUE(tissue::advance(upper.body.model, {}, upper_loads.list, {}, {}, upper.state, upper_work).fine());
   }

@@ -482,7 +482,6 @@ TEST(Fields, EveryFieldOfAModelThatIsListedCountsInItsSeal) {
       Model model = *m;
       model.vessels.bleeder.vessel = 0;  // what no scene has is hashed as well where it is there
       model.wet.pool_at_start.saline = 1;
-      model.instruments_push = true;
       if (!model.hands.empty()) model.hands[0].give.stiffness = 1000;
       model.bonds.emplace_back().bonds.emplace_back();
       model.bonds.back().breaches = true;

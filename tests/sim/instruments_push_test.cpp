@@ -1,26 +1,18 @@
-// Instruments that push each other aside, in scenes that ask for it.
+// Instruments push each other aside, in every scene.
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include <trocar/collision/rods.hpp>
 
+#include "crossed_instruments.hpp"
+#include "shipped.hpp"
 #include "small_scene.hpp"
 
 namespace trocar::sim {
 namespace {
 
 constexpr int kLeft = 1, kRight = 2;
-
-const Model& model(bool push) {
-  const auto made = [](bool on) {
-    scene::Description d = small::description();
-    d.instruments_push = on;
-    return scene::compile(d);
-  };
-  static const Model with = made(true), without = made(false);
-  return push ? with : without;
-}
 
 double overlap(const Model& m, const State& s) {
   const auto shape = [&](size_t t) {
@@ -43,8 +35,8 @@ struct Met {
 };
 
 /// High above everything two shafts that cross each other, seen from the side, go against each other and press on.
-Met meet(bool push, double speed) {
-  const Model& m = model(push);
+Met meet(double speed) {
+  const Model& m = small::model();
   State s = initial_state(m);
   Work w = make_work(m);
   Input in = m.start;
@@ -69,9 +61,9 @@ Met meet(bool push, double speed) {
   return met;
 }
 
-TEST(InstrumentsPush, WhereTheSceneAsksForItNeitherGetsThroughTheOtherAndBothFeelTheSame) {
+TEST(InstrumentsPush, NeitherGetsThroughTheOtherAndBothFeelTheSame) {
   for (const double speed : {0.02, 0.2, 0.5}) {
-    const Met met = meet(true, speed);
+    const Met met = meet(speed);
     std::printf("    %.2f m/s: overlap %.3f mm, most %.1f N\n", speed, 1e3 * met.overlap, met.most);
     EXPECT_LT(met.overlap, 0.0003) << speed;
     EXPECT_LT(met.crossed, 0.006) << speed;
@@ -81,16 +73,37 @@ TEST(InstrumentsPush, WhereTheSceneAsksForItNeitherGetsThroughTheOtherAndBothFee
   }
 }
 
-TEST(InstrumentsPush, WhereItDoesNotTheyPassAndFeelNothing) {
-  const Met met = meet(false, 0.2);
-  EXPECT_GT(met.overlap, 0.001);
-  EXPECT_GT(met.crossed, 0.02);
-  EXPECT_EQ(met.most, 0);
-}
+class CrossedInstruments : public testing::TestWithParam<const char*> {};
 
-TEST(InstrumentsPush, ScenesThatDoNotAskKeepTheHashThatTheyHad) {
-  EXPECT_NE(model(true).hash, model(false).hash);
-  EXPECT_EQ(model(false).hash, small::model().hash);
+TEST_P(CrossedInstruments, OfAShippedSceneAreNeverDeeperThan1mmForLongerThan50ms) { expect_apart(shipped(GetParam())); }
+INSTANTIATE_TEST_SUITE_P(Scenes, CrossedInstruments,
+                         testing::Values("box_reach", "calot", "cholecystectomy_operation", "gynaecology", "bowel"),
+                         [](const auto& scene) { return std::string(scene.param); });
+
+// Where one is met next to its trocar and the other far from it, the near one hardly turns.
+TEST(InstrumentsPush, OneThatIsMetNextToItsTrocarIsNotThrownAside) {
+  const Model& m = small::model();
+  State s = initial_state(m);
+  Work w = make_work(m);
+  Input in = m.start;
+  const Vec3d near = m.hands[kRight].port + Vec3d{0, 0, -0.02};  // 2 cm along a shaft that points straight down
+  in.tools[kRight] = tool_input(kinematics::inverse(m.hands[kRight].port, near + Vec3d{0, 0, -0.10}, 0), 1);
+  double fastest = 0, deepest = -1;
+  Vec3d last = kinematics::forward(m.hands[kRight].port, s.tools[kRight].pose()).tip;
+  for (int t = 0; t < 1500; ++t) {
+    const double at = t < 700 ? 0.03 : std::max(-0.01, 0.03 - 0.0002 * (t - 700));
+    const Vec3d port = m.hands[kLeft].port;
+    const Vec3d over = near + Vec3d{at, 0, 0};
+    in.tools[kLeft] = tool_input(kinematics::inverse(port, over + 0.02 * normalised(over - port), 0), 1);
+    step(m, in, s, w);
+    const Vec3d tip = kinematics::forward(m.hands[kRight].port, s.tools[kRight].pose()).tip;
+    if (t > 700) fastest = std::max(fastest, length(tip - last));
+    deepest = std::max(deepest, overlap(m, s));
+    last = tip;
+  }
+  EXPECT_GT(deepest, -1e-4) << "they have not met";
+  EXPECT_LT(deepest, 0.001);
+  EXPECT_LT(fastest, 0.0012) << "[m] in a tick";
 }
 
 }  // namespace

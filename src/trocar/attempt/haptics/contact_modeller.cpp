@@ -157,8 +157,9 @@ void ContactModeller::hold(Vec3d wanted, Vec3d pull, LocalModel& out) noexcept {
   out.held_at = wanted + pull / out.held_stiffness;
 }
 
-/// Metal that is near, as far as there is room for planes: other instruments do not give way.
-void ContactModeller::meet_instruments(const sim::State& state, Vec3d wanted, LocalModel& out) const noexcept {
+/// Metal that is near, as far as there is room for planes.
+void ContactModeller::meet_instruments(const sim::State& state, LocalModel& out) const noexcept {
+  const Vec3d tip = sim::led_place(m_model, state, size_t(m_hand));
   const ToolShape own = shape_now(m_model, state, m_hand);
   const Vec3d port = sim::port_of(m_model, state, size_t(m_hand));
   const double depth = led_depth(m_model, state, m_hand, own);
@@ -176,7 +177,7 @@ void ContactModeller::meet_instruments(const sim::State& state, Vec3d wanted, Lo
     if (!(nearest.depth > -kNear)) continue;
     const double share = std::max(kLeastShare, dot(nearest.on_first - port, own.shaft.axis()) / std::max(depth, 1e-3));
     if (out.planes == 0) out.stiffness = kMetal;
-    out.plane[out.planes++] = {wanted + (nearest.depth / share) * -nearest.normal, -nearest.normal};
+    out.plane[out.planes++] = {tip + (nearest.depth / share) * -nearest.normal, -nearest.normal};
   }
 }
 
@@ -197,7 +198,7 @@ LocalModel ContactModeller::of(const sim::State& state, Vec3d wanted, double sea
   const TipForces forces = forces_at_tip(m_model, state, m_hand);
   touch(state, wanted, averaged(forces.contact), out);
   hold(wanted, forces.pull, out);
-  if (!m_model.instruments_push) meet_instruments(state, wanted, out);  // else their push is among the contacts
+  meet_instruments(state, out);
   return out;
 }
 

@@ -48,7 +48,7 @@ class ContactModeller {
  private:
   void touch(const sim::State& state, Vec3d wanted, Vec3d force, devices::LocalModel& out) noexcept;
   void hold(Vec3d wanted, Vec3d pull, devices::LocalModel& out) noexcept;
-  void meet_instruments(const sim::State& state, Vec3d wanted, devices::LocalModel& out) const noexcept;
+  void meet_instruments(const sim::State& state, devices::LocalModel& out) const noexcept;
 
   const sim::Model& m_model;
   int m_hand;

@@ -31,9 +31,8 @@ bool beside(const Surface& surface, Vec3d p, std::int32_t& vertex) noexcept {
 }
 
 /// Pushes surface vertex `v` along -n by the share of the depth that its body takes.
-void push_surface(const Surface& surface, int v, Vec3d n, double depth, NetworkLoads* loads) noexcept {
-  if (!loads) return;
-  push_skin(surface, v, -0.5 * std::min(depth, kQuickestApart) * n, n, kBodyStiffness, kBodyDamping, *loads);
+void push_surface(const Surface& surface, int v, Vec3d n, double depth, double speed, NetworkLoads* loads) noexcept {
+  if (loads) press_vertex(surface, v, -0.5 * std::min(depth, kQuickestApart), n, speed, *loads);
 }
 
 }  // namespace
@@ -51,18 +50,13 @@ void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const ti
     const double depth = double(pair.radius[i]) - c.distance - double(pair.overlap[i]);
     if (!touches(surface, nearest[i], p, depth) || surface.torn(nearest[i])) continue;
     const int e = std::min(node, body.nodes() - 2);
-    tissue::StrandLoad load;
-    load.element = e;
-    load.w = node == e ? 0.0 : 1.0;
-    load.k = kBodyStiffness;
-    load.dir = c.normal;
-    load.d = kBodyDamping;
-    load.x0 = p + share * std::min(depth, kQuickestApart) * c.normal;
-    strand_loads.add(load, {Owner::body, 0, 0});
-    push_surface(surface, nearest[i], c.normal, depth, surface_loads);
     const Vec3d ours = state.v[size_t(node)], theirs = surface.velocity(nearest[i]);
-    const BodyRub rub = body_rub(kBodyStiffness * share * std::min(depth, kQuickestApart), c.normal, ours, theirs);
-    rub_strand(e, load.w, rub, theirs, strand_loads);
+    const double w = node == e ? 0.0 : 1.0, speed = surface_loads ? 0.5 * dot(ours + theirs, c.normal) : 0.0;
+    strand_loads.add(press_strand(e, w, p + share * std::min(depth, kQuickestApart) * c.normal, c.normal, speed),
+                     {Owner::body, 0, 0});
+    push_surface(surface, nearest[i], c.normal, depth, speed, surface_loads);
+    const BodyRub rub = body_rub(kPressStiffness * share * std::min(depth, kQuickestApart), c.normal, ours, theirs);
+    rub_strand(e, w, rub, theirs, strand_loads);
     if (surface_loads) rub_skin(surface, nearest[i], rub, ours, *surface_loads);
   }
 }
@@ -81,11 +75,11 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
     const Clearance c = clearance_at(surface, nearest[i], p);
     const double depth = -c.distance - double(pair.overlap[i]);
     if (!touches(surface, nearest[i], p, depth) || surface.torn(nearest[i])) continue;
-    push_skin(samples, v, share * std::min(depth, kQuickestApart) * c.normal, c.normal, kBodyStiffness, kBodyDamping,
-              sample_loads);
-    push_surface(surface, nearest[i], c.normal, depth, surface_loads);
     const Vec3d ours = samples.velocity(v), theirs = surface.velocity(nearest[i]);
-    const BodyRub rub = body_rub(kBodyStiffness * share * std::min(depth, kQuickestApart), c.normal, ours, theirs);
+    const double speed = surface_loads ? 0.5 * dot(ours + theirs, c.normal) : 0.0;
+    press_vertex(samples, v, share * std::min(depth, kQuickestApart), c.normal, speed, sample_loads);
+    push_surface(surface, nearest[i], c.normal, depth, speed, surface_loads);
+    const BodyRub rub = body_rub(kPressStiffness * share * std::min(depth, kQuickestApart), c.normal, ours, theirs);
     rub_skin(samples, v, rub, theirs, sample_loads);
     if (surface_loads) rub_skin(surface, nearest[i], rub, ours, *surface_loads);
   }
@@ -122,6 +116,19 @@ int walk_along(const tissue::StrandState& a, int i, const tissue::StrandState& b
   return j;
 }
 
+/// The same of all elements of b.
+int nearest_along(const tissue::StrandState& a, int i, const tissue::StrandState& b, int last, double& best) noexcept {
+  int nearest = 0;
+  best = middle_distance(a, i, b, 0);
+  for (int j = 1; j <= last; ++j) {
+    const double d = middle_distance(a, i, b, j);
+    if (d >= best) continue;
+    best = d;
+    nearest = j;
+  }
+  return nearest;
+}
+
 /// Are two elements too far apart for anything to be remembered?
 /// @param apart2  square of twice the distance of their middles [m^2]
 bool out_of_reach(const StrandBody& a, const tissue::StrandState& a_state, int i, const StrandBody& b,
@@ -148,13 +155,17 @@ double share_of(const StrandBody& a, int i, const StrandBody& b, int j, Vec3d n)
 }  // namespace
 
 void strand_on_strand(const StrandPair& pair, const StrandBody& a, const tissue::StrandState& a_state,
-                      const StrandBody& b, const tissue::StrandState& b_state, std::span<std::int32_t> nearest,
-                      std::span<Vec3f> side, StrandLoads& a_loads, StrandLoads& b_loads) noexcept {
+                      const StrandBody& b, const tissue::StrandState& b_state, std::uint64_t tick,
+                      std::span<std::int32_t> nearest, std::span<Vec3f> side, StrandLoads& a_loads,
+                      StrandLoads& b_loads) noexcept {
+  constexpr std::uint64_t kTurnsApart = 4;  // in which all elements that are not near have looked
   const int last = b.nodes() - 2;
   for (int i = 0; i + 1 < a.nodes(); ++i) {
-    if (!a_state.alive[size_t(i)]) continue;
+    const bool near = side[size_t(i)] != Vec3f{0, 0, 0};
+    if (!a_state.alive[size_t(i)] || (!near && (tick + size_t(i)) % kTurnsApart != 0)) continue;
     double apart2 = 0;
-    const int j = walk_along(a_state, i, b_state, nearest[size_t(i)], last, apart2);
+    const int j = near ? walk_along(a_state, i, b_state, nearest[size_t(i)], last, apart2)
+                       : nearest_along(a_state, i, b_state, last, apart2);
     nearest[size_t(i)] = j;
     if (!b_state.alive[size_t(j)] || out_of_reach(a, a_state, i, b, b_state, j, apart2)) {
       side[size_t(i)] = {0, 0, 0};
@@ -169,20 +180,14 @@ void strand_on_strand(const StrandPair& pair, const StrandBody& a, const tissue:
       continue;
     }
     const double depth = std::min(deep, kQuickestApart);
-    tissue::StrandLoad on_a, on_b;
-    on_a.k = on_b.k = counts * kBodyStiffness;
-    on_a.d = on_b.d = counts * kBodyDamping;
-    on_a.dir = on_b.dir = c.normal;
-    on_a.element = i;
-    on_a.w = c.t;
-    on_a.x0 = c.on_second + 0.5 * depth * c.normal;
-    on_b.element = j;
-    on_b.w = c.s;
-    on_b.x0 = c.on_first - 0.5 * depth * c.normal;
-    a_loads.add(on_a, {Owner::body, 0, 0});
-    b_loads.add(on_b, {Owner::body, 0, 0});
     const Vec3d ours = (1 - c.t) * a_state.v[size_t(i)] + c.t * a_state.v[size_t(i) + 1];
     const Vec3d theirs = (1 - c.s) * b_state.v[size_t(j)] + c.s * b_state.v[size_t(j) + 1];
+    const double speed = 0.5 * dot(ours + theirs, c.normal);
+    tissue::StrandLoad on_a = press_strand(i, c.t, c.on_second + 0.5 * depth * c.normal, c.normal, speed);
+    tissue::StrandLoad on_b = press_strand(j, c.s, c.on_first - 0.5 * depth * c.normal, c.normal, speed);
+    for (tissue::StrandLoad* load : {&on_a, &on_b}) load->k *= counts, load->d *= counts, load->f0 = counts * load->f0;
+    a_loads.add(on_a, {Owner::body, 0, 0});
+    b_loads.add(on_b, {Owner::body, 0, 0});
     const BodyRub rub = body_rub(on_a.k * 0.5 * depth, c.normal, ours, theirs);
     rub_strand(i, c.t, rub, theirs, a_loads);
     rub_strand(j, c.s, rub, ours, b_loads);

@@ -52,10 +52,12 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
                       std::span<std::int32_t> nearest, NetworkLoads& sample_loads,
                       NetworkLoads* surface_loads) noexcept;
 
+/// @param tick    whose turn it is to look, of elements that are not near
 /// @param nearest (elements of a) State: element of b that was nearest last
 /// @param side    (elements of a) State: unit vector from b to a where they are near, so that they cannot cross
 void strand_on_strand(const StrandPair& pair, const StrandBody& a, const tissue::StrandState& a_state,
-                      const StrandBody& b, const tissue::StrandState& b_state, std::span<std::int32_t> nearest,
-                      std::span<Vec3f> side, StrandLoads& a_loads, StrandLoads& b_loads) noexcept;
+                      const StrandBody& b, const tissue::StrandState& b_state, std::uint64_t tick,
+                      std::span<std::int32_t> nearest, std::span<Vec3f> side, StrandLoads& a_loads,
+                      StrandLoads& b_loads) noexcept;
 
 }  // namespace trocar::interactions

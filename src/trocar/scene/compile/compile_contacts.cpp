@@ -1,17 +1,19 @@
 #include <algorithm>
 
 #include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/interactions/contact/body_push.hpp>
 #include <trocar/scene/compile/compile_contacts.hpp>
 #include <trocar/sim/model/bodies.hpp>
 
 namespace trocar::scene {
 namespace {
 
-constexpr double kReach = 0.045;    // [m] further apart than this in the drawn shape, two bodies are not tested
-constexpr double kRoot = 0.008;     // [m] of a strand next to its host that takes no part in contact with it
-constexpr int kSolidSamples = 160;  // skin vertices of an organ, about, that are tested against its neighbours
-constexpr double kSlender = 16;     // interactions::slenderness: stouter organs are not tested against themselves
-constexpr double kCrease = 4;       // cells along the skin that are one part of it
+constexpr double kReach = 0.045;     // [m] further apart than this in the drawn shape, two bodies are not tested
+constexpr double kRoot = 0.008;      // [m] of a strand next to its host that takes no part in contact with it
+constexpr int kSolidSamples = 160;   // skin vertices of an organ, about, that are tested against its neighbours
+constexpr double kSlender = 16;      // interactions::slenderness: stouter organs are not tested against themselves
+constexpr double kCrease = 4;        // cells along the skin that are one part of it
+constexpr double kTogether = 0.008;  // [m] drawn nearer than this, rods and membranes are joined
 
 /// Poses of all surfaces in the drawn shape.
 struct Drawn {
@@ -174,7 +176,6 @@ void pair_strands(sim::Model& model, int a, int b) {
   pair.a = a;
   pair.b = b;
   std::vector<std::int32_t> nearest;
-  double closest = 1e9;
   for (int i = 0; i + 1 < first.nodes(); ++i) {
     double least = 1e9, overlap = 0;
     std::int32_t at = 0;
@@ -188,11 +189,9 @@ void pair_strands(sim::Model& model, int a, int b) {
       at = j;
       overlap = std::max(0.0, first.model.radius[size_t(i)] + second.model.radius[size_t(j)] - distance);
     }
-    closest = std::min(closest, least);
     pair.overlap.push_back(float(overlap));
     nearest.push_back(at);
   }
-  if (closest > kReach) return;
   model.strand_pairs.push_back(std::move(pair));
   model.nearest_at_start.insert(model.nearest_at_start.end(), nearest.begin(), nearest.end());
 }
@@ -210,54 +209,87 @@ void pair_self(sim::Model& model, const Drawn& drawn, int organ) {
   model.nearest_at_start.resize(model.nearest_at_start.size() + model.self_pairs.back().sample.size(), -1);
 }
 
-/// Where a body's samples are drawn, and which take part.
+/// Where a body's samples are drawn, and which are held.
 struct Samples {
   BodyId body;
   std::vector<Vec3d> place;
-  std::vector<std::uint8_t> held;
-  double near = 0;  ///< [m] drawn nearer than that, the pairs as drawn test them
+  std::vector<float> held;  ///< CarriedPair::kNever, or 0
 };
 
-std::vector<Samples> samples_of_bodies(const sim::Model& model, const Drawn& drawn) {
+std::vector<Samples> samples_of_bodies(const sim::Model& model) {
   std::vector<Samples> all;
   for (int i = 0; i < model.organs(); ++i) {
-    const interactions::Surface& surface = drawn.surface[size_t(i)];
-    Samples& s = all.emplace_back(Samples{BodyId::organ(size_t(i)), {}, {}, 0.5 * kReach});
-    for (int v = 0; v < surface.skin->size(); ++v) s.place.push_back(surface.position(v));
+    Samples& s = all.emplace_back(Samples{BodyId::organ(size_t(i)), {}, {}});
+    for (const Vec3f& p : model.skin(i).rest) s.place.push_back(vec_cast<double>(p));
     s.held.assign(s.place.size(), 0);
   }
   for (size_t i = 0; i < model.membranes.size(); ++i) {
     const tissue::NetworkModel& net = model.membranes[i].sheet.network;
-    Samples& s = all.emplace_back(Samples{BodyId::membrane(i), net.rest, {}, kReach});
-    for (size_t n = 0; n < net.rest.size(); ++n) s.held.push_back(net.fixed[n] == tissue::kHeld);
+    Samples& s = all.emplace_back(Samples{BodyId::membrane(i), net.rest, {}});
+    for (size_t n = 0; n < net.rest.size(); ++n)
+      s.held.push_back(net.fixed[n] == tissue::kHeld ? interactions::CarriedPair::kNever : 0.0f);
   }
   for (size_t i = 0; i < model.strand_bodies.size(); ++i) {
     const tissue::StrandModel& rod = model.strand_bodies[i].model;
-    all.push_back({BodyId::strand(i), rod.rest, {rod.prescribed.begin(), rod.prescribed.end()}, kReach});
+    Samples& s = all.emplace_back(Samples{BodyId::strand(i), rod.rest, {}});
+    for (const std::uint8_t p : rod.prescribed) s.held.push_back(p ? interactions::CarriedPair::kNever : 0.0f);
   }
   return all;
 }
 
-tissue::Box box_of(const sim::Model& model, const Drawn& drawn, BodyId on) {
-  if (on.is(BodyKind::organ)) return drawn.surface[on.index()].pose->bounds;
-  tissue::Box box;
-  for (const Vec3d& p : model.membranes[on.index()].sheet.network.rest) box.add(vec_cast<float>(p));
-  return box;
+const tissue::Skin& skin_of(const sim::Model& model, BodyId body) {
+  return body.is(BodyKind::organ) ? model.skin(int(body.index())) : model.membranes[body.index()].skin;
 }
 
-/// All that may be carried to a skin, and was drawn farther from it than the other pairs look.
-void pair_carried(sim::Model& model, const Drawn& drawn) {
+/// Samples of a pair as drawn are tested by that.
+void leave_to_pairs(const sim::Model& model, interactions::CarriedPair& pair) {
+  if (!pair.on.is(BodyKind::organ)) return;
+  for (const interactions::SurfacePair& p : model.surface_pairs) {
+    const BodyId whose = p.strand >= 0     ? BodyId::strand(size_t(p.strand))
+                         : p.membrane >= 0 ? BodyId::membrane(size_t(p.membrane))
+                                           : BodyId::organ(size_t(p.solid));
+    if (whose != pair.body || p.surface != std::int32_t(pair.on.index())) continue;
+    for (const std::int32_t sample : p.sample) pair.overlap[size_t(sample)] = pair.kNever;
+  }
+}
+
+/// How far a sample lies in what it may be carried to, in the drawn shape. Organs are not joined by what they hold;
+/// rods and membranes are, and so is what lies next to an open membrane.
+float drawn_overlap(const sim::Model& model, BodyId body, BodyId on, Vec3d p) {
+  const tissue::Skin& skin = skin_of(model, on);
+  double least = 1e30;
+  size_t nearest = 0;
+  for (size_t v = 0; v < skin.rest.size(); ++v) {
+    if (!skin.at_surface(int(v))) continue;
+    const double d = geometry::distance2(vec_cast<double>(skin.rest[v]), p);
+    if (d < least) least = d, nearest = v;
+  }
+  constexpr float kNever = interactions::CarriedPair::kNever;
+  const bool joins = !body.is(BodyKind::organ) || interactions::has_two_sides(model, on);
+  if (joins && least < kTogether * kTogether) return kNever;
+  if (interactions::has_two_sides(model, on)) return 0;
+  const Vec3d normal = vec_cast<double>(skin.rest_normal[nearest]);
+  const double half = on.is(BodyKind::organ) ? 0 : 0.5 * model.membranes[on.index()].sheet.thickness;
+  const double overlap = std::max(0.0, half - dot(p - vec_cast<double>(skin.rest[nearest]), normal));
+  return overlap > interactions::kDeepestContact || (joins && overlap > 0) ? kNever : float(overlap);
+}
+
+/// All that may be carried to a skin.
+void pair_carried(sim::Model& model) {
   std::vector<BodyId> skins;
   for (int i = 0; i < model.organs(); ++i) skins.push_back(BodyId::organ(size_t(i)));
-  for (size_t i = 0; i < model.membranes.size(); ++i)
-    if (model.membranes[i].sheet.closed()) skins.push_back(BodyId::membrane(i));
-  for (const Samples& s : samples_of_bodies(model, drawn))
+  for (size_t i = 0; i < model.membranes.size(); ++i) skins.push_back(BodyId::membrane(i));
+  for (const Samples& s : samples_of_bodies(model))
     for (const BodyId on : skins) {
       if (on == s.body) continue;
-      const tissue::Box box = box_of(model, drawn, on);
+      tissue::Box box;
+      for (const Vec3f& p : skin_of(model, on).rest) box.add(p);
       interactions::CarriedPair pair{s.body, on, s.held};
-      for (size_t k = 0; k < s.place.size(); ++k) pair.never[k] |= box.reaches(s.place[k], s.near);
-      if (std::find(pair.never.begin(), pair.never.end(), 0) != pair.never.end())
+      leave_to_pairs(model, pair);
+      for (size_t k = 0; k < s.place.size(); ++k)
+        if (pair.overlap[k] < pair.kNever && box.reaches(s.place[k], kTogether))
+          pair.overlap[k] = drawn_overlap(model, s.body, on, s.place[k]);
+      if (std::any_of(pair.overlap.begin(), pair.overlap.end(), [&](float o) { return o < pair.kNever; }))
         model.carried_pairs.push_back(std::move(pair));
     }
 }
@@ -280,7 +312,7 @@ void compile_contacts(sim::Model& model) {
   for (int a = 0; a < strands; ++a)
     for (int b = a + 1; b < strands; ++b) pair_strands(model, a, b);
   for (int i = 0; i < organs; ++i) pair_self(model, drawn, i);
-  pair_carried(model, drawn);
+  pair_carried(model);
 }
 
 }  // namespace trocar::scene

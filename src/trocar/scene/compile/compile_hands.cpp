@@ -126,7 +126,6 @@ void compile_hands(const Description& d, sim::Model& model, std::vector<core::Fa
     hand.give = give_of(*port, kinematics::forward(port->position, pose_of(model.start.tools[model.hands.size() - 1])));
     hand.rack = rack_of(tools, *instrument, *port);
   }
-  model.instruments_push = d.instruments_push;
   const Port* port = named(d.ports, d.scope_placement.port);
   model.scope.port = port ? port->position : Vec3d{};
   model.scope.angle = d.scope.angle;

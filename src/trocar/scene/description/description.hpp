@@ -490,7 +490,6 @@ struct Description {
   std::shared_ptr<const sim::MaterialLibrary> looks;  ///< those that are there; null: none
   std::vector<MarkSetting> marks;
   std::vector<Port> ports;
-  bool instruments_push = false;  ///< each other aside
   std::vector<Instrument> instruments;
   std::vector<Placement> placements;  ///< tools, in hand order: [0] left, [1] right, [2] assistant/third
   Scope scope;

@@ -271,8 +271,6 @@ std::vector<Row<Description>> scene_rows() {
       R::name("variant", &D::variant, "a variant that every seed has; default: drawn by the seed"),
       included("instruments", instrument, &D::instruments, &Reading::instruments, "instruments: files or objects"),
       needed(R::objects("ports", port, &D::ports, 1, "trocars")),
-      R::flag("instruments_push", &D::instruments_push,
-              "true: instruments in contact push each other aside, default {}"),
       needed(R::objects("tools", tool, &D::placements, 0, "in the order of the hands: left, right, assistant",
                         check_tool)),
       needed(R::object(

@@ -81,7 +81,7 @@ State initial_state(const Model& model) {
   }
   s.scope = model.start.scope;
   s.nearest = model.nearest_at_start;
-  for (const interactions::CarriedPair& p : model.carried_pairs) s.carried.emplace_back(p.never.size(), -1);
+  for (const interactions::CarriedPair& p : model.carried_pairs) s.carried.emplace_back(p.overlap.size(), -1);
   size_t sides = 0;
   for (const interactions::StrandPair& p : model.strand_pairs) sides += p.overlap.size();
   s.strand_side.resize(sides);

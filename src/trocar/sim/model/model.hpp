@@ -241,7 +241,6 @@ struct Model : interactions::BodyModels {
   MotionModel motion;
   tissue::Box cavity{{-1e9f, -1e9f, -1e9f}, {1e9f, 1e9f, 1e9f}};  ///< nothing leaves it (containing.hpp)
   std::vector<HandModel> hands;                                   ///< at most kMaxTools
-  bool instruments_push = false;                                  ///< each other aside (stages/instruments.hpp)
   ScopeModel scope;
   Input start;  ///< everything as placed
   std::vector<interactions::SurfacePair> surface_pairs;
@@ -289,7 +288,6 @@ struct Model : interactions::BodyModels {
         v("energy", s.energy, core::only_if(s.energy.there)),
         v("injection", s.injection, core::only_if(s.injection.there())),
         v("motion", s.motion, core::only_if(s.motion.there())), v("objects", s.objects),
-        v("instruments_push", s.instruments_push, core::only_if(s.instruments_push)),
         v("statics", s.statics, core::only_if(!s.statics.empty())),
         v("bonds", s.bonds, core::only_if(!s.bonds.empty())), v("name", s.name, core::kNotHashed),
         v("file", s.file, core::kNotHashed), v("anatomy", s.anatomy, core::kNotHashed),

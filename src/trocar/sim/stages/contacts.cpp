@@ -58,7 +58,7 @@ void resolve_body_contacts(StepContext& c) noexcept {
   size_t side = 0;
   for (const interactions::StrandPair& p : c.model.strand_pairs) {
     const size_t n = p.overlap.size(), a = size_t(p.a), b = size_t(p.b);
-    strand_on_strand(p, c.model.strand_bodies[a], s.strands[a], c.model.strand_bodies[b], s.strands[b],
+    strand_on_strand(p, c.model.strand_bodies[a], s.strands[a], c.model.strand_bodies[b], s.strands[b], s.tick,
                      {s.nearest.data() + at, n}, {s.strand_side.data() + side, n}, c.work.strands[a].loads,
                      c.work.strands[b].loads);
     at += n;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <trocar/sim/stages/instruments.hpp>
@@ -20,21 +21,36 @@ struct DeepestContact {
   bool there = false;
 };
 
-ToolShape shape_of_hand(const StepContext& c, size_t t) noexcept { return shape_of(c.model, c.state, t); }
-ToolShape before_of_hand(const StepContext& c, size_t t) noexcept {
-  return interactions::shape_before(c.model.tool(c.state, t), c.state.touches[t]);
-}
+/// An instrument from the last tick to this one, and a rod around all of it.
+struct Moved {
+  ToolShape before, now;
+  collision::Capsule around;
+
+  void put(const ToolShape& shape) noexcept {
+    now = shape;
+    around = {now.part[interactions::kShaft].a, now.frame.tip, 0};
+    for (int p = 0; p < end_of(now); p = interactions::next(p)) {
+      const collision::Capsule& rod = now.rod(p);
+      const double beside =
+          std::max(length(rod.a - nearest_on_axis(around, rod.a)), length(rod.b - nearest_on_axis(around, rod.b)));
+      around.radius = std::max(around.radius, beside + rod.radius + collision::way_of(before.rod(p), rod));
+    }
+  }
+};
 
 /// @param least  overlap that counts [m]
-DeepestContact deepest_contact(const ToolShape& a0, const ToolShape& a, const ToolShape& b0, const ToolShape& b,
-                               double least) noexcept {
+DeepestContact deepest_contact(const Moved& a, const Moved& b, double least) noexcept {
   DeepestContact deepest;
   deepest.contact.depth = least;
-  for (int p = 0; p < end_of(a); p = interactions::next(p))
-    for (int q = 0; q < end_of(b); q = interactions::next(q)) {
+  if (!collision::passes_within(a.around.a, a.around.b, b.around.a, b.around.b,
+                                a.around.radius + b.around.radius - least))
+    return deepest;
+  for (int p = 0; p < end_of(a.now); p = interactions::next(p))
+    for (int q = 0; q < end_of(b.now); q = interactions::next(q)) {
       Vec3f side{};
-      const collision::RodContact now = collision::touch(a0.rod(p), a.rod(p), b0.rod(q), b.rod(q), side);
-      if (now.depth > deepest.contact.depth) deepest = {now, true};
+      const collision::RodContact met =
+          collision::touch(a.before.rod(p), a.now.rod(p), b.before.rod(q), b.now.rod(q), side);
+      if (met.depth > deepest.contact.depth) deepest = {met, true};
     }
   return deepest;
 }
@@ -43,17 +59,20 @@ double along(Vec3d port, const ToolShape& shape, Vec3d place) noexcept {
   return std::max(kNearTrocar, dot(place - port, shape.shaft.axis()));
 }
 
-/// Turns the instrument about its trocar so that its axis moves by `way` where it is met.
-void shift(const interactions::ToolModel& tool, Vec3d port, const ToolShape& shape, Vec3d place, Vec3d way,
-           interactions::ToolState& state) noexcept {
-  const double s = along(port, shape, place);
-  const Vec3d to = port + s * shape.shaft.axis() + way;
+/// Turns an instrument about its trocar so that its axis moves by `way` where it is met.
+void shift(StepContext& c, size_t t, Moved& moved, Vec3d place, Vec3d way) noexcept {
+  const interactions::ToolModel& tool = c.model.tool(c.state, t);
+  interactions::ToolState& state = c.state.tools[t];
+  const Vec3d port = port_of(c.model, c.state, t);
+  const double s = along(port, moved.now, place);
+  const Vec3d to = port + s * moved.now.shaft.axis() + way;
   kinematics::FulcrumPose pose = kinematics::inverse(port, to, state.roll);
   pose.depth += state.depth - s;
   pose = kinematics::clamped(pose, tool.limits);
   state.yaw = pose.yaw;
   state.pitch = pose.pitch;
   state.depth = pose.depth;
+  moved.put(shape_of(c.model, c.state, t));
 }
 
 /// How far a hand wants its instrument along `n` from where it is, at the place where it is met.
@@ -88,23 +107,37 @@ void add(double (&sum)[3], Vec3d f) noexcept {
 }  // namespace
 
 void separate_instruments(StepContext& c) noexcept {
-  if (!c.model.instruments_push) return;
-  for (int round = 0; round < kRounds; ++round)
-    for_pairs(c, [&c](size_t i, size_t j) noexcept {
-      const ToolShape a = shape_of_hand(c, i), b = shape_of_hand(c, j);
-      const DeepestContact m = deepest_contact(before_of_hand(c, i), a, before_of_hand(c, j), b, 0);
+  std::array<Moved, kMaxTools> tools;
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    tools[t].before = interactions::shape_before(c.model.tool(c.state, t), c.state.touches[t]);
+    tools[t].put(shape_of(c.model, c.state, t));
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    bool apart = true;
+    for_pairs(c, [&](size_t i, size_t j) noexcept {
+      const DeepestContact m = deepest_contact(tools[i], tools[j], 0);
       if (!m.there) return;
-      const Vec3d half = 0.5 * m.contact.depth * m.contact.normal;
-      shift(c.model.tool(c.state, i), port_of(c.model, c.state, i), a, m.contact.on_first, -half, c.state.tools[i]);
-      shift(c.model.tool(c.state, j), port_of(c.model, c.state, j), b, m.contact.on_second, half, c.state.tools[j]);
+      apart = false;
+      const double first = along(port_of(c.model, c.state, i), tools[i].now, m.contact.on_first);
+      const double second = along(port_of(c.model, c.state, j), tools[j].now, m.contact.on_second);
+      const double share = first * first / (first * first + second * second);
+      const Vec3d way = m.contact.depth * m.contact.normal;
+      shift(c, i, tools[i], m.contact.on_first, -share * way);
+      shift(c, j, tools[j], m.contact.on_second, (1 - share) * way);
     });
+    if (apart) return;
+  }
 }
 
 void feel_instruments(StepContext& c) noexcept {
-  if (!c.model.instruments_push) return;
-  for_pairs(c, [&c](size_t i, size_t j) noexcept {
-    const ToolShape a = shape_of_hand(c, i), b = shape_of_hand(c, j);
-    const DeepestContact m = deepest_contact(a, a, b, b, -kStillTouch);
+  std::array<Moved, kMaxTools> tools;
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    tools[t].before = c.work.shapes[t];
+    tools[t].put(c.work.shapes[t]);
+  }
+  for_pairs(c, [&](size_t i, size_t j) noexcept {
+    const ToolShape &a = tools[i].now, &b = tools[j].now;
+    const DeepestContact m = deepest_contact(tools[i], tools[j], -kStillTouch);
     if (!m.there) return;
     const Vec3d n = m.contact.normal;
     const double through = commanded_displacement(c, i, a, m.contact.on_first, n) -
