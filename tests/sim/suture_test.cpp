@@ -233,13 +233,16 @@ TEST(Suture, ThreadFoundDeepInThePadComesOutAndIsNotThrown) {
   suture::take_hold(d.model().thread, thread, interactions::kSwageSlot, 0);
   const int first = int((length(deep - swage) + 0.005) / d.model().thread.spacing), last = first + 80;
   ASSERT_LT(last, d.model().thread.nodes);
-  double fastest = 0;
-  for (int i = 0; i < 100; ++i) {
-    d.step();
-    for (int n = first; n < last; ++n) fastest = std::max(fastest, length(d.suture().thread.v[size_t(n)]));
+  double farthest = 0;  // in ten ticks: a jerk of one or two is not a throw
+  for (int i = 0; i < 10; ++i) {
+    const std::vector<Vec3d> before = d.suture().thread.x;
+    for (int k = 0; k < 10; ++k) d.step();
+    for (int n = first; n < last; ++n)
+      farthest = std::max(farthest, length(d.suture().thread.x[size_t(n)] - before[size_t(n)]));
   }
   for (int n = first; n < last; ++n) EXPECT_GT(d.suture().thread.x[size_t(n)].z, -0.0703) << n;
-  EXPECT_LT(fastest, 1.0);  // [m/s]
+  RecordProperty("farthest_mm", std::to_string(1e3 * farthest));
+  EXPECT_LT(farthest, 0.003) << "[m]";
 }
 
 TEST(Suture, KeyframesHoldNeedleAndThread) {

@@ -614,9 +614,9 @@ MaterialPoint along_with_vertex(const Bodies& bodies, std::size_t organ, std::in
     p.offset = {};
   } else {
     p = on_vertex(bodies, organ, vertex);
+    if (!p.is_long()) p.element = -1;
   }
   set_offset(p, place - place_of(bodies, p));
-  if (!p.is_long()) p.element = -1;
   return p;
 }
 
