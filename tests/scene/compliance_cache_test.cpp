@@ -11,7 +11,7 @@
 
 #include <trocar/core/hash.hpp>
 #include <trocar/scene/compile/compile.hpp>
-#include <trocar/scene/compile/compliance_cache.hpp>
+#include <trocar/scene/cache/compliance_cache.hpp>
 
 #include "../sim/small_scene.hpp"
 #include "files.hpp"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/text.hpp>
-#include <trocar/scene/compile/compile_bonds.hpp>
+#include <trocar/scene/compile/compile_membrane.hpp>
 
 namespace trocar::scene {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <trocar/core/log.hpp>
 #include <trocar/core/text.hpp>
+#include <trocar/scene/cache/compliance_cache.hpp>
 #include <trocar/scene/compile/compile_elastostatic.hpp>
-#include <trocar/scene/compile/compliance_cache.hpp>
 #include <trocar/scene/description/fibres.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/tissue/elastostatic/compliance_check.hpp>

@@ -1,10 +1,13 @@
 // A fold of a scene becomes a membrane: a grid between the strand and the base, what its borders ride on, its sheet.
+// So do pouches and leaves, with what they are tied to.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/description/description.hpp>
+#include <trocar/sim/model/attach_near.hpp>
 
 namespace trocar::scene {
 
@@ -23,6 +26,27 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, const Description& 
 
 /// What a fold is made of; its nodes are yet to come.
 tissue::MembraneDescription fold_of(const Tissue& tissue, double thickness, Vec3d gravity);
+
+/// A membrane, and the loose tissue between it and what it lies on.
+struct BondedMembrane {
+  const std::string& name;
+  const tissue::MembraneDescription& of;
+  const std::vector<BondSetting>& settings;
+};
+
+/// Nodes within the places. A fault where a place holds none.
+std::vector<std::uint8_t> nodes_within(const std::vector<Anchor>& places, const std::string& membrane,
+                                       const std::vector<Vec3d>& positions, std::vector<core::Fault>& faults);
+
+/// Which nodes are tied, and to what. A node that is held, or tied already, stays so. Of the membrane that is compiled
+/// next.
+std::vector<interactions::BondSet> bonds_of(const BondedMembrane& membrane, const Description& scene,
+                                            const sim::DrawnBodies& drawn, std::vector<core::Fault>& faults);
+
+/// The membrane as it hangs with its bonds whole, which bear what it does to them there.
+/// @param tied  per node: 1 = in a hand
+tissue::MembraneModel build_bonded(const tissue::MembraneDescription& d, std::vector<std::uint8_t> tied,
+                                   std::vector<interactions::BondSet>& sets);
 
 /// The sheet's nodes as a skin: one vertex a node.
 tissue::Skin skin_of(const tissue::MembraneModel& sheet);

@@ -6,7 +6,6 @@
 
 #include <trocar/core/text.hpp>
 #include <trocar/scene/compile/body_surface.hpp>
-#include <trocar/scene/compile/compile_bonds.hpp>
 #include <trocar/scene/compile/compile_membrane.hpp>
 #include <trocar/scene/compile/compile_parts.hpp>
 #include <trocar/sim/model/attach_near.hpp>

@@ -15,7 +15,7 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/numerics/vec3.hpp>
 #include <trocar/scene/description/body_shape.hpp>
-#include <trocar/scene/description/bond_setting.hpp>
+#include <trocar/scene/objects/bond_setting.hpp>
 #include <trocar/scene/description/instrument_mechanism.hpp>
 #include <trocar/scene/description/stiffness_region.hpp>
 #include <trocar/scene/description/vessel_tree.hpp>

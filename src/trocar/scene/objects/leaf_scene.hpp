@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <trocar/core/error.hpp>
-#include <trocar/scene/description/bond_setting.hpp>
 #include <trocar/scene/json/shape.hpp>
+#include <trocar/scene/objects/bond_setting.hpp>
 
 namespace trocar::sim {
 struct Model;
@@ -42,6 +42,7 @@ struct LeafScene {
   static Setting read(const JsonObject& o, Context& c);
   static JsonValue written(const Setting& setting) { return setting.text; }
   static void bend(std::vector<Setting>& settings, const std::function<Vec3d(Vec3d)>& warp);
+  /// compile/compile_leaf.cpp
   static void compile(const std::vector<Setting>& settings, const Description& scene, sim::Model& model,
                       std::vector<core::Fault>& faults);
 };

@@ -9,7 +9,7 @@
 #include <trocar/core/files.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/text.hpp>
-#include <trocar/scene/compile/compliance_cache.hpp>
+#include <trocar/scene/cache/compliance_cache.hpp>
 
 namespace trocar::scene {
 
