@@ -364,7 +364,7 @@ TEST(Reader, AllFaultsComeInOnePassInTheOrderOfTheFile) {
                  {7, R"("solids": [{"name": "ball", "tissue": @"hard", "cell_mm": @0, "sections": [)"},
                  {20, R"("tools": [{"instrument": "stick", "port": @"none", "tip_mm": @[0, 0]}],)"}}),
       (Faults{"expected a known key of a scene, got \"titel\" (did you mean \"title\"?); known: $schema, format, name, "
-              "like, title, gravity_m_s2, tissues, organs, vessels, fluids, bleeder, energy and 16 more",
+              "like, title, gravity_m_s2, tissues, organs, vessels, fluids, bleeder, energy and 15 more",
               "expected a number in [1, 25000] for \"density_kg_m3\", got -1", "expected a finite number, got 1e999",
               "expected a known tissue, got \"hard\"; known: soft",
               "expected a number in [0.1, 100] for \"cell_mm\", got 0",
