@@ -237,7 +237,7 @@ std::vector<Samples> samples_of_bodies(const sim::Model& model) {
   return all;
 }
 
-const tissue::Skin& skin_of(const sim::Model& model, BodyId body) {
+const tissue::Skin& skin_of_body(const sim::Model& model, BodyId body) {
   return body.is(BodyKind::organ) ? model.skin(int(body.index())) : model.membranes[body.index()].skin;
 }
 
@@ -256,7 +256,7 @@ void leave_to_pairs(const sim::Model& model, interactions::CarriedPair& pair) {
 /// How far a sample lies in what it may be carried to, in the drawn shape. Organs are not joined by what they hold;
 /// rods and membranes are, and so is what lies next to an open membrane.
 float drawn_overlap(const sim::Model& model, BodyId body, BodyId on, Vec3d p) {
-  const tissue::Skin& skin = skin_of(model, on);
+  const tissue::Skin& skin = skin_of_body(model, on);
   double least = 1e30;
   size_t nearest = 0;
   for (size_t v = 0; v < skin.rest.size(); ++v) {
@@ -283,7 +283,7 @@ void pair_carried(sim::Model& model) {
     for (const BodyId on : skins) {
       if (on == s.body) continue;
       tissue::Box box;
-      for (const Vec3f& p : skin_of(model, on).rest) box.add(p);
+      for (const Vec3f& p : skin_of_body(model, on).rest) box.add(p);
       interactions::CarriedPair pair{s.body, on, s.held};
       leave_to_pairs(model, pair);
       for (size_t k = 0; k < s.place.size(); ++k)
