@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include <trocar/interactions/bodies/loads.hpp>
 
@@ -25,6 +27,7 @@ void NetworkLoads::reserve(std::size_t capacity) {
   tag.reserve(capacity);
   point.reserve(capacity);
   order.reserve(capacity);
+  spare.reserve(capacity);
   owner.reserve(capacity);
   reaction.reserve(capacity);
 }
@@ -52,10 +55,26 @@ void NetworkLoads::keep_order() noexcept {
   reaction.assign(sorted.size(), Vec3f{});
 }
 
-void NetworkLoads::sort() noexcept {
+void NetworkLoads::order_by_node() noexcept {
+  std::uint32_t most = 0;
   order.clear();
-  for (std::size_t i = 0; i < gathered.size(); ++i) order.push_back(std::uint64_t(gathered[i].node) << 32 | i);
-  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < gathered.size(); ++i) {
+    order.push_back(std::uint64_t(gathered[i].node) << 32 | i);
+    most = std::max(most, std::uint32_t(gathered[i].node));
+  }
+  spare.resize(order.size());
+  for (int bits = 0; bits < 32 && most >> bits != 0; bits += 8) {  // a radix sort: what is equal keeps its order
+    const auto digit = [bits](std::uint64_t key) { return std::size_t(key >> (32 + bits) & 0xff); };
+    std::array<std::uint32_t, 257> first{};
+    for (const std::uint64_t key : order) ++first[digit(key) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    for (const std::uint64_t key : order) spare[first[digit(key)]++] = key;
+    order.swap(spare);
+  }
+}
+
+void NetworkLoads::sort() noexcept {
+  order_by_node();
   sorted.clear();
   owner.clear();
   for (const std::uint64_t key : order) {

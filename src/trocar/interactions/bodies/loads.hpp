@@ -26,6 +26,7 @@ struct NetworkLoads {
   std::vector<Tag> tag;
   std::vector<std::int32_t> point;   ///< of gathered[i]: loads with the same number are shares of one point's load
   std::vector<std::uint64_t> order;  ///< node << 32 | place in gathered, ascending
+  std::vector<std::uint64_t> spare;  ///< as many, while they are ordered
   std::vector<Tag> owner;            ///< of sorted[i]; anchors and strand ends on one node are one load: nobody asks
   std::vector<Vec3f> reaction;       ///< of sorted[i]
   bool overflowed = false;
@@ -41,8 +42,11 @@ struct NetworkLoads {
   template <class S, class V>
   static void fields(S& s, V&& v) {
     v("gathered", s.gathered), v("sorted", s.sorted), v("tag", s.tag), v("point", s.point), v("order", s.order),
-        v("owner", s.owner), v("reaction", s.reaction), v("overflowed", s.overflowed);
+        v("spare", s.spare), v("owner", s.owner), v("reaction", s.reaction), v("overflowed", s.overflowed);
   }
+
+ private:
+  void order_by_node() noexcept;
 };
 
 /// Loads on a strand.

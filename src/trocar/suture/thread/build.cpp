@@ -111,6 +111,7 @@ ThreadWork make_work(const ThreadModel& m) {
   w.near.resize(n * (n - 1) / 2), w.keys.resize(n * (n - 1) / 2);
   w.self.resize(contacts), w.touch.resize(contacts), w.rubs.resize(contacts);
   w.spin_diagonal.resize(n), w.spin_off.resize(n), w.spin.resize(n);
+  w.close.resize(std::size_t(m.obstacles));
   w.obstacle_moves.resize(2 * std::size_t(m.obstacles)), w.pull.resize(2 * std::size_t(m.obstacles));
   return w;
 }

@@ -25,6 +25,42 @@ bool boxes_within(const Vec3d& low, const Vec3d& high, const Vec3d& other_low, c
          other_low.y - high.y < reach && low.z - other_high.z < reach && other_low.z - high.z < reach;
 }
 
+struct Corners {
+  Vec3d low, high;
+};
+Corners around(const Vec3d& a, const Vec3d& b) {
+  Corners c{a, a};
+  widen(c.low, c.high, b);
+  return c;
+}
+bool within(const Corners& a, const Corners& b, double reach) {
+  return boxes_within(a.low, a.high, b.low, b.high, reach);
+}
+
+/// f(element, obstacle), ordered, of those whose boxes are nearer than reach(obstacle).
+template <class Reach, class F>
+void visit_near_obstacles(const ThreadModel& m, const ThreadState& s, std::span<const Obstacle> given, ThreadWork& w,
+                          const Reach& reach, const F& f) {
+  const int elements = m.nodes - 1, obstacles = std::min(int(given.size()), int(m.obstacles));
+  for (int first = 0; first < elements; first += kGroup) {
+    const int end = std::min(elements, first + kGroup);
+    Corners group{s.x[first], s.x[first]};
+    for (int i = first + 1; i <= end; ++i) widen(group.low, group.high, s.x[i]);
+    int count = 0;
+    for (int o = 0; o < obstacles; ++o)
+      if (s.obstacles[o].active && within(group, around(s.obstacles[o].a, s.obstacles[o].b), reach(o)))
+        w.close[count++] = o;
+    for (int a = first; a < end && count > 0; ++a) {
+      if (!s.alive[a]) continue;
+      const Corners element = around(s.x[a], s.x[a + 1]);
+      for (int k = 0; k < count; ++k) {
+        const int o = w.close[k];
+        if (!given[o].spares(a) && within(element, around(s.obstacles[o].a, s.obstacles[o].b), reach(o))) f(a, o);
+      }
+    }
+  }
+}
+
 /// Where two elements are nearest, and how far.
 struct Nearness {
   double s, t, distance;
@@ -150,41 +186,32 @@ int find_obstacles(const ThreadModel& m, const ThreadState& s, std::span<const O
   const ElementRub* const first = s.touch.data();
   const ElementRub* const last = first + s.touch_count;
   int count = 0;
-  for (int a = 0; a + 1 < m.nodes; ++a) {
-    Vec3d low = s.x[a], high = low;
-    widen(low, high, s.x[a + 1]);
-    for (int o = 0; o < int(given.size()) && o < m.obstacles; ++o) {
-      const ObstacleState& seen = s.obstacles[o];
-      if (!seen.active || !s.alive[a] || given[o].spares(a)) continue;
-      const double reach = given[o].radius + radius;
-      Vec3d other_low = seen.a, other_high = seen.a;
-      widen(other_low, other_high, seen.b);
-      if (!boxes_within(low, high, other_low, other_high, 1.1 * reach)) continue;
-      const Vec3d p = s.x[a], d = s.x[a + 1] - p, e = seen.b - seen.a;
-      const NearestPlaces at = nearest_places(p, d, seen.a, e, kSoftness);
-      const Vec3d between = p + at.s * d - seen.a - at.t * e;
-      const double distance = length(between), gap = distance - reach;
-      if (gap >= kOnset * m.stuff.diameter) continue;
-      if (count == m.contacts) {
-        full = true;
-        break;
-      }
-      Touch& touch = w.touch[count++];
-      touch = {.a = a, .b = o, .s = at.s, .t = at.t};
-      touch.normal = distance > 1e-12 ? between / distance : any_perpendicular(normalised(e));
-      set_press(touch, m.contact_stiffness, m.stuff.diameter, gap);
-      inherit(first, last, false, touch);
-      set_friction(touch, given[o].friction < 0 ? m.stuff.friction_steel : given[o].friction,
-                   0.5 * m.contact_stiffness);
-      keep_bound(touch);
-      touch.moved = (1 - at.t) * w.obstacle_moves[2 * o] + at.t * w.obstacle_moves[2 * o + 1];
+  const auto reach = [&](int o) { return 1.1 * (given[o].radius + radius); };
+  visit_near_obstacles(m, s, given, w, reach, [&](int a, int o) {
+    const ObstacleState& seen = s.obstacles[o];
+    const Vec3d p = s.x[a], d = s.x[a + 1] - p, e = seen.b - seen.a;
+    const NearestPlaces at = nearest_places(p, d, seen.a, e, kSoftness);
+    const Vec3d between = p + at.s * d - seen.a - at.t * e;
+    const double distance = length(between), gap = distance - (given[o].radius + radius);
+    if (gap >= kOnset * m.stuff.diameter) return;
+    if (count == m.contacts) {
+      full = true;
+      return;
     }
-  }
+    Touch& touch = w.touch[count++];
+    touch = {.a = a, .b = o, .s = at.s, .t = at.t};
+    touch.normal = distance > 1e-12 ? between / distance : any_perpendicular(normalised(e));
+    set_press(touch, m.contact_stiffness, m.stuff.diameter, gap);
+    inherit(first, last, false, touch);
+    set_friction(touch, given[o].friction < 0 ? m.stuff.friction_steel : given[o].friction, 0.5 * m.contact_stiffness);
+    keep_bound(touch);
+    touch.moved = (1 - at.t) * w.obstacle_moves[2 * o] + at.t * w.obstacle_moves[2 * o + 1];
+  });
   return count;
 }
 
-double safe_share(const ThreadModel& m, const ThreadState& s, int near, std::span<const Obstacle> given,
-                  const ThreadWork& w) noexcept {
+double safe_share(const ThreadModel& m, const ThreadState& s, int near, std::span<const Obstacle> given, double most,
+                  ThreadWork& w) noexcept {
   const double thickness = m.stuff.diameter;
   double share = 1;
   const auto keep = [&share, thickness](double distance, double at_rest, double approach) {
@@ -198,19 +225,23 @@ double safe_share(const ThreadModel& m, const ThreadState& s, int near, std::spa
     const Nearness at = nearness(s, a, b, 0);
     keep(at.distance, thickness, -least(a, at.normal) - least(b, -at.normal));
   }
-  for (int a = 0; a + 1 < m.nodes; ++a)
-    for (int o = 0; o < int(given.size()) && o < m.obstacles; ++o) {
-      const ObstacleState& seen = s.obstacles[o];
-      if (!seen.active || !s.alive[a] || given[o].spares(a)) continue;
-      const Vec3d p = s.x[a], d = s.x[a + 1] - p, e = seen.b - seen.a;
-      const NearestPlaces at = nearest_places(p, d, seen.a, e, 0);
-      const Vec3d between = p + at.s * d - seen.a - at.t * e;
-      const double distance = length(between);
-      if (!(distance > 1e-12)) continue;
-      const Vec3d n = between / distance;
-      const double moves = std::min(dot(w.obstacle_moves[2 * o], -n), dot(w.obstacle_moves[2 * o + 1], -n));
-      keep(distance, given[o].radius + 0.5 * thickness, -least(a, n) - moves);
-    }
+  // what is farther away than they may come together is kept apart by itself
+  const auto reach = [&](int o) {
+    const Vec3d* const moves = &w.obstacle_moves[2 * o];
+    const double together = most + std::sqrt(std::max(dot(moves[0], moves[0]), dot(moves[1], moves[1])));
+    return 1.01 * (given[o].radius + 0.5 * thickness + together / kKeptApart);
+  };
+  visit_near_obstacles(m, s, given, w, reach, [&](int a, int o) {
+    const ObstacleState& seen = s.obstacles[o];
+    const Vec3d p = s.x[a], d = s.x[a + 1] - p, e = seen.b - seen.a;
+    const NearestPlaces at = nearest_places(p, d, seen.a, e, 0);
+    const Vec3d between = p + at.s * d - seen.a - at.t * e;
+    const double distance = length(between);
+    if (!(distance > 1e-12)) return;
+    const Vec3d n = between / distance;
+    const double moves = std::min(dot(w.obstacle_moves[2 * o], -n), dot(w.obstacle_moves[2 * o + 1], -n));
+    keep(distance, given[o].radius + 0.5 * thickness, -least(a, n) - moves);
+  });
   return share;
 }
 

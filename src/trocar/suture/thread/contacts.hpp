@@ -25,8 +25,9 @@ void set_press(Touch& touch, double stiffness, double thickness, double gap) noe
 
 /// The largest share of `delta` at which no two elements come nearer than a part of their distance, nor a thread and an
 /// obstacle (which moves by w.obstacle_moves).
-double safe_share(const ThreadModel& m, const ThreadState& s, int near, std::span<const Obstacle> given,
-                  const ThreadWork& w) noexcept;
+/// @param most  that a node moves [m]
+double safe_share(const ThreadModel& m, const ThreadState& s, int near, std::span<const Obstacle> given, double most,
+                  ThreadWork& w) noexcept;
 
 /// The share of its stiffness that something which yields at `bound` keeps in a solve: what makes its force right if it
 /// goes as far as in the last (`reached`).

@@ -64,7 +64,7 @@ double share_of_step(Tick& t) {
   most = std::sqrt(most);
   if (!(most < 1)) return -1;
   const double room = 0.5 * (t.reach - t.m.stuff.diameter) - t.moved;
-  double share = safe_share(t.m, t.s, t.near, t.drive.obstacles, t.w);
+  double share = safe_share(t.m, t.s, t.near, t.drive.obstacles, most, t.w);
   if (share * most > room) share = room / most;
   const double turn = fastest_turn(t);
   return share * turn > kMostTurn ? kMostTurn / turn : share;

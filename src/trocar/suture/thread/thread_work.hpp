@@ -41,6 +41,7 @@ struct ThreadWork {
   std::vector<Vec3d> box;                        ///< (groups x 2) corners of groups of elements
   std::vector<NearPair> near;                    ///< thread on thread, in no order, then by (a, b)
   std::vector<std::int64_t> keys;
+  std::vector<std::int32_t> close;                    ///< (obstacles) near a group of elements
   std::vector<Touch> self, touch;                     ///< (contacts)
   std::vector<ElementRub> rubs;                       ///< (contacts)
   std::vector<double> spin_diagonal, spin_off, spin;  ///< (n - 1)
@@ -51,9 +52,9 @@ struct ThreadWork {
   static void fields(S& s, V&& v) {
     v("system", s.system), v("delta", s.delta), v("length", s.length), v("along", s.along),
         v("node_along", s.node_along), v("node_director", s.node_director), v("bend_now", s.bend_now),
-        v("bend_rest", s.bend_rest), v("box", s.box), v("near", s.near), v("keys", s.keys), v("self", s.self),
-        v("touch", s.touch), v("rubs", s.rubs), v("spin_diagonal", s.spin_diagonal), v("spin_off", s.spin_off),
-        v("spin", s.spin), v("obstacle_moves", s.obstacle_moves), v("pull", s.pull);
+        v("bend_rest", s.bend_rest), v("box", s.box), v("near", s.near), v("keys", s.keys), v("close", s.close),
+        v("self", s.self), v("touch", s.touch), v("rubs", s.rubs), v("spin_diagonal", s.spin_diagonal),
+        v("spin_off", s.spin_off), v("spin", s.spin), v("obstacle_moves", s.obstacle_moves), v("pull", s.pull);
   }
 };
 
