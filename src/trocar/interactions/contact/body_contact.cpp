@@ -31,8 +31,8 @@ bool beside(const Surface& surface, Vec3d p, std::int32_t& vertex) noexcept {
 }
 
 /// Pushes surface vertex `v` along -n by the share of the depth that its body takes.
-void push_surface(const Surface& surface, int v, Vec3d n, double depth, double speed, NetworkLoads* loads) noexcept {
-  if (loads) press_vertex(surface, v, -0.5 * std::min(depth, kQuickestApart), n, speed, *loads);
+void push_surface(const Surface& surface, int v, Vec3d n, double depth, Press press, NetworkLoads* loads) noexcept {
+  if (loads) press_vertex(surface, v, -0.5 * std::min(depth, kQuickestApart), n, press, *loads);
 }
 
 }  // namespace
@@ -51,11 +51,12 @@ void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const ti
     if (!touches(surface, nearest[i], p, depth) || surface.torn(nearest[i])) continue;
     const int e = std::min(node, body.nodes() - 2);
     const Vec3d ours = state.v[size_t(node)], theirs = surface.velocity(nearest[i]);
-    const double w = node == e ? 0.0 : 1.0, speed = surface_loads ? 0.5 * dot(ours + theirs, c.normal) : 0.0;
-    strand_loads.add(press_strand(e, w, p + share * std::min(depth, kQuickestApart) * c.normal, c.normal, speed),
+    const double w = node == e ? 0.0 : 1.0;
+    const Press press = press_on(surface, false, ours, theirs, c.normal);
+    strand_loads.add(press_strand(e, w, p + share * std::min(depth, kQuickestApart) * c.normal, c.normal, press),
                      {Owner::body, 0, 0});
-    push_surface(surface, nearest[i], c.normal, depth, speed, surface_loads);
-    const BodyRub rub = body_rub(kPressStiffness * share * std::min(depth, kQuickestApart), c.normal, ours, theirs);
+    push_surface(surface, nearest[i], c.normal, depth, press, surface_loads);
+    const BodyRub rub = body_rub(press.k * share * std::min(depth, kQuickestApart), c.normal, ours, theirs);
     rub_strand(e, w, rub, theirs, strand_loads);
     if (surface_loads) rub_skin(surface, nearest[i], rub, ours, *surface_loads);
   }
@@ -76,10 +77,10 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
     const double depth = -c.distance - double(pair.overlap[i]);
     if (!touches(surface, nearest[i], p, depth) || surface.torn(nearest[i])) continue;
     const Vec3d ours = samples.velocity(v), theirs = surface.velocity(nearest[i]);
-    const double speed = surface_loads ? 0.5 * dot(ours + theirs, c.normal) : 0.0;
-    press_vertex(samples, v, share * std::min(depth, kQuickestApart), c.normal, speed, sample_loads);
-    push_surface(surface, nearest[i], c.normal, depth, speed, surface_loads);
-    const BodyRub rub = body_rub(kPressStiffness * share * std::min(depth, kQuickestApart), c.normal, ours, theirs);
+    const Press press = press_on(surface, samples.swings, ours, theirs, c.normal);
+    press_vertex(samples, v, share * std::min(depth, kQuickestApart), c.normal, press, sample_loads);
+    push_surface(surface, nearest[i], c.normal, depth, press, surface_loads);
+    const BodyRub rub = body_rub(press.k * share * std::min(depth, kQuickestApart), c.normal, ours, theirs);
     rub_skin(samples, v, rub, theirs, sample_loads);
     if (surface_loads) rub_skin(surface, nearest[i], rub, ours, *surface_loads);
   }
@@ -182,9 +183,9 @@ void strand_on_strand(const StrandPair& pair, const StrandBody& a, const tissue:
     const double depth = std::min(deep, kQuickestApart);
     const Vec3d ours = (1 - c.t) * a_state.v[size_t(i)] + c.t * a_state.v[size_t(i) + 1];
     const Vec3d theirs = (1 - c.s) * b_state.v[size_t(j)] + c.s * b_state.v[size_t(j) + 1];
-    const double speed = 0.5 * dot(ours + theirs, c.normal);
-    tissue::StrandLoad on_a = press_strand(i, c.t, c.on_second + 0.5 * depth * c.normal, c.normal, speed);
-    tissue::StrandLoad on_b = press_strand(j, c.s, c.on_first - 0.5 * depth * c.normal, c.normal, speed);
+    const Press press{.speed = 0.5 * dot(ours + theirs, c.normal)};
+    tissue::StrandLoad on_a = press_strand(i, c.t, c.on_second + 0.5 * depth * c.normal, c.normal, press);
+    tissue::StrandLoad on_b = press_strand(j, c.s, c.on_first - 0.5 * depth * c.normal, c.normal, press);
     for (tissue::StrandLoad* load : {&on_a, &on_b}) load->k *= counts, load->d *= counts, load->f0 = counts * load->f0;
     a_loads.add(on_a, {Owner::body, 0, 0});
     b_loads.add(on_b, {Owner::body, 0, 0});
