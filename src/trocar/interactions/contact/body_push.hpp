@@ -34,6 +34,8 @@ struct Press {
   double k = kPressStiffness;  ///< [N/m]
   double d = kPressDamping;    ///< [N s/m]
   double speed = 0;            ///< that both sides have together, along the normal [m/s]
+
+  Press part(double share) const noexcept { return {share * k, share * d, speed}; }
 };
 /// Nodes that swing do not tell how fast their wall goes, and go deeper in the tick than they are when it begins: what
 /// they rest on would be driven by a damper that took them at their word, and by a spring that is stiff against that.

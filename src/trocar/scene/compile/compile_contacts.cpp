@@ -2,6 +2,7 @@
 
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/interactions/contact/body_push.hpp>
+#include <trocar/interactions/contact/nearest_skin.hpp>
 #include <trocar/scene/compile/compile_contacts.hpp>
 #include <trocar/sim/model/bodies.hpp>
 
@@ -51,14 +52,18 @@ struct Drawn {
   Drawn(const Drawn&) = delete;  // it points into itself
 };
 
-/// Adds a sample with its start vertex and its overlap in the drawn shape.
+/// Adds a sample with its start vertex and its overlap in the drawn shape. @param radius  of a rod; else 0
 void add_sample(interactions::SurfacePair& pair, const interactions::Surface& surface, int sample, Vec3d p,
                 double radius, std::vector<std::int32_t>& nearest) {
   const int vertex = interactions::nearest_vertex(surface, p);
-  const interactions::Clearance c = interactions::clearance_at(surface, vertex, p);
+  double distance = interactions::clearance_at(surface, vertex, p).distance;
+  if (pair.strand >= 0) {
+    const interactions::SkinPoint under = interactions::nearest_skin_point(surface, vertex, p);
+    distance = dot(p - under.point, under.normal);
+  }
   pair.sample.push_back(sample);
   pair.radius.push_back(float(radius));
-  pair.overlap.push_back(float(std::max(0.0, radius - c.distance)));
+  pair.overlap.push_back(float(std::max(0.0, radius - distance)));
   nearest.push_back(vertex);
 }
 
