@@ -81,7 +81,7 @@ void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const ti
     const int e = std::min(node, body.nodes() - 2);
     const Vec3d ours = state.v[size_t(node)], theirs = under.velocity();
     const double w = node == e ? 0.0 : 1.0, way = share * std::min(depth, kQuickestApart);
-    const Press press = press_on(surface, false, ours, theirs, n);
+    const Press press = press_on(surface, false, depth, ours, theirs, n);
     strand_loads.add(press_strand(e, w, p + way * n, n, press), {Owner::body, 0, 0});
     const BodyRub rub = body_rub(press.k * way, n, ours, theirs);
     rub_strand(e, w, rub, theirs, strand_loads);
@@ -106,7 +106,7 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
     const double depth = -c.distance - double(pair.overlap[i]);
     if (!touches(surface, nearest[i], p, depth) || surface.torn(nearest[i])) continue;
     const Vec3d ours = samples.velocity(v), theirs = surface.velocity(nearest[i]);
-    const Press press = press_on(surface, samples.swings, ours, theirs, c.normal);
+    const Press press = press_on(surface, samples.swings, depth, ours, theirs, c.normal);
     press_vertex(samples, v, share * std::min(depth, kQuickestApart), c.normal, press, sample_loads);
     if (surface_loads)
       press_vertex(surface, nearest[i], -0.5 * std::min(depth, kQuickestApart), c.normal, press, *surface_loads);

@@ -11,6 +11,7 @@ inline constexpr double kBodyStiffness = 150;      ///< [N/m] per sample of piec
 inline constexpr double kBodyDamping = 0.05;       ///< [N s/m]
 inline constexpr double kPressStiffness = 1500;    ///< [N/m] per sample of bodies: few samples bear a whole limb
 inline constexpr double kWallStiffness = 150;      ///< [N/m] where one of them is a wall about something that presses
+inline constexpr double kHardens = 0.001;          ///< [m] deep: the wall is met as any body
 inline constexpr double kWallDamping = 0.05;       ///< [N s/m]
 inline constexpr double kPressDamping = 1.5;       ///< [N s/m] against what both sides do together: nothing bounces
 inline constexpr double kQuickestApart = 0.0006;   ///< [m] a tick that two of them are moved apart
@@ -39,10 +40,15 @@ struct Press {
 };
 /// Nodes that swing do not tell how fast their wall goes, and go deeper in the tick than they are when it begins: what
 /// they rest on would be driven by a damper that took them at their word, and by a spring that is stiff against that.
+/// So where a wall rests it rests softly, and what presses it hard is met as hard as elsewhere.
 /// @param swings  the sample's nodes do  @param ours, theirs  velocities of the sample and of the surface there [m/s]
-inline Press press_on(const Surface& surface, bool swings, Vec3d ours, Vec3d theirs, Vec3d n) noexcept {
-  const bool wall = swings || surface.swings;
-  Press press{wall ? kWallStiffness : kPressStiffness, wall ? kWallDamping : kPressDamping, 0};
+inline Press press_on(const Surface& surface, bool swings, double depth, Vec3d ours, Vec3d theirs, Vec3d n) noexcept {
+  Press press;
+  if (swings || surface.swings) {
+    const double hard = depth < kHardens ? depth / kHardens : 1;
+    press.k = kWallStiffness + hard * hard * (kPressStiffness - kWallStiffness);
+    press.d = kWallDamping;
+  }
   if (!surface.moves()) return press;
   press.speed = swings == surface.swings ? 0.5 * dot(ours + theirs, n) : dot(swings ? theirs : ours, n);
   return press;

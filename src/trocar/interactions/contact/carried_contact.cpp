@@ -128,7 +128,7 @@ void skin_meets(const Meeting& on, const Surface& samples, double reach, int v, 
   const double deep = on.depth(p, reach, nearest, n);
   if (!(deep > 0) || samples.torn(v)) return;
   const Vec3d ours = samples.velocity(v), theirs = on.velocity(nearest);
-  const Press press = press_on(on.surface, samples.swings, ours, theirs, n);
+  const Press press = press_on(on.surface, samples.swings, deep, ours, theirs, n);
   press_vertex(samples, v, 0.5 * deep, n, press, loads);
   on.push_back(nearest, deep, n, press);
   const BodyRub rub = body_rub(press.k * 0.5 * deep, n, ours, theirs);
@@ -198,7 +198,7 @@ void rod_on_skin(const Meeting& on, const CarriedPair& pair, const StrandBody& b
     const double deep = on.depth(p, radius - double(pair.overlap[i]), nearest[i], n);
     if (!(deep > 0)) continue;
     const Vec3d ours = s.v[i], theirs = on.velocity(nearest[i]);
-    const Press press = press_on(on.surface, false, ours, theirs, n);
+    const Press press = press_on(on.surface, false, deep, ours, theirs, n);
     const double w = int(i) == e ? 0.0 : 1.0;
     loads.add(press_strand(e, w, p + 0.5 * deep * n, n, press), {Owner::body, 0, 0});
     on.push_back(nearest[i], deep, n, press);
