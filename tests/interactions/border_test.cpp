@@ -183,6 +183,36 @@ TEST(Border, TheStrandBearsTheSheetsWeight) {
   EXPECT_NEAR(ends[0].force.z + ends[1].force.z, -weight, 0.02 * weight);
 }
 
+TEST(Border, WhatPressesOnAHeldNodeIsBorneByTheStrand) {
+  Hanging h;
+  NetworkLoads& on_sheet = h.few.work.membranes[0].loads;
+  on_sheet.reserve(8);
+  const int node = h.sheet.held_nodes[7];
+  const Vec3d place = position(h.sheet.network, h.state.network, node), push{0.001, -0.002, 0.003};
+  const double stretched = 0.0002;
+  const auto load = [&](double k) {
+    tissue::NodeLoad l;
+    l.node = node;
+    l.f0 = vec_cast<float>(push);
+    l.k = float(k);
+    l.x0 = vec_cast<float>(place + Vec3d{0, stretched, 0});
+    return l;
+  };
+  for (const double k : {0.0, 20.0}) {
+    h.loads().clear(), on_sheet.clear();
+    on_sheet.add(load(k), {Owner::tool_contact, 1, 0});
+    border_loads(h.few.all(), 0, h.pulls, kTick);
+    Vec3d borne{0, 0, 0};
+    for (const tissue::StrandLoad& l : h.loads().list) {
+      const Vec3d at = h.strand().x[size_t(l.element)] +
+                       l.w * (h.strand().x[size_t(l.element) + 1] - h.strand().x[size_t(l.element)]);
+      borne += l.f0 + l.k * (l.x0 - at);
+    }
+    EXPECT_LT(length(borne - push - Vec3d{0, k * stretched, 0}), 1e-6) << k;
+    for (const Tag& tag : h.loads().tag) EXPECT_EQ(tag.owner, Owner::anchor) << "the instrument feels it by the sheet";
+  }
+}
+
 TEST(Border, WhereTheStrandIsCutEachSideGoesWithItsStump) {
   Hanging h;
   tissue::cut_element(h.strand(), 8);

@@ -409,7 +409,7 @@ TEST(Circulation, APalpatingInstrumentFeelsThePulseAsForceInProportionToTheGain)
   std::printf("    pressed with %.2f N; pulse felt: %.1f, %.1f, %.1f mN with gains of 0, 1, 5\n", physical.mean,
               1e3 * none.amplitude, 1e3 * physical.amplitude, 1e3 * enlarged.amplitude);
   EXPECT_GT(physical.mean, 0.02) << "it presses on the tube";
-  EXPECT_GT(physical.amplitude, 0.0005);
+  EXPECT_GT(physical.amplitude, 0.0003) << "the tube lies on what is soft, too";
   EXPECT_LT(physical.amplitude, 0.030) << "an artery of 1.2 mm: 40 mmHg on some square millimetres";
   EXPECT_LT(std::fabs(none.amplitude), 0.2 * physical.amplitude);
   EXPECT_NEAR(enlarged.amplitude / physical.amplitude, 5, 1);

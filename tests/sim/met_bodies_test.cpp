@@ -107,7 +107,7 @@ TEST(MetBodies, AFreedGallbladderLaidOnTheColonStaysOutsideOfIt) {
   for (int n = 0; n < wall.nodes; ++n)
     if (length(wall.rest[size_t(n)] - top) < length(wall.rest[size_t(held)] - top)) held = n;
   scene.ticks(1000);
-  scene.take(hand, place(held));
+  scene.take(hand, place(held), 0.001);
   ASSERT_GT(scene.s.tools[hand].holds, 0);
   const Vec3d tip = scene.tip[hand];
   scene.go(hand, tip + Vec3d{0, 0, 0.095});

@@ -315,24 +315,34 @@ Applier crushed(double left) {
   a.rest(0.3);
   const interactions::ToolShape applier = a.shape();
   const collision::Capsule& rod = applier.rod(interactions::kShaft);
-  const Vec3d port = a.m.hands[right].port, axis = normalised(rod.b - rod.a), on = rod.a + 0.9 * (rod.b - rod.a);
+  const Vec3d port = a.m.hands[right].port, axis = normalised(rod.b - rod.a), on = rod.a + 0.7 * (rod.b - rod.a);
   const Vec3d up = normalised(port - on - dot(port - on, axis) * axis), across = cross(axis, up);
   const double d = a.model().stuff.diameter;
   const Vec3d top = on + (rod.radius + 0.5 * d) * up;
   a.thread() = suture::laid(a.model(), std::vector<Vec3d>{top - 0.06 * across, top + 0.06 * across});
   const std::vector<Vec3d> held = a.thread().x;
   const double roll = sim::pose_of(a.input.tools[right]).roll;
-  const auto lead = [&](double above) {  // of the jaw's end over the shaft
-    const interactions::ToolShape now = sim::shape_of(a.m, a.state, right);
-    const collision::Capsule& jaw = now.rod(interactions::kJawA);
-    const Vec3d end = length(jaw.a - port) > length(jaw.b - port) ? jaw.a : jaw.b;
-    const Vec3d to = on + (rod.radius + jaw.radius + above) * up + (now.frame.tip - end);
-    a.input.tools[right] = sim::tool_input(kinematics::inverse(port, to, roll), 1.0f);
+  const auto step_with_thread_in_place = [&] {
     for (size_t n = 0; n < held.size(); ++n)
       if (length(held[n] - top) > 0.012) a.thread().x[n] = held[n], a.thread().v[n] = {};
     a.step();
   };
-  for (int i = 0; i < 400; ++i) lead(0.005);
+  const auto lead = [&](double above) {  // of the lower jaw's end over the shaft
+    const interactions::ToolShape now = sim::shape_of(a.m, a.state, right);
+    const auto bottom = [&](int part) {
+      const collision::Capsule& jaw = now.rod(part);
+      return (length(jaw.a - port) > length(jaw.b - port) ? jaw.a : jaw.b) - jaw.radius * up;
+    };
+    const Vec3d first = bottom(interactions::kJawA), second = bottom(interactions::kJawB);
+    const Vec3d low = dot(first, up) < dot(second, up) ? first : second;
+    const Vec3d to = on + (rod.radius + above) * up + (now.frame.tip - low);
+    a.input.tools[right] = sim::tool_input(kinematics::inverse(port, to, roll), 1.0f);
+    step_with_thread_in_place();
+  };
+  const Vec3d drawn_back = port + 0.04 * normalised(on - port);  // from there it comes down beside nothing else
+  a.input.tools[right] = sim::tool_input(kinematics::inverse(port, drawn_back, roll), 1.0f);
+  for (int i = 0; i < 300; ++i) step_with_thread_in_place();
+  for (int i = 0; i < 400; ++i) lead(0.030 - 0.025 * i / 400.0);
   for (int i = 0; i < 300; ++i) lead(0.005 - (0.005 - left * d) * i / 300.0);
   for (int i = 0; i < 50; ++i) lead(left * d);
   return a;

@@ -81,7 +81,10 @@ class AtSecondArtery {
   static scene::Description scene_of() {
     scene::Description d = patient("cholecystectomy", "double_artery");
     d.ports.push_back({"beside", {-0.018, 0.112, 0}, 0.010, {}});
-    d.placements = {{"scissors", "epigastric", {-0.030, 0.122, -0.060}, 0, {}},
+    const auto scissors_port =
+        std::find_if(d.ports.begin(), d.ports.end(), [](const scene::Port& p) { return p.name == "epigastric"; });
+    const Vec3d out_of_the_way = scissors_port->position + 0.03 * Vec3d{-0.25, 0.05, -0.95};
+    d.placements = {{"scissors", "epigastric", out_of_the_way, 0, {}},
                     {"clip_applier", "beside", {-0.034, 0.114, -0.060}, 0, {}}};
     return d;
   }
@@ -103,7 +106,7 @@ class AtSecondArtery {
     if (t < 900) aim(s, tool, arc, inside);
     if (t >= 500 && t < 900) handle(tool, 1, 350);
     if (t >= 900) handle(tool, 0, 250);
-    if (t >= 1100) move(tool, m_model.hands[tool].port + 0.06 * Vec3d{-0.25, 0.05, -0.95});
+    if (t >= 1100) move(tool, m_model.hands[tool].port + 0.03 * Vec3d{-0.25, 0.05, -0.95});
   }
   void move(std::size_t tool, Vec3d to) {
     const Vec3d way = to - m_tip[tool];

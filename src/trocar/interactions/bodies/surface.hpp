@@ -13,6 +13,7 @@ struct Surface {
   const tissue::SkinPose* pose = nullptr;
   tissue::NodeView nodes;
   float torn_beyond = 0;  ///< [m]; 0: its skin never tears
+  bool swings = false;  ///< what it encloses kicks its nodes when a tick begins, and they have swung back when it ends
 
   bool moves() const noexcept { return !nodes.empty(); }
   Vec3d position(int vertex) const noexcept { return vec_cast<double>(pose->position[size_t(vertex)]); }
@@ -25,7 +26,7 @@ struct Surface {
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("skin", s.skin), v("pose", s.pose), v("nodes", s.nodes), v("torn_beyond", s.torn_beyond);
+    v("skin", s.skin), v("pose", s.pose), v("nodes", s.nodes), v("torn_beyond", s.torn_beyond), v("swings", s.swings);
   }
 };
 

@@ -5,10 +5,12 @@
 #include <trocar/interactions/contact/body_contact.hpp>
 #include <trocar/interactions/contact/body_friction.hpp>
 #include <trocar/interactions/contact/body_push.hpp>
+#include <trocar/interactions/contact/nearest_skin.hpp>
 
 namespace trocar::interactions {
 namespace {
 
+constexpr double kAbove = 0.001;   // [m] by which the plane of the nearest vertex may be wrong
 constexpr double kJoined = 0.030;  // [m] drawn no further apart than this, strands are joined by a fold
 
 bool touches(const Surface& surface, int vertex, Vec3d p, double depth) noexcept {
@@ -30,10 +32,34 @@ bool beside(const Surface& surface, Vec3d p, std::int32_t& vertex) noexcept {
   return geometry::distance2(surface.position(vertex), p) <= kFarthest2;
 }
 
-/// Pushes surface vertex `v` along -n by the share of the depth that its body takes.
-void push_surface(const Surface& surface, int v, Vec3d n, double depth, double speed, NetworkLoads* loads) noexcept {
-  if (loads) press_vertex(surface, v, -0.5 * std::min(depth, kQuickestApart), n, speed, *loads);
-}
+/// The place under a rod's node, between its corners: were it the nearest corner alone, what slides over a dimpled
+/// surface would hop from one to the next.
+struct UnderRod {
+  const Surface& surface;
+  SkinPoint at;
+
+  Vec3d velocity() const noexcept {
+    Vec3d v{0, 0, 0};
+    each_corner([&](int corner, double w) { v += w * surface.velocity(corner); });
+    return v;
+  }
+  void push_back(double depth, const Press& press, NetworkLoads& loads) const noexcept {
+    each_corner([&](int corner, double w) {
+      press_vertex(surface, corner, -0.5 * std::min(depth, kQuickestApart), at.normal, press.part(w), loads);
+    });
+  }
+  void rub_back(const BodyRub& rub, Vec3d ours, NetworkLoads& loads) const noexcept {
+    each_corner([&](int corner, double w) { rub_skin(surface, corner, rub.part(w), ours, loads); });
+  }
+
+ private:
+  template <class F>
+  void each_corner(F&& f) const noexcept {
+    constexpr double kLeast = 0.02;  // what bears less is left out
+    for (std::size_t k = 0; k < 3; ++k)
+      if (at.weights[int(k)] > kLeast) f(at.vertex[k], at.weights[int(k)]);
+  }
+};
 
 }  // namespace
 
@@ -46,18 +72,22 @@ void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const ti
     const Vec3d p = state.x[size_t(node)];
     if (!surface.pose->bounds.reaches(p, 0.006) || waits(surface, p, tick + i, nearest[i])) continue;
     if (!beside(surface, p, nearest[i])) continue;
-    const Clearance c = clearance_at(surface, nearest[i], p);
-    const double depth = double(pair.radius[i]) - c.distance - double(pair.overlap[i]);
+    const double radius = double(pair.radius[i]) - double(pair.overlap[i]);
+    if (clearance_at(surface, nearest[i], p).distance > radius + kAbove) continue;
+    const UnderRod under{surface, nearest_skin_point(surface, nearest[i], p)};
+    const Vec3d n = under.at.normal;
+    const double depth = radius - dot(p - under.at.point, n);
     if (!touches(surface, nearest[i], p, depth) || surface.torn(nearest[i])) continue;
     const int e = std::min(node, body.nodes() - 2);
-    const Vec3d ours = state.v[size_t(node)], theirs = surface.velocity(nearest[i]);
-    const double w = node == e ? 0.0 : 1.0, speed = surface_loads ? 0.5 * dot(ours + theirs, c.normal) : 0.0;
-    strand_loads.add(press_strand(e, w, p + share * std::min(depth, kQuickestApart) * c.normal, c.normal, speed),
-                     {Owner::body, 0, 0});
-    push_surface(surface, nearest[i], c.normal, depth, speed, surface_loads);
-    const BodyRub rub = body_rub(kPressStiffness * share * std::min(depth, kQuickestApart), c.normal, ours, theirs);
+    const Vec3d ours = state.v[size_t(node)], theirs = under.velocity();
+    const double w = node == e ? 0.0 : 1.0, way = share * std::min(depth, kQuickestApart);
+    const Press press = press_on(surface, false, depth, ours, theirs, n);
+    strand_loads.add(press_strand(e, w, p + way * n, n, press), {Owner::body, 0, 0});
+    const BodyRub rub = body_rub(press.k * way, n, ours, theirs);
     rub_strand(e, w, rub, theirs, strand_loads);
-    if (surface_loads) rub_skin(surface, nearest[i], rub, ours, *surface_loads);
+    if (!surface_loads) continue;
+    under.push_back(depth, press, *surface_loads);
+    under.rub_back(rub, ours, *surface_loads);
   }
 }
 
@@ -76,10 +106,11 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
     const double depth = -c.distance - double(pair.overlap[i]);
     if (!touches(surface, nearest[i], p, depth) || surface.torn(nearest[i])) continue;
     const Vec3d ours = samples.velocity(v), theirs = surface.velocity(nearest[i]);
-    const double speed = surface_loads ? 0.5 * dot(ours + theirs, c.normal) : 0.0;
-    press_vertex(samples, v, share * std::min(depth, kQuickestApart), c.normal, speed, sample_loads);
-    push_surface(surface, nearest[i], c.normal, depth, speed, surface_loads);
-    const BodyRub rub = body_rub(kPressStiffness * share * std::min(depth, kQuickestApart), c.normal, ours, theirs);
+    const Press press = press_on(surface, samples.swings, depth, ours, theirs, c.normal);
+    press_vertex(samples, v, share * std::min(depth, kQuickestApart), c.normal, press, sample_loads);
+    if (surface_loads)
+      press_vertex(surface, nearest[i], -0.5 * std::min(depth, kQuickestApart), c.normal, press, *surface_loads);
+    const BodyRub rub = body_rub(press.k * share * std::min(depth, kQuickestApart), c.normal, ours, theirs);
     rub_skin(samples, v, rub, theirs, sample_loads);
     if (surface_loads) rub_skin(surface, nearest[i], rub, ours, *surface_loads);
   }
@@ -182,9 +213,9 @@ void strand_on_strand(const StrandPair& pair, const StrandBody& a, const tissue:
     const double depth = std::min(deep, kQuickestApart);
     const Vec3d ours = (1 - c.t) * a_state.v[size_t(i)] + c.t * a_state.v[size_t(i) + 1];
     const Vec3d theirs = (1 - c.s) * b_state.v[size_t(j)] + c.s * b_state.v[size_t(j) + 1];
-    const double speed = 0.5 * dot(ours + theirs, c.normal);
-    tissue::StrandLoad on_a = press_strand(i, c.t, c.on_second + 0.5 * depth * c.normal, c.normal, speed);
-    tissue::StrandLoad on_b = press_strand(j, c.s, c.on_first - 0.5 * depth * c.normal, c.normal, speed);
+    const Press press{.speed = 0.5 * dot(ours + theirs, c.normal)};
+    tissue::StrandLoad on_a = press_strand(i, c.t, c.on_second + 0.5 * depth * c.normal, c.normal, press);
+    tissue::StrandLoad on_b = press_strand(j, c.s, c.on_first - 0.5 * depth * c.normal, c.normal, press);
     for (tissue::StrandLoad* load : {&on_a, &on_b}) load->k *= counts, load->d *= counts, load->f0 = counts * load->f0;
     a_loads.add(on_a, {Owner::body, 0, 0});
     b_loads.add(on_b, {Owner::body, 0, 0});

@@ -23,6 +23,8 @@ struct BodyRub {
   Vec3d dir{0, 0, 0};    ///< unit, across the normal, the way the first slides on the second
   Vec3d aside{0, 0, 0};  ///< across both, where creep is so slow that its direction changes within a tick; else zero
   double damping = 0;    ///< [N s/m]
+
+  BodyRub part(double share) const noexcept { return {dir, aside, share * damping}; }
 };
 
 /// @param press          what the contact presses with [N]

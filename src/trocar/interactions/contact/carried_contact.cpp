@@ -87,9 +87,8 @@ class Meeting {
   }
   Vec3d velocity(std::int32_t nearest) const noexcept { return surface.velocity(read(nearest).vertex); }
   /// Half of the way is the sample's, half its own.
-  /// @param speed  along n, that both shall have
-  void push_back(std::int32_t nearest, double deep, Vec3d n, double speed) const noexcept {
-    press_vertex(surface, read(nearest).vertex, -0.5 * deep, n, speed, loads());
+  void push_back(std::int32_t nearest, double deep, Vec3d n, Press press) const noexcept {
+    press_vertex(surface, read(nearest).vertex, -0.5 * deep, n, press, loads());
   }
   void rub_back(std::int32_t nearest, const BodyRub& rub, Vec3d ours) const noexcept {
     rub_skin(surface, read(nearest).vertex, rub, ours, loads());
@@ -129,10 +128,10 @@ void skin_meets(const Meeting& on, const Surface& samples, double reach, int v, 
   const double deep = on.depth(p, reach, nearest, n);
   if (!(deep > 0) || samples.torn(v)) return;
   const Vec3d ours = samples.velocity(v), theirs = on.velocity(nearest);
-  const double speed = 0.5 * dot(ours + theirs, n);
-  press_vertex(samples, v, 0.5 * deep, n, speed, loads);
-  on.push_back(nearest, deep, n, speed);
-  const BodyRub rub = body_rub(kPressStiffness * 0.5 * deep, n, ours, theirs);
+  const Press press = press_on(on.surface, samples.swings, deep, ours, theirs, n);
+  press_vertex(samples, v, 0.5 * deep, n, press, loads);
+  on.push_back(nearest, deep, n, press);
+  const BodyRub rub = body_rub(press.k * 0.5 * deep, n, ours, theirs);
   rub_skin(samples, v, rub, theirs, loads);
   on.rub_back(nearest, rub, ours);
 }
@@ -199,10 +198,11 @@ void rod_on_skin(const Meeting& on, const CarriedPair& pair, const StrandBody& b
     const double deep = on.depth(p, radius - double(pair.overlap[i]), nearest[i], n);
     if (!(deep > 0)) continue;
     const Vec3d ours = s.v[i], theirs = on.velocity(nearest[i]);
-    const double speed = 0.5 * dot(ours + theirs, n), w = int(i) == e ? 0.0 : 1.0;
-    loads.add(press_strand(e, w, p + 0.5 * deep * n, n, speed), {Owner::body, 0, 0});
-    on.push_back(nearest[i], deep, n, speed);
-    const BodyRub rub = body_rub(kPressStiffness * 0.5 * deep, n, ours, theirs);
+    const Press press = press_on(on.surface, false, deep, ours, theirs, n);
+    const double w = int(i) == e ? 0.0 : 1.0;
+    loads.add(press_strand(e, w, p + 0.5 * deep * n, n, press), {Owner::body, 0, 0});
+    on.push_back(nearest[i], deep, n, press);
+    const BodyRub rub = body_rub(press.k * 0.5 * deep, n, ours, theirs);
     rub_strand(e, w, rub, theirs, loads);
     on.rub_back(nearest[i], rub, ours);
   }

@@ -1,5 +1,5 @@
 // Where a membrane hangs: every node of its borders rides on a rod, on an organ, or stays in space. The node is exactly
-// where its attachment is when the tick ends; the attachment bears what the sheet pulls with.
+// where its attachment is when the tick ends; the attachment bears what the sheet pulls with, and what touches the node.
 //
 // Attachments step before the sheet does, with its pull at the tick's beginning. To hold a stiff sheet with a light
 // body they resist changes of their velocity as the far end of every coupling does (coupled.hpp). A node that is
@@ -21,7 +21,7 @@ inline constexpr double kBorderShare = 0.35;
 /// What a border node resists its attachment's changes of velocity with [N s/m].
 double added_damping(const tissue::BorderPull& pull, double dt) noexcept;
 
-/// Gives the sheet's pulls to what it is attached to.
+/// Gives the sheet's pulls, and what has been put on its held nodes in this tick, to what it is attached to.
 /// @param pulls  (held nodes of the membrane)
 void border_loads(const Bodies& bodies, std::size_t membrane, std::span<const tissue::BorderPull> pulls,
                   double dt) noexcept;

@@ -2,6 +2,7 @@
 
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/interactions/contact/body_push.hpp>
+#include <trocar/interactions/contact/nearest_skin.hpp>
 #include <trocar/scene/compile/compile_contacts.hpp>
 #include <trocar/sim/model/bodies.hpp>
 
@@ -19,12 +20,14 @@ constexpr double kTogether = 0.008;  // [m] drawn nearer than this, rods and mem
 struct Drawn {
   sim::State state;
   std::vector<tissue::SkinPose> pose;
-  std::vector<interactions::Surface> surface;
+  std::vector<interactions::Surface> surface;   ///< of organs, then of walls
+  std::vector<interactions::Surface> membrane;  ///< of membranes
 
   explicit Drawn(const sim::Model& model) {
     for (const sim::SolidModel& s : model.solids) state.solids.push_back(tissue::rest_state(s.network));
     for (const sim::CuttableOrgan& c : model.cuttables) state.cuttables.push_back(tissue::rest_state(c.body));
-    pose.reserve(size_t(model.surfaces()));
+    for (const sim::MembraneBody& m : model.membranes) state.membranes.push_back(tissue::rest_state(m.sheet));
+    pose.reserve(size_t(model.surfaces()) + model.membranes.size());
     for (int i = 0; i < model.organs(); ++i) {
       const tissue::NodeView nodes = nodes_of(model, state, i);
       pose.push_back(tissue::make_pose(model.skin(i)));
@@ -35,18 +38,32 @@ struct Drawn {
       pose.push_back(w.pose);
       surface.push_back({&w.skin, &pose.back(), {}});
     }
+    for (size_t i = 0; i < model.membranes.size(); ++i) {
+      const sim::MembraneBody& m = model.membranes[i];
+      const tissue::NodeView nodes = view_of(m.sheet.network, state.membranes[i].network);
+      pose.push_back(tissue::make_pose(m.skin));
+      tissue::pose_skin(nodes, m.skin, pose.back());
+      membrane.push_back({&m.skin, &pose.back(), nodes});
+    }
+  }
+  const interactions::Surface& skin_of_body(BodyId body) const {
+    return body.is(BodyKind::organ) ? surface[body.index()] : membrane[body.index()];
   }
   Drawn(const Drawn&) = delete;  // it points into itself
 };
 
-/// Adds a sample with its start vertex and its overlap in the drawn shape.
+/// Adds a sample with its start vertex and its overlap in the drawn shape. @param radius  of a rod; else 0
 void add_sample(interactions::SurfacePair& pair, const interactions::Surface& surface, int sample, Vec3d p,
                 double radius, std::vector<std::int32_t>& nearest) {
   const int vertex = interactions::nearest_vertex(surface, p);
-  const interactions::Clearance c = interactions::clearance_at(surface, vertex, p);
+  double distance = interactions::clearance_at(surface, vertex, p).distance;
+  if (pair.strand >= 0) {
+    const interactions::SkinPoint under = interactions::nearest_skin_point(surface, vertex, p);
+    distance = dot(p - under.point, under.normal);
+  }
   pair.sample.push_back(sample);
   pair.radius.push_back(float(radius));
-  pair.overlap.push_back(float(std::max(0.0, radius - c.distance)));
+  pair.overlap.push_back(float(std::max(0.0, radius - distance)));
   nearest.push_back(vertex);
 }
 
@@ -237,10 +254,6 @@ std::vector<Samples> samples_of_bodies(const sim::Model& model) {
   return all;
 }
 
-const tissue::Skin& skin_of_body(const sim::Model& model, BodyId body) {
-  return body.is(BodyKind::organ) ? model.skin(int(body.index())) : model.membranes[body.index()].skin;
-}
-
 /// Samples of a pair as drawn are tested by that.
 void leave_to_pairs(const sim::Model& model, interactions::CarriedPair& pair) {
   if (!pair.on.is(BodyKind::organ)) return;
@@ -253,42 +266,57 @@ void leave_to_pairs(const sim::Model& model, interactions::CarriedPair& pair) {
   }
 }
 
-/// How far a sample lies in what it may be carried to, in the drawn shape. Organs are not joined by what they hold;
-/// rods and membranes are, and so is what lies next to an open membrane.
-float drawn_overlap(const sim::Model& model, BodyId body, BodyId on, Vec3d p) {
-  const tissue::Skin& skin = skin_of_body(model, on);
-  double least = 1e30;
-  size_t nearest = 0;
-  for (size_t v = 0; v < skin.rest.size(); ++v) {
-    if (!skin.at_surface(int(v))) continue;
-    const double d = geometry::distance2(vec_cast<double>(skin.rest[v]), p);
-    if (d < least) least = d, nearest = v;
-  }
-  constexpr float kNever = interactions::CarriedPair::kNever;
-  const bool joins = !body.is(BodyKind::organ) || interactions::has_two_sides(model, on);
-  if (joins && least < kTogether * kTogether) return kNever;
-  if (interactions::has_two_sides(model, on)) return 0;
-  const Vec3d normal = vec_cast<double>(skin.rest_normal[nearest]);
-  const double half = on.is(BodyKind::organ) ? 0 : 0.5 * model.membranes[on.index()].sheet.thickness;
-  const double overlap = std::max(0.0, half - dot(p - vec_cast<double>(skin.rest[nearest]), normal));
-  return overlap > interactions::kDeepestContact || (joins && overlap > 0) ? kNever : float(overlap);
+/// Vertices of the second that are next to where it hangs on the first.
+std::vector<bool> bases_on(const sim::Model& model, BodyId body, BodyId on) {
+  if (!on.is(BodyKind::membrane) || !body.is(BodyKind::organ)) return {};
+  const sim::MembraneBody& m = model.membranes[on.index()];
+  if (!carries(m, int(body.index()))) return {};
+  std::vector<bool> next_to = away_from_base(m.sheet);
+  next_to.flip();
+  return next_to;
 }
 
+/// How far a sample lies in what it may be carried to, in the drawn shape. Organs are joined only with what hangs on
+/// them; rods and membranes with all that they lie next to, and so is what lies next to an open membrane.
+struct DrawnOverlap {
+  const interactions::Surface& surface;
+  const bool joins, two_sides;
+  const double half;
+  const std::vector<bool> bases;
+
+  DrawnOverlap(const sim::Model& model, const Drawn& drawn, BodyId body, BodyId on)
+      : surface(drawn.skin_of_body(on)),
+        joins(!body.is(BodyKind::organ) || interactions::has_two_sides(model, on)),
+        two_sides(interactions::has_two_sides(model, on)),
+        half(on.is(BodyKind::organ) ? 0 : 0.5 * model.membranes[on.index()].sheet.thickness),
+        bases(bases_on(model, body, on)) {}
+
+  float of(Vec3d p) const {
+    constexpr float kNever = interactions::CarriedPair::kNever;
+    const int nearest = interactions::nearest_vertex(surface, p);
+    if (!bases.empty() && bases[size_t(nearest)]) return kNever;
+    if (joins && geometry::distance2(surface.position(nearest), p) < kTogether * kTogether) return kNever;
+    if (two_sides) return 0;
+    const double overlap = std::max(0.0, half - interactions::clearance_at(surface, nearest, p).distance);
+    return overlap > interactions::kDeepestContact || (joins && overlap > 0) ? kNever : float(overlap);
+  }
+};
+
 /// All that may be carried to a skin.
-void pair_carried(sim::Model& model) {
+void pair_carried(sim::Model& model, const Drawn& drawn) {
   std::vector<BodyId> skins;
   for (int i = 0; i < model.organs(); ++i) skins.push_back(BodyId::organ(size_t(i)));
   for (size_t i = 0; i < model.membranes.size(); ++i) skins.push_back(BodyId::membrane(i));
   for (const Samples& s : samples_of_bodies(model))
     for (const BodyId on : skins) {
       if (on == s.body) continue;
-      tissue::Box box;
-      for (const Vec3f& p : skin_of_body(model, on).rest) box.add(p);
+      const tissue::Box& box = drawn.skin_of_body(on).pose->bounds;
       interactions::CarriedPair pair{s.body, on, s.held};
       leave_to_pairs(model, pair);
+      const DrawnOverlap overlap(model, drawn, s.body, on);
       for (size_t k = 0; k < s.place.size(); ++k)
         if (pair.overlap[k] < pair.kNever && box.reaches(s.place[k], kTogether))
-          pair.overlap[k] = drawn_overlap(model, s.body, on, s.place[k]);
+          pair.overlap[k] = overlap.of(s.place[k]);
       if (std::any_of(pair.overlap.begin(), pair.overlap.end(), [&](float o) { return o < pair.kNever; }))
         model.carried_pairs.push_back(std::move(pair));
     }
@@ -312,7 +340,7 @@ void compile_contacts(sim::Model& model) {
   for (int a = 0; a < strands; ++a)
     for (int b = a + 1; b < strands; ++b) pair_strands(model, a, b);
   for (int i = 0; i < organs; ++i) pair_self(model, drawn, i);
-  pair_carried(model);
+  pair_carried(model, drawn);
 }
 
 }  // namespace trocar::scene

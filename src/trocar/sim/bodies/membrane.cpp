@@ -14,7 +14,8 @@ void pose(StepContext& c, MembraneRef r) noexcept {
   const MembraneBody& m = model_of(c.model, r);
   const tissue::NodeView nodes = view_of(m.sheet.network, c.state.membranes[r.index].network);
   tissue::pose_skin(nodes, m.skin, c.work.membranes[r.index].pose);
-  c.work.membranes[r.index].sheet = {{&m.skin, &c.work.membranes[r.index].pose, nodes},
+  const bool swings = m.sheet.enclosure.kind != tissue::Enclosure::none;
+  c.work.membranes[r.index].sheet = {{&m.skin, &c.work.membranes[r.index].pose, nodes, 0, swings},
                                      c.state.torn[r.index],
                                      m.sheet.network.fixed,
                                      0.5 * m.sheet.thickness,
