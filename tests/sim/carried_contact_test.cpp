@@ -5,6 +5,7 @@
 
 #include "interpenetration.hpp"
 #include "small_scene.hpp"
+#include "watch.hpp"
 
 using namespace trocar;
 using namespace trocar::sim;
@@ -138,6 +139,49 @@ TEST(CarriedContact, WithoutItTheyPassThroughEachOther) {
   Model m = two_bodies();
   m.carried_pairs.clear();
   EXPECT_LT(height_of_loaf(m, let_fall(m)), -0.02);
+}
+
+/// A bar that can be cut, high above the pad, held at its left end.
+Model bar_above_pad() {
+  scene::Description d = small::description();
+  scene::Solid bar = small::bar();
+  bar.sections.clear();
+  for (double x : {-0.034, -0.019, -0.004, 0.011})
+    bar.sections.push_back({{x, 0, kHigh}, {0, 0.003, 0}, {0, 0, 0.004}, 2});
+  bar.anchors = {{{-0.036, 0, kHigh}, 0.016, 0, {}}};
+  d.solids = {loaf("pad", 0, 0.030, 0.030, 8), bar};
+  d.strands.clear(), d.membranes.clear(), d.pouches.clear(), d.vessels.clear(), d.walls.clear(), d.marks.clear();
+  d.fluids.reset();
+  return scene::compile(d);
+}
+
+TEST(CarriedContact, APieceThatIsCutOffFallsOnABodyAndRestsOnIt) {
+  const Model m = bar_above_pad();
+  State s = initial_state(m);
+  Work w = make_work(m);
+  const tissue::CuttableModel& bar = m.cuttables[0].body;
+  Watch watch(m, s, "bar", {"bar", "pad"});
+  tissue::CuttableWork scratch = tissue::make_work(bar);
+  tissue::cut(bar, geometry::square_blade({-0.012, 0, kHigh}, {1, 0, 0}, 0.02), s.cuttables[0], scratch);
+  ASSERT_EQ(scratch.parts, 2);
+  const auto height_at = [&](double x) {  // of the node that was drawn there
+    int best = 0;
+    for (int n = 0; n < bar.own_nodes; ++n)
+      if (length(bar.drawn.rest[size_t(n)] - Vec3d{x, 0, kHigh}) <
+          length(bar.drawn.rest[size_t(best)] - Vec3d{x, 0, kHigh}))
+        best = n;
+    return tissue::position(bar, s.cuttables[0], best).z;
+  };
+  double lowest = 1;
+  for (int tick = 0; tick < 1200; ++tick) {
+    ASSERT_TRUE(step(m, m.start, s, w).fine()) << tick;
+    if (s.tick % Watch::kEvery == 0) watch.look(s);
+    lowest = std::min(lowest, height_at(0));
+  }
+  EXPECT_EQ(watch.found(), "");
+  EXPECT_LT(lowest, 0.020) << "[m] it has fallen";
+  EXPECT_GT(lowest, 0.004) << "[m] onto the pad, which is 7 mm high";
+  EXPECT_NEAR(height_at(-0.034), kHigh, 0.003) << "[m] the rest hangs as it did";
 }
 
 TEST(CarriedContact, BodiesThatStayWhereTheyWereDrawnRememberNothing) {
