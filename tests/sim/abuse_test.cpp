@@ -44,12 +44,16 @@ TEST(Abuse, ALiverCutAtRandomStaysFinite) {
 
 TEST(Abuse, TissueThatTearsStaysFinite) {
   const sim::Model& model = shipped("gynaecology");
-  abuse::Attack attack(model, 3);
-  const abuse::Round r = attack.round(abuse::number_of(model, "tube_left"), 2.5, 0);
-  std::printf("%d tears, at most %.3f J and %.1f N\n", r.tears, r.most_energy, r.most_force);
-  EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
-  EXPECT_GT(r.tears, 0);
-  EXPECT_LT(r.most_energy, 5) << "[J]";
+  int tears = 0;
+  for (const std::uint64_t seed : {1, 3}) {
+    abuse::Attack attack(model, seed);
+    const abuse::Round r = attack.round(abuse::number_of(model, "tube_left"), 2.5, 0);
+    std::printf("%d tears, at most %.3f J and %.1f N\n", r.tears, r.most_energy, r.most_force);
+    EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
+    EXPECT_LT(r.most_energy, 5) << "[J]";
+    tears += r.tears;
+  }
+  EXPECT_GT(tears, 0);
 }
 
 TEST(Abuse, WildFeetOnPedalsAndValvesLeaveNumbersFiniteAndTheAccountExact) {
